@@ -1,0 +1,118 @@
+// One simulation: a Problem and what is wanted of it go in, exactly that comes out.
+//
+// Nothing is computed because it might be wanted: no table, no pose, no ledger beyond the request
+// (the energy ledger is always kept; it never changes a step). What is asked for never changes the
+// trajectory: asking for more or less leaves every bit of it as it was, and a shorter run is a
+// prefix of a longer one.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/channels.hpp"
+#include "sim/pose.hpp"
+#include "sim/problem.hpp"
+
+namespace beamcam::sim {
+
+// One touch, from approach to release. Speeds: v_n < 0 approaches; v_t is beam minus cam material.
+struct Impact {
+    double t_start = 0;                  // [s]
+    std::optional<double> t_end;         // absent: still touching at the end of the run
+    double x = 0;                        // contact_x at touch [m]
+    double cam_angle = 0;                // ψ at touch [rad]
+    double v_n_before = 0, v_t_before = 0;                // at touch [m/s]
+    std::optional<double> v_n_after, v_t_after;           // at release [m/s]
+    std::optional<double> duration;                       // [s]
+    double force_peak = 0;               // [N]
+    double penetration_peak = 0;         // [m]
+    double impulse_n = 0, impulse_t = 0; // [N s]
+    std::optional<double> restitution;   // −v_n_after / v_n_before
+    double energy_lost = 0;              // contact + friction losses between touch and release [J]
+    int collision = 0;                   // 0-based index into the collisions
+};
+
+// Impacts closer than contact.collision_gap.
+struct Collision {
+    double t_start = 0;
+    std::optional<double> t_end;
+    int count = 0;  // of impacts
+    double x = 0, v_n_before = 0;
+    std::optional<double> v_n_after, restitution;
+    double force_peak = 0, energy_lost = 0;
+};
+
+struct ZeroCrossing {
+    double t = 0, theta_dot = 0;
+};
+struct Apex {  // a maximum of theta, ripple included
+    double t = 0, theta = 0;
+};
+struct Extremum {
+    double min = 0, t_min = 0, max = 0, t_max = 0;
+};
+
+struct Counters {
+    long steps = 0;             // accepted
+    long rejected = 0;
+    long rhs_evaluations = 0;
+    long gap_evaluations = 0;
+    long jacobians = 0;
+};
+
+// What is wanted. Times may lie in any order, must be >= 0, and the run extends to the largest of
+// them and of `end_time`.
+struct TableRequest {
+    std::vector<double> times;      // [s]; rows come in this order
+    std::vector<Channel> channels;
+};
+struct PoseRequest {
+    std::vector<double> times;  // [s]
+    int stations = 97;          // points along the centre line, >= 2
+};
+struct Request {
+    double end_time = 0;                // [s]
+    std::vector<TableRequest> tables;
+    std::vector<PoseRequest> poses;
+    std::vector<Channel> extrema;       // located on the dense output
+    bool horizon = false;               // until when θ is reproducible; costs a second run
+};
+
+struct Result {
+    double end_time = 0;  // reached [s]
+    std::vector<Table> tables;               // one per TableRequest
+    std::vector<std::vector<Pose>> poses;    // one per PoseRequest, in the order of its times
+    std::vector<Impact> impacts;
+    std::vector<Collision> collisions;
+    std::vector<ZeroCrossing> theta_zero;
+    std::vector<Apex> apexes;
+    std::vector<Extremum> extrema;           // one per Request::extrema
+    double energy_residual_max = 0;          // [J]
+    double energy_scale = 0;                 // [J]
+    std::optional<double> reproducible_until;  // [s]
+    Counters counters;
+    double wall_seconds = 0;
+    std::vector<std::string> warnings;       // in the user's terms
+};
+
+// The integration could not go on (exit code 4). `partial` holds what was reached by then.
+struct SolverError : std::runtime_error {
+    SolverError(const std::string& what, double last_good_time, Result partial_result);
+    double last_time;
+    Result partial;
+};
+struct Interrupted : std::runtime_error {
+    Interrupted() : std::runtime_error("interrupted") {}
+};
+
+// Called now and then with the time reached; returning false ends the run with `Interrupted`.
+using Progress = std::function<bool(double t)>;
+
+// Throws SolverError, Interrupted; std::invalid_argument when `validate(problem)` has fatal findings.
+Result simulate(const Problem& problem, const Request& request, const Progress& progress = {});
+
+}  // namespace beamcam::sim
