@@ -63,8 +63,9 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
     for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = m.slope[i];
 
     if (tables->foreshortening) {
-        // v′² oscillates with 2β_N; the same margin as above, one node a half wave and a few more.
-        const Quadrature rule = gauss_legendre(2 * modes_ + 16, length_);
+        // v′² oscillates with 2β_N ≈ 2π(N + ¼)/L. Interpolation by a polynomial converges once its degree
+        // passes half of that, πN, and then faster than any power: 20 more reach 1e-9 of u.
+        const Quadrature rule = gauss_legendre(7 * modes_ / 2 + 20, length_);
         tables->integral = SpectralIntegral(rule, length_);
         tables->slopes.resize(rule.x.size(), modes_);
         Eigen::VectorXd y1(modes_);

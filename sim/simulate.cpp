@@ -110,6 +110,7 @@ class Run {
             const Event event = first_event(*segment);
             if (event.kind != EventKind::none && event.t <= end_) {
                 handle(*segment, event);
+                pass_kinks();
                 more = t_ < end_;
                 if (!more) observe_point();
                 if (more) start_segment();
@@ -121,14 +122,19 @@ class Run {
             segment->value(to, y_.data());
             t_ = to;
             if (more && segment->t1 >= next_kink()) {
-                while (!kinks_.empty() && kinks_.front() <= t_) kinks_.erase(kinks_.begin());
-                integrator_->stop_at(next_kink());
+                pass_kinks();
                 start_segment();
             }
         }
     }
 
     double next_kink() const { return kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front(); }
+
+    // An event may fall on a kink, or so near before it that no step fits between.
+    void pass_kinks() {
+        while (!kinks_.empty() && kinks_.front() - t_ <= 1e-14 * std::fabs(t_)) kinks_.erase(kinks_.begin());
+        integrator_->stop_at(next_kink());
+    }
 
     bool start_segment() {
         integrator_->start(t_, y_.data());
@@ -175,9 +181,9 @@ class Run {
         // Far away: what the gap can lose in this step is less than it is at both ends.
         const double h = segment.t1 - segment.t0;
         segment.value(segment.t1, probe_y_.data());
-        const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()), speed1 = scout_.gap_speed_bound(probe_y_.data());
+        const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()), speed1 = scout_.gap_speed_bound(segment.t1, probe_y_.data());
         segment.value(segment.t0, probe_y_.data());
-        const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()), speed0 = scout_.gap_speed_bound(probe_y_.data());
+        const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()), speed0 = scout_.gap_speed_bound(segment.t0, probe_y_.data());
         if (std::min(gap0, gap1) > 2 * h * (std::max(speed0, speed1) + h * problem_.gravity)) return {};
 
         const bool everywhere = problem_.beam.model == ModelKind::exact;
@@ -207,11 +213,18 @@ class Run {
         };
         Event best;
         Guard a = release(segment.t0);
+        Vec2 normal = contact_at(segment, segment.t0, false).normal;
         if (segment.t0 == phase_start_) a.value = std::max(a.value, 0.0);
         double clamp_a = clamp_guard(segment, segment.t0), grip_a = grip_guard(segment, segment.t0);
         for (int i = 1; i <= count && best.kind == EventKind::none; ++i) {
             const double t0 = a.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
             const Guard b = release(t1);
+            const Vec2 next = contact_at(segment, t1, false).normal;
+            if (dot(normal, next) < 0 && -b.value < 0) {
+                sunk_ = true;
+                throw StepFailure("the beam passed through the cam");
+            }
+            normal = next;
             const auto offer = [&](EventKind kind, double t) {
                 if (best.kind == EventKind::none || t < best.t) best = {kind, t};
             };
@@ -247,6 +260,7 @@ class Run {
         if (!scout_.has_bristle()) return 1;
         const ContactState c = contact_at(segment, t, false);
         if (phase_.grip == Grip::stick) return scout_.static_coefficient() * c.force - std::fabs(c.friction);
+        if (scout_.bristle_lags()) return scout_.foot_speed(probe_y_.data(), c);
         const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
         const double step = 1e-4 * (segment.t1 - segment.t0);
         const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
@@ -308,7 +322,7 @@ class Run {
     }
 
     // Grip at touch: sliding unless the bristle can follow. For n > 1 the normal force starts flat, so
-    // any slip breaks it at once; for n = 1 both grow linearly.
+    // any slip breaks it at once, as it does with a dashpot; for n = 1 both forces grow linearly.
     void set_grip() {
         phase_.grip = Grip::stick;
         if (!scout_.has_bristle()) return;
@@ -316,7 +330,8 @@ class Run {
         enter_phase();
         const ContactState c = contact_now();
         const double growth = problem_.contact.exponent > 1 ? 0 : scout_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
-        if (scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth && c.slip != 0 && !(c.gap < 0))
+        const bool breaks = scout_.bristle_lags() || scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth;
+        if (breaks && c.slip != 0 && !(c.gap < 0))
             phase_.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
         enter_phase();
     }
@@ -324,11 +339,12 @@ class Run {
     void change_grip() {
         const ContactState c = contact_now();
         double& z = y_[static_cast<std::size_t>(2 * scout_.coordinates())];
+        // Without a dashpot the bristle follows the sliding force at once: no state until it sticks again.
         if (phase_.grip == Grip::stick) {
             phase_.grip = c.friction < 0 ? Grip::slide_plus : Grip::slide_minus;
-            z = 0;
+            if (!scout_.bristle_lags()) z = 0;
         } else {
-            z = scout_.sliding_bristle(c);
+            if (!scout_.bristle_lags()) z = scout_.sliding_bristle(c);
             phase_.grip = Grip::stick;
         }
         enter_phase();
@@ -372,6 +388,11 @@ class Run {
                 "{}: the {} model with {} {} modes lost its positive inertia (the hub is too light for these shapes); use "
                 "\"basis\": \"hub-beam\", fewer modes, or \"model\": \"second-order\"",
                 when, name(problem_.beam.model), problem_.beam.modes, name(resolved_basis(problem_)));
+        if (sunk_)
+            return fmt::format(
+                "{}: the beam was pressed through the centre of the cam; the contact is too soft (stiffness {:g} N/m^{:g}) or what drives the hub too "
+                "strong for them to part again: raise contact.stiffness",
+                when, contact_stiffness(problem_), problem_.contact.exponent);
         return fmt::format("{}: {}; contact stiffness {:g} N/m^{:g}, {} modes up to {:.3g} rad/s, rtol {:g}: a softer contact, fewer modes or a "
                            "looser tolerance needs larger steps",
                            when, failure.what(), contact_stiffness(problem_), problem_.contact.exponent, problem_.beam.modes,
@@ -391,6 +412,7 @@ class Run {
     std::optional<double> last_release_;
     long floored_ = 0;
     int idle_events_ = 0;
+    bool sunk_ = false;
 };
 
 }  // namespace

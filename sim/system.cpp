@@ -150,12 +150,24 @@ double System::sliding_bristle(const ContactState& c) const {
     return sign * mu_ * c.force / bristle_stiffness_;
 }
 
+// Sliding, spring and dashpot carry the kinetic friction: k z + c ż = ±μN.
+double System::bristle_rate(const double* y, const ContactState& c) const {
+    if (phase_.grip == Grip::stick) return c.slip;
+    return bristle_lags() ? bristle_stiffness_ / bristle_damping_ * (sliding_bristle(c) - y[2 * n_]) : 0;
+}
+
+double System::foot_speed(const double* y, const ContactState& c) const {
+    const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
+    return sign * (c.slip - bristle_rate(y, c));
+}
+
 void System::rhs(double t, const double* y, double* dy) {
     place(t, y);
     double* acc = dy + n_;
     std::fill(dy, dy + size, 0.0);
     double* ledger = dy + controlled;
-    if (!model_->assemble(acc)) {
+    // With the hub's motion prescribed only the beam's own inertia matters, and that is always positive.
+    if (!model_->assemble(acc) && !drive_.prescribed()) {
         inertia_lost_ = true;
         std::fill(dy, dy + size, std::numeric_limits<double>::quiet_NaN());
         return;
@@ -181,7 +193,7 @@ void System::rhs(double t, const double* y, double* dy) {
                            c.friction * (dot(c.tangent, pose.velocity) + problem_.cam->speed * problem_.cam->radius);
         ledger[kImpulseN] = c.force;
         ledger[kImpulseT] = c.friction;
-        if (bristle_) dy[2 * n_] = phase_.grip == Grip::stick ? c.slip : 0;
+        if (bristle_) dy[2 * n_] = bristle_rate(y, c);
     }
     if (drive_.prescribed()) {
         const HubMotion hub = drive_.motion(t);
@@ -214,7 +226,7 @@ System::Books System::books(double t, const double* y) {
         const ContactState c = contact_placed(t, y, false);
         normal = law_.stored_energy(-c.gap);
         if (bristle_) {
-            const double z = phase_.grip == Grip::stick ? y[2 * n_] : sliding_bristle(c);
+            const double z = phase_.grip == Grip::stick || bristle_lags() ? y[2 * n_] : sliding_bristle(c);
             bristle = 0.5 * bristle_stiffness_ * z * z;
         }
     }
@@ -241,9 +253,10 @@ double System::bending_reach(const double* coordinates) const {
     return sum * (problem_.beam.model == ModelKind::exact ? 2 * model_->length() : 3.0 + 3.0 * std::fabs(problem_.hub.radius) / model_->length());
 }
 
-double System::gap_speed_bound(const double* y) const {
+double System::gap_speed_bound(double t, const double* y) const {
     const Cam& cam = *problem_.cam;
-    return std::fabs(y[n_]) * (std::fabs(problem_.hub.radius) + model_->length()) + bending_reach(y + n_) +
+    const double spin = drive_.prescribed() ? drive_.motion(t).rate : y[n_];
+    return std::fabs(spin) * (std::fabs(problem_.hub.radius) + model_->length()) + bending_reach(y + n_) +
            std::fabs(cam.speed) * cam.eccentricity;
 }
 
