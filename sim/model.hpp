@@ -58,6 +58,8 @@ class Model {
     virtual void point(double x, BeamPoint& p) const = 0;
     // ∂r/∂ξ as rows of X and Y, and ∂χ/∂ξ of the angle χ of the tangent; arrays of `size`.
     virtual void jacobian(double x, double* jx, double* jy, double* jchi) const = 0;
+    // Acceleration of the point at ξ̈ = 0: (dJ/dt) ξ̇ [m/s²].
+    virtual Vec2 convective(double x) const = 0;
     virtual double bending_moment(double x) const = 0;  // EI κ [N m]
     virtual Energies energies() const = 0;
     double damping_power() const;  // q̇ᵀ C_d q̇ [W]

@@ -1,6 +1,7 @@
 #include "sim/observe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,15 +12,17 @@
 namespace beamcam::sim {
 namespace {
 
+constexpr int kMaxPieces = 24;  // looks a step at most
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The largest value of f in [a, b] with an interior point m above both ends (golden section).
 template <class F>
 std::pair<double, double> peak(F&& f, double a, double b) {
     constexpr double kRatio = 0.6180339887498949;
+    const double span = b - a;
     double x1 = b - kRatio * (b - a), x2 = a + kRatio * (b - a), f1 = f(x1), f2 = f(x2);
     // A maximum is flat: half the digits of t give all digits of the value.
-    for (int i = 0; i < 60 && b - a > 1e-12 * std::max(std::fabs(a), std::fabs(b)); ++i) {
+    for (int i = 0; i < 60 && b - a > 1e-7 * span; ++i) {
         if (f1 > f2) {
             b = x2;
             x2 = x1;
@@ -205,7 +208,7 @@ void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
 int Recorder::pieces(const Stretch& s) {
     // Steps of high order span a good part of the fastest period: look a few times a radian.
     const double radians = (s.to - s.from) * eye_.system().highest_frequency();
-    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, 24.0));
+    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, double(kMaxPieces)));
 }
 
 template <class F>
@@ -268,28 +271,33 @@ void Recorder::turning_points(const Stretch& s) {
 void Recorder::contact_peaks(const Stretch& s) {
     if (!impact_open_) return;
     Impact& impact = result_.impacts.back();
-    const auto scan = [&](auto&& f, double& best) {
-        const int count = std::max(4, pieces(s));
-        std::vector<double> values(static_cast<std::size_t>(count) + 1);
-        const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
-        for (int i = 0; i <= count; ++i) {
-            values[static_cast<std::size_t>(i)] = f(time(i));
-            best = std::max(best, values[static_cast<std::size_t>(i)]);
-        }
-        for (int i = 1; i < count; ++i) {
-            const double left = values[static_cast<std::size_t>(i - 1)], here = values[static_cast<std::size_t>(i)],
-                         right = values[static_cast<std::size_t>(i + 1)];
-            if (here >= left && here >= right && here >= 0.9 * best && here > 0)
-                best = std::max(best, peak(f, time(i - 1), time(i + 1)).second);
-        }
-    };
     const auto contact_at = [&](double t) -> const ContactState& {
         s.segment->value(t, y_.data());
         eye_.look(t, y_.data());
         return eye_.contact();
     };
-    scan([&](double t) { return contact_at(t).force; }, impact.force_peak);
-    scan([&](double t) { return -contact_at(t).gap; }, impact.penetration_peak);
+    const auto force = [&](double t) { return contact_at(t).force; };
+    const auto depth = [&](double t) { return -contact_at(t).gap; };
+    const int count = std::max(4, pieces(s));
+    const auto time = [&](int i) { return i >= count ? s.to : s.from + (s.to - s.from) * i / count; };
+    std::array<double, kMaxPieces + 1> forces, depths;
+    for (int i = 0; i <= count; ++i) {
+        const ContactState& c = contact_at(time(i));
+        forces[static_cast<std::size_t>(i)] = c.force;
+        depths[static_cast<std::size_t>(i)] = -c.gap;
+    }
+    const auto refine = [&](const auto& values, const auto& f, double& best) {
+        for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
+        for (int i = 1; i < count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double left = values[k - 1], here = values[k], right = values[k + 1];
+            // Only what could exceed the best: a parabola through three points rises by less than its fall.
+            if (here < left || here < right || here + std::max(here - left, here - right) <= best) continue;
+            best = std::max(best, peak(f, time(i - 1), time(i + 1)).second);
+        }
+    };
+    refine(forces, force, impact.force_peak);
+    refine(depths, depth, impact.penetration_peak);
 }
 
 void Recorder::extrema(const Stretch& s) {

@@ -54,7 +54,11 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, 
     return find_root(value, a.t, bottom, a.value, lowest);
 }
 
-enum class EventKind { none, touch, release, clamp, grip };
+enum class EventKind { none, touch, release, clamp, grip, lift };
+
+// Model `restitution`: a rebound slower than this share of the approach floor ends the chatter in
+// sustained contact. A bouncing point then rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
+constexpr double kChatterShare = 1e-3;
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -168,6 +172,7 @@ class Run {
 
     Event first_event(const Segment& segment) {
         if (!problem_.cam) return {};
+        if (phase_.held) return lift_in(segment);
         return phase_.touching ? event_in_contact(segment) : touch_in(segment);
     }
 
@@ -188,7 +193,11 @@ class Run {
         const int count = pieces(segment);
         const ContactState first = contact_at(segment, segment.t0, true);
         Guard a{segment.t0, first.gap, first.gap_rate};
-        if (segment.t0 == phase_start_) a.value = std::max(a.value, 0.0);  // rounding of the release
+        if (segment.t0 == phase_start_) {
+            // Rounding of the release: it starts on the surface, and does not approach by a hair.
+            a.value = std::max(a.value, 0.0);
+            if (std::fabs(a.rate) < 1e-9 * std::max(speed0, 1e-3)) a.rate = 0;
+        }
         for (int i = 1; i <= count; ++i) {
             const double t = i == count ? segment.t1 : segment.t0 + h * i / count;
             const Guard b = probe(t);
@@ -198,61 +207,70 @@ class Run {
         return {};
     }
 
+    // Held on the cam until the force that holds it would have to pull.
+    Event lift_in(const Segment& segment) {
+        const int count = pieces(segment);
+        const auto force = [&](double t) { return contact_at(segment, t, false).force; };
+        double before = force(segment.t0), from = segment.t0;
+        for (int i = 1; i <= count; ++i) {
+            const double t = i == count ? segment.t1 : segment.t0 + (segment.t1 - segment.t0) * i / count;
+            const double after = force(t);
+            if (after < 0) return {EventKind::lift, before > 0 ? find_root(force, from, t, before, after) : from};
+            before = after;
+            from = t;
+        }
+        return {};
+    }
+
+    // What is watched while touching, at one instant.
+    struct Watch {
+        Guard release;     // penetration and its rate
+        double clamp = 1;  // 1 + D δ̇/δ̇₋: where it changes sign the never-negative force has a kink
+        double grip = 1;   // positive while the grip holds (S36)
+    };
+
+    Watch watch(const Segment& segment, double t) {
+        const ContactState c = contact_at(segment, t, false);
+        Watch w{{t, -c.gap, -c.gap_rate}, c.factor, 1};
+        if (!scout_.has_bristle()) return w;
+        if (phase_.grip == Grip::stick) {
+            w.grip = scout_.static_coefficient() * c.force - std::fabs(c.friction);
+        } else {
+            // Sliding: the speed of the bristle's foot along its direction, s v_t − μṄ/k.
+            const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
+            const double step = 1e-4 * (segment.t1 - segment.t0);
+            const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
+            const double growth = (contact_at(segment, late, false).force - contact_at(segment, early, false).force) / (late - early);
+            w.grip = sign * c.slip - scout_.kinetic_coefficient() * growth / scout_.bristle_stiffness();
+        }
+        return w;
+    }
+
     Event event_in_contact(const Segment& segment) {
         const double h = segment.t1 - segment.t0;
-        const int count = std::max(4, pieces(segment));
-        const auto release = [&](double t) {
-            const ContactState c = contact_at(segment, t, false);
-            return Guard{t, -c.gap, -c.gap_rate};
-        };
-        Event best;
-        Guard a = release(segment.t0);
-        if (segment.t0 == phase_start_) a.value = std::max(a.value, 0.0);
-        double clamp_a = clamp_guard(segment, segment.t0), grip_a = grip_guard(segment, segment.t0);
-        for (int i = 1; i <= count && best.kind == EventKind::none; ++i) {
-            const double t0 = a.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
-            const Guard b = release(t1);
+        const int count = pieces(segment);
+        const auto release = [&](double t) { return watch(segment, t).release; };
+        Watch a = watch(segment, segment.t0);
+        if (segment.t0 == phase_start_) a.release.value = std::max(a.release.value, 0.0);
+        for (int i = 1; i <= count; ++i) {
+            const double t0 = a.release.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
+            const Watch b = watch(segment, t1);
+            Event best;
             const auto offer = [&](EventKind kind, double t) {
                 if (best.kind == EventKind::none || t < best.t) best = {kind, t};
             };
-            if (const auto at = first_fall(release, a, b, 0)) offer(EventKind::release, *at);
-            const double clamp_b = clamp_guard(segment, t1);
-            if (changes(clamp_a, clamp_b)) {
-                const double at = find_root([&](double t) { return clamp_guard(segment, t); }, t0, t1, clamp_a, clamp_b);
-                offer(EventKind::clamp, at);
-            }
-            const double grip_b = grip_guard(segment, t1);
-            if (grip_b < 0) {
-                const double at = grip_a > 0 ? find_root([&](double t) { return grip_guard(segment, t); }, t0, t1, grip_a, grip_b) : t0;
-                offer(EventKind::grip, at);
-            }
+            if (const auto at = first_fall(release, a.release, b.release, 0)) offer(EventKind::release, *at);
+            if (changes(a.clamp, b.clamp))
+                offer(EventKind::clamp, find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
+            if (b.grip < 0)
+                offer(EventKind::grip, a.grip > 0 ? find_root([&](double t) { return watch(segment, t).grip; }, t0, t1, a.grip, b.grip) : t0);
+            if (best.kind != EventKind::none) return best;
             a = b;
-            clamp_a = clamp_b;
-            grip_a = grip_b;
         }
-        return best;
+        return {};
     }
 
     static bool changes(double a, double b) { return std::fabs(a) > 1e-9 && std::fabs(b) > 1e-9 && (a > 0) != (b > 0); }
-
-    // 1 + D δ̇/δ̇₋: the kink of the force that is never negative.
-    double clamp_guard(const Segment& segment, double t) {
-        if (scout_.normal_law().damping == 0) return 1;
-        return contact_at(segment, t, false).factor;
-    }
-
-    // Positive while the grip holds: in stick μ_s N − |F_t|; sliding, the speed of the bristle's foot
-    // along its direction, s v_t − μṄ/k (S36).
-    double grip_guard(const Segment& segment, double t) {
-        if (!scout_.has_bristle()) return 1;
-        const ContactState c = contact_at(segment, t, false);
-        if (phase_.grip == Grip::stick) return scout_.static_coefficient() * c.force - std::fabs(c.friction);
-        const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
-        const double step = 1e-4 * (segment.t1 - segment.t0);
-        const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
-        const double growth = (contact_at(segment, late, false).force - contact_at(segment, early, false).force) / (late - early);
-        return sign * c.slip - scout_.kinetic_coefficient() * growth / scout_.bristle_stiffness();
-    }
 
     // ---- transitions ----
 
@@ -280,7 +298,8 @@ class Run {
         switch (event.kind) {
             case EventKind::none: break;
             case EventKind::clamp: return;  // same phase, new step: the kink lies between steps
-            case EventKind::touch: touch(); break;
+            case EventKind::touch: problem_.contact.model == ContactModel::restitution ? strike() : touch(); break;
+            case EventKind::lift: lift(); break;
             case EventKind::release: release(); break;
             case EventKind::grip: change_grip(); break;
         }
@@ -305,6 +324,50 @@ class Run {
         enter_phase();
         recorder_.phase(phase_);
         recorder_.touch(t_, y_.data(), contact_now());
+    }
+
+    // ---- impulsive contact ----
+
+    void strike() {
+        phase_.gap_offset = 0;
+        enter_phase();
+        ContactState c = contact_now();
+        phase_.gap_offset = -c.gap;
+        enter_phase();
+        c = contact_now();
+        const double approach = -c.gap_rate;
+        recorder_.touch(t_, y_.data(), c);
+        const double chatter = kChatterShare * problem_.contact.approach_floor.value;
+        const Compliance compliance = scout_.compliance(t_, y_.data(), c);
+        const double e = problem_.contact.restitution;
+        ImpactResult impact = resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
+        const bool slow = impact.v_n < chatter;
+        if (slow) impact = resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
+        if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
+        phase_start_ = t_;
+        if (slow && scout_.free_gap_acceleration(t_, y_.data()) < 0) {
+            phase_.touching = phase_.held = true;
+            enter_phase();
+            ++chatters_;
+            return;
+        }
+        ContactState after = c;
+        after.gap_rate = impact.v_n;
+        after.slip = impact.v_t;
+        recorder_.release(t_, y_.data(), after);
+        last_release_ = t_;
+    }
+
+    void lift() {
+        const ContactState c = contact_now();
+        recorder_.release(t_, y_.data(), c);
+        phase_.touching = phase_.held = false;
+        phase_.gap_offset = 0;
+        enter_phase();
+        phase_.gap_offset = -contact_now().gap;
+        phase_start_ = t_;
+        last_release_ = t_;
+        enter_phase();
     }
 
     // Grip at touch: sliding unless the bristle can follow. For n > 1 the normal force starts flat, so
@@ -359,10 +422,20 @@ class Run {
         c.jacobians = integrator_->counters.jacobians;
         c.gap_evaluations = dynamics_.gap_evaluations + scout_.gap_evaluations;
         result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+        tell_chatter();
         if (floored_ > 0)
             result_.warnings.push_back(fmt::format(
                 "{} of {} touches began slower than contact.approach_floor.value = {} m/s; their dissipation uses that floor", floored_,
                 result_.impacts.size(), problem_.contact.approach_floor.value));
+    }
+
+    void tell_chatter() {
+        if (chatters_ == 0) return;
+        const double speed = kChatterShare * problem_.contact.approach_floor.value;
+        result_.warnings.push_back(fmt::format(
+            "chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s (contact.approach_floor.value times {:g}): energy "
+            "left out per end at most {:.2g} J", chatters_, chatters_ == 1 ? "" : "s", speed, kChatterShare,
+            0.5 * problem_.beam.line_density() * problem_.beam.length * speed * speed));
     }
 
     std::string explain(const StepFailure& failure) const {
@@ -389,7 +462,7 @@ class Run {
     Phase phase_;
     double t_ = 0, end_ = 0, phase_start_ = 0, first_approach_ = 0;
     std::optional<double> last_release_;
-    long floored_ = 0;
+    long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "sim/contact_law.hpp"
 #include "sim/drive.hpp"
+#include "sim/impulse.hpp"
 #include "sim/integrator.hpp"
 #include "sim/model.hpp"
 #include "sim/problem.hpp"
@@ -24,6 +25,7 @@ enum class Grip { stick, slide_plus, slide_minus };
 
 struct Phase {
     bool touching = false;
+    bool held = false;      // touching under a constraint (model `restitution`), not by penetration
     double approach = 1;    // δ̇₋ of this touch, floored [m/s]
     Grip grip = Grip::stick;
     double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
@@ -103,11 +105,24 @@ class System final : public Ode {
     double highest_frequency() const { return highest_frequency_; }
 
     bool inertia_lost() const { return inertia_lost_; }
+    // Impulsive contact: how the contact point answers, and the jump of ξ̇ and of the ledger in y.
+    Compliance compliance(double t, const double* y, const ContactState& c);
+    void strike(double t, double* y, const ContactState& c, const ImpactResult& impact);
+    // Rate of the gap's rate if nothing pushed: < 0 presses on the cam [m/s²].
+    double free_gap_acceleration(double t, const double* y);
+
     long gap_evaluations = 0;
 
   private:
     Vec2 foot(Vec2 disc, bool search, ContactState& c);
     double friction_force(const double* y, ContactState& c) const;
+    ContactState contact_geometry(double t, bool search);
+    void add_torque(double t, double* f) const;
+    double move(double t, double* acc) const;
+    void contact_rows(const ContactState& c, double* jn, double* jt) const;
+    double gap_acceleration_at_rest(double t, const ContactState& c) const;
+    void respond(double* f) const;
+    double hold(double t, ContactState& c, double* acc, bool pushed);
     double bending_reach(const double* coordinates) const;
 
     Problem problem_;
@@ -121,6 +136,8 @@ class System final : public Ode {
     double mu_ = 0, mu_static_ = 0, slip_speed_ = 1e-3, bristle_stiffness_ = 0, bristle_damping_ = 0;
     double highest_frequency_ = 0;
     double x_last_ = 0;
+    double settle_ = 0, free_gap_acceleration_ = 0;
+    double answer_[kMaxSize] = {};
     BeamPoint at_;
     bool inertia_lost_ = false, search_next_ = true;
 };
