@@ -15,31 +15,6 @@ namespace {
 constexpr int kMaxPieces = 24;  // looks a step at most
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// The largest value of f in [a, b] with an interior point m above both ends (golden section).
-template <class F>
-std::pair<double, double> peak(F&& f, double a, double b) {
-    constexpr double kRatio = 0.6180339887498949;
-    const double span = b - a;
-    double x1 = b - kRatio * (b - a), x2 = a + kRatio * (b - a), f1 = f(x1), f2 = f(x2);
-    // A maximum is flat: half the digits of t give all digits of the value.
-    for (int i = 0; i < 60 && b - a > 1e-7 * span; ++i) {
-        if (f1 > f2) {
-            b = x2;
-            x2 = x1;
-            f2 = f1;
-            x1 = b - kRatio * (b - a);
-            f1 = f(x1);
-        } else {
-            a = x1;
-            x1 = x2;
-            f1 = f2;
-            x2 = a + kRatio * (b - a);
-            f2 = f(x2);
-        }
-    }
-    return f1 > f2 ? std::pair{x1, f1} : std::pair{x2, f2};
-}
-
 }  // namespace
 
 Eye::Eye(const Problem& problem) : system_(problem), y_(static_cast<std::size_t>(system_.size)) {}
@@ -293,7 +268,7 @@ void Recorder::contact_peaks(const Stretch& s) {
             const double left = values[k - 1], here = values[k], right = values[k + 1];
             // Only what could exceed the best: a parabola through three points rises by less than its fall.
             if (here < left || here < right || here + std::max(here - left, here - right) <= best) continue;
-            best = std::max(best, peak(f, time(i - 1), time(i + 1)).second);
+            best = std::max(best, find_peak(f, time(i - 1), time(i + 1)).second);
         }
     };
     refine(forces, force, impact.force_peak);
@@ -329,11 +304,11 @@ void Recorder::extrema(const Stretch& s) {
             // Refine only what could become the extremum: a parabola rises by at most the larger step.
             const double rise = std::max(std::fabs(here - left), std::fabs(here - right));
             if (here >= left && here >= right && here > left + right - here && here + rise > e.max) {
-                const auto [t, v] = peak(at, time(i - 1), time(i + 1));
+                const auto [t, v] = find_peak(at, time(i - 1), time(i + 1));
                 offer(t, v);
             }
             if (here <= left && here <= right && here < left + right - here && here - rise < e.min) {
-                const auto [t, v] = peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
+                const auto [t, v] = find_peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
                 offer(t, -v);
             }
         }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -59,6 +60,9 @@ enum class EventKind { none, touch, release, clamp, grip, lift };
 // Model `restitution`: a rebound slower than this share of the approach floor ends the chatter in
 // sustained contact. A bouncing point then rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
 constexpr double kChatterShare = 1e-3;
+
+constexpr int kMaxLooks = 16;         // into one step, for events
+constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -73,9 +77,13 @@ class Run {
             for (double t : table.times) end_ = std::max(end_, t);
         for (const PoseRequest& poses : request.poses)
             for (double t : poses.times) end_ = std::max(end_, t);
-        const Method method = problem.solver.method == Method::automatic ? Method::rk8 : problem.solver.method;
-        integrator_ = method == Method::rk8 ? make_rk8(dynamics_, problem.solver.rtol, problem.solver.atol)
-                                            : make_sundials(method, dynamics_, problem.solver.rtol, problem.solver.atol);
+        const Solver& solver = problem.solver;
+        // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
+        // many impacts stays within the ledger's bound of ten times rtol.
+        const double share = solver.method == Method::automatic ? 1.0 / 3 : 1;
+        const bool rk8 = solver.method == Method::automatic || solver.method == Method::rk8;
+        integrator_ = rk8 ? make_rk8(dynamics_, share * solver.rtol, share * solver.atol)
+                          : make_sundials(solver.method, dynamics_, solver.rtol, solver.atol);
         y_.resize(static_cast<std::size_t>(dynamics_.size));
         probe_y_.resize(y_.size());
     }
@@ -167,7 +175,7 @@ class Run {
     ContactState contact_now() { return scout_.contact(t_, y_.data(), true); }
 
     int pieces(const Segment& segment) const {
-        return static_cast<int>(std::clamp(std::ceil((segment.t1 - segment.t0) * scout_.highest_frequency()), 2.0, 16.0));
+        return static_cast<int>(std::clamp(std::ceil((segment.t1 - segment.t0) * scout_.highest_frequency()), 2.0, double(kMaxLooks)));
     }
 
     Event first_event(const Segment& segment) {
@@ -193,31 +201,55 @@ class Run {
         const int count = pieces(segment);
         const ContactState first = contact_at(segment, segment.t0, true);
         Guard a{segment.t0, first.gap, first.gap_rate};
-        if (segment.t0 == phase_start_) {
-            // Rounding of the release: it starts on the surface, and does not approach by a hair.
-            a.value = std::max(a.value, 0.0);
-            if (std::fabs(a.rate) < 1e-9 * std::max(speed0, 1e-3)) a.rate = 0;
-        }
         for (int i = 1; i <= count; ++i) {
             const double t = i == count ? segment.t1 : segment.t0 + h * i / count;
             const Guard b = probe(t);
+            if (i == 1 && segment.t0 == phase_start_ && b.value <= 0) {
+                // It starts on the surface and is below it soon: where was it above?
+                if (!(a.rate < -kRestSpeed)) a = leaving(probe, a, b.t);
+                if (!(a.value > 0)) return {EventKind::touch, segment.t0};
+            } else if (i == 1 && segment.t0 == phase_start_) {
+                a.value = std::max(a.value, 0.0);  // rounding of the release
+                a.rate = std::max(a.rate, 0.0);
+            }
             if (const auto at = first_fall(probe, a, b, 0)) return {EventKind::touch, *at};
             a = b;
         }
         return {};
     }
 
-    // Held on the cam until the force that holds it would have to pull.
+    // Halving towards the start until the gap is open.
+    template <class Probe>
+    static Guard leaving(Probe&& probe, const Guard& start, double later) {
+        for (int k = 1; k <= 24; ++k) {
+            const Guard g = probe(start.t + std::ldexp(later - start.t, -k));
+            if (g.value > 0) return g;
+        }
+        return start;
+    }
+
+    // Held on the cam until the force that holds it would have to pull. A short dip below zero hides
+    // between samples: where their parabola comes near zero the dip is looked into.
     Event lift_in(const Segment& segment) {
-        const int count = pieces(segment);
+        const int count = std::max(4, pieces(segment));
+        const double h = segment.t1 - segment.t0;
+        const auto time = [&](int i) { return i == count ? segment.t1 : segment.t0 + h * i / count; };
         const auto force = [&](double t) { return contact_at(segment, t, false).force; };
-        double before = force(segment.t0), from = segment.t0;
+        std::array<double, kMaxLooks + 1> f;
+        for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
+        // Rounding of a vanishing force does not lift.
+        const double none = -1e-9 * (std::fabs(problem_.gravity) * scout_.model().mass() + *std::max_element(f.begin(), f.begin() + count + 1));
+        for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= none;
+        const auto lifted = [&](double t) { return force(t) - none; };
+        if (f[0] < 0) return {EventKind::lift, segment.t0};
         for (int i = 1; i <= count; ++i) {
-            const double t = i == count ? segment.t1 : segment.t0 + (segment.t1 - segment.t0) * i / count;
-            const double after = force(t);
-            if (after < 0) return {EventKind::lift, before > 0 ? find_root(force, from, t, before, after) : from};
-            before = after;
-            from = t;
+            const auto k = static_cast<std::size_t>(i);
+            if (f[k] < 0) return {EventKind::lift, find_root(lifted, time(i - 1), time(i), f[k - 1], f[k])};
+            const std::size_t m = std::clamp<std::size_t>(k, 1, static_cast<std::size_t>(count) - 1);
+            const double bend = f[m - 1] - 2 * f[m] + f[m + 1], lean = f[m + 1] - f[m - 1];
+            if (!(bend > 0) || f[m] - lean * lean / (8 * bend) > 0.05 * (f[m - 1] + f[m + 1])) continue;
+            const auto [at, highest] = find_peak([&](double t) { return -lifted(t); }, time(i - 1), time(i));
+            if (highest > 0) return {EventKind::lift, find_root(lifted, time(i - 1), at, f[k - 1], -highest)};
         }
         return {};
     }
