@@ -27,7 +27,8 @@ std::array<Piece, 2> course(const Compliance& c, double v_t, double mu) {
 
 }  // namespace
 
-ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double friction, double restitution, ImpactLaw law) {
+ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double friction, double restitution,
+                            ImpactLaw law) {
     ImpactResult r{0, 0, v_n, v_t};
     if (!(v_n < 0)) return r;
     const std::array<Piece, 2> pieces = course(c, v_t, friction);

@@ -19,6 +19,7 @@ struct ImpactResult {
 };
 
 // v_n < 0 approaches. `friction` is μ >= 0, `restitution` in [0, 1].
-ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double friction, double restitution, ImpactLaw law);
+ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double friction, double restitution,
+                            ImpactLaw law);
 
 }  // namespace beamcam::sim

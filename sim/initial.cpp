@@ -62,7 +62,8 @@ bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& x
     const int n = model.size();
     Eigen::VectorXd x(n + 1), scale(n + 1), force(n);
     x << xi, 0;
-    scale << scales(problem, n), problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
+    scale << scales(problem, n),
+        problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         static_force(model, at.head(n), force);
         double theta = 0;
@@ -101,7 +102,9 @@ bool rest(System& system, double t, Eigen::VectorXd& xi) {
         double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize];
         model.jacobian(c.x, jx, jy, jchi);
         // Compliant: linear for a separated beam, so that Newton finds its way back.
-        const double push = rigid_contact ? at[n] : c.gap < 0 ? system.normal_law().elastic(-c.gap) : -c.gap * stiffness * 1e-6;
+        const double push = rigid_contact ? at[n]
+                            : c.gap < 0   ? system.normal_law().elastic(-c.gap)
+                                          : -c.gap * stiffness * 1e-6;
         for (int i = 0; i < n; ++i) force[i] += push * (jx[i] * c.normal.x + jy[i] * c.normal.y);
         r.head(n) = force;
         if (rigid_contact) r[n] = c.gap * std::max(weight, 1e-300) / problem.beam.length;
@@ -122,7 +125,8 @@ InitialState initial_state(const Problem& problem) {
     xi[0] = system.drive().prescribed() ? system.drive().motion(0).angle : problem.initial.angle;
     double* y = state.y.data();
     switch (problem.initial.shape) {
-        case InitialShape::straight: break;
+        case InitialShape::straight:
+            break;
         case InitialShape::static_equilibrium:
             if (!hold(problem, system.model(), xi[0], xi))
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
@@ -134,7 +138,10 @@ InitialState initial_state(const Problem& problem) {
             const double lie = std::atan2(disc.y, disc.x) + std::asin(std::min(1.0, reach / norm(disc)));
             const double lever = problem.hub.radius + 0.5 * problem.beam.length;
             const double weight = problem.gravity * system.model().mass() * lever * std::cos(lie) / norm(disc);
-            const double press = problem.contact.model == ContactModel::restitution ? 0 : std::pow(std::max(weight, 0.0) / system.normal_law().stiffness, 1 / problem.contact.exponent);
+            const double press =
+                problem.contact.model == ContactModel::restitution
+                    ? 0
+                    : std::pow(std::max(weight, 0.0) / system.normal_law().stiffness, 1 / problem.contact.exponent);
             xi.setZero();
             xi[0] = lie - press / norm(disc);
             Phase phase;

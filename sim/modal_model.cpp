@@ -21,13 +21,13 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
     for (Eigen::Index k = 0; k < rule.x.size(); ++k) {
         const double x = rule.x[k], w = rho * rule.w[k];
         shapes.evaluate(x, y.data(), y1.data(), y2.data());
-        m.U += w * (a + x) * y;                                                        // (S8)
-        m.W += w * y;                                                                  // (S9)
+        m.U += w * (a + x) * y;  // (S8)
+        m.W += w * y;            // (S9)
         m.K += beam.bending_stiffness() * rule.w[k] * y2.cwiseAbs2();
-        m.M.noalias() += w * y * y.transpose();                                        // (S10)
+        m.M.noalias() += w * y * y.transpose();  // (S10)
         const double stiffening = a * (length - x) + 0.5 * (length * length - x * x);
-        m.D.noalias() += w * stiffening * y1 * y1.transpose();                         // (S11)
-        m.G.noalias() += w * (length - x) * y1 * y1.transpose();                       // (S12)
+        m.D.noalias() += w * stiffening * y1 * y1.transpose();    // (S11)
+        m.G.noalias() += w * (length - x) * y1 * y1.transpose();  // (S12)
         m.P0.noalias() += w * y1 * y1.transpose();
         m.P1.noalias() += w * x * y1 * y1.transpose();
         m.P2.noalias() += w * x * x * y1 * y1.transpose();
@@ -58,8 +58,8 @@ namespace {
 //   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
 //   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
 template <class Tables>
-void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2, const double* y3, const double* q,
-                    double* out) {
+void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
+                    const double* y3, const double* q, double* out) {
     const auto n = static_cast<int>(tables.beta4.size());
     for (int i = 0; i < n; ++i) {
         double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
@@ -71,7 +71,8 @@ void antiderivative(const Tables& tables, double x, const double* y, const doubl
             s3 += c * y3[j];
         }
         const double b4 = tables.beta4[static_cast<std::size_t>(i)];
-        const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] - y2[i] * y3[i] / b4);
+        const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] -
+                                   y2[i] * y3[i] / b4);
         out[i] = own * q[i] - (b4 * y[i] * s1 - y3[i] * s2 + y2[i] * s3 - y1[i] * s0);
     }
 }
@@ -94,7 +95,9 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
         for (int i = 0; i < modes_; ++i) tables->beta4.push_back(std::pow(tables->shapes.beta(i), 4));
         for (int i = 0; i < modes_; ++i)
             for (int j = 0; j < modes_; ++j)
-                if (i != j) tables->difference(i, j) = 1 / (tables->beta4[static_cast<std::size_t>(i)] - tables->beta4[static_cast<std::size_t>(j)]);
+                if (i != j)
+                    tables->difference(i, j) =
+                        1 / (tables->beta4[static_cast<std::size_t>(i)] - tables->beta4[static_cast<std::size_t>(j)]);
         Local here;
         tables->shapes.evaluate(0, here.y, here.y1, here.y2, here.y3);
         Eigen::VectorXd unit_coordinate = Eigen::VectorXd::Zero(modes_), column(modes_);
@@ -216,7 +219,7 @@ void ModalModel::point(double x, BeamPoint& p) const {
             qHq += xi_[1 + i] * here.shortening[i];
             rHq += rate_[1 + i] * here.shortening[i];
         }
-        u = -0.5 * qHq - 0.5 * radius_ * turn_ * turn_;      // (S5), (S13)
+        u = -0.5 * qHq - 0.5 * radius_ * turn_ * turn_;  // (S5), (S13)
         du = -rHq - radius_ * turn_ * turn_rate_;
         u1 = -0.5 * v1 * v1;
         u2 = -v1 * v2;
@@ -228,7 +231,7 @@ void ModalModel::point(double x, BeamPoint& p) const {
     p.r = rx * along + ry * across;
     p.r1 = (1 + u1) * along + v1 * across;
     p.r2 = u2 * along + v2 * across;
-    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;        // (S7)
+    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;  // (S7)
     p.v1 = (du1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
 }
 

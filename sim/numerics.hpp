@@ -30,7 +30,7 @@ class SpectralIntegral {
 
   private:
     double length_ = 1;
-    Eigen::MatrixXd legendre_;  // nodal values → Legendre coefficients of the interpolant, times length/2
+    Eigen::MatrixXd legendre_;           // nodal values → Legendre coefficients of the interpolant, times length/2
     mutable Eigen::VectorXd primitive_;  // scratch: ∫ P_j
 };
 

@@ -357,7 +357,8 @@ class ExactModel final : public QuadratureModel {
 
     Vec2 convective(double x) const override {
         integral_.weights(x, weights_.data());
-        const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())), weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
+        const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())),
+                         weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
         return -radius_ * rate_[0] * rate_[0] * unit(xi_[0]) - inner;  // (S19)
     }
 

@@ -71,12 +71,19 @@ struct Event {
 class Run {
   public:
     Run(const Problem& problem, const Request& request, const Progress& progress)
-        : problem_(problem), request_(request), progress_(progress), dynamics_(problem), scout_(problem), recorder_(problem, request, result_) {
+        : problem_(problem),
+          request_(request),
+          progress_(progress),
+          dynamics_(problem),
+          scout_(problem),
+          recorder_(problem, request, result_) {
         end_ = request.end_time;
         for (const TableRequest& table : request.tables)
             for (double t : table.times) end_ = std::max(end_, t);
         for (const PoseRequest& poses : request.poses)
             for (double t : poses.times) end_ = std::max(end_, t);
+        for (const PointRequest& points : request.points)
+            for (double t : points.times) end_ = std::max(end_, t);
         const Solver& solver = problem.solver;
         // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
         // many impacts stays within the ledger's bound of ten times rtol.
@@ -175,7 +182,8 @@ class Run {
     ContactState contact_now() { return scout_.contact(t_, y_.data(), true); }
 
     int pieces(const Segment& segment) const {
-        return static_cast<int>(std::clamp(std::ceil((segment.t1 - segment.t0) * scout_.highest_frequency()), 2.0, double(kMaxLooks)));
+        return static_cast<int>(
+            std::clamp(std::ceil((segment.t1 - segment.t0) * scout_.highest_frequency()), 2.0, double(kMaxLooks)));
     }
 
     Event first_event(const Segment& segment) {
@@ -188,9 +196,11 @@ class Run {
         // Far away: what the gap can lose in this step is less than it is at both ends.
         const double h = segment.t1 - segment.t0;
         segment.value(segment.t1, probe_y_.data());
-        const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()), speed1 = scout_.gap_speed_bound(probe_y_.data());
+        const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()),
+                     speed1 = scout_.gap_speed_bound(probe_y_.data());
         segment.value(segment.t0, probe_y_.data());
-        const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()), speed0 = scout_.gap_speed_bound(probe_y_.data());
+        const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()),
+                     speed0 = scout_.gap_speed_bound(probe_y_.data());
         if (std::min(gap0, gap1) > 2 * h * (std::max(speed0, speed1) + h * problem_.gravity)) return {};
 
         const bool everywhere = problem_.beam.model == ModelKind::exact;
@@ -238,7 +248,8 @@ class Run {
         std::array<double, kMaxLooks + 1> f;
         for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
         // Rounding of a vanishing force does not lift.
-        const double none = -1e-9 * (std::fabs(problem_.gravity) * scout_.model().mass() + *std::max_element(f.begin(), f.begin() + count + 1));
+        const double none = -1e-9 * (std::fabs(problem_.gravity) * scout_.model().mass() +
+                                     *std::max_element(f.begin(), f.begin() + count + 1));
         for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= none;
         const auto lifted = [&](double t) { return force(t) - none; };
         if (f[0] < 0) return {EventKind::lift, segment.t0};
@@ -272,7 +283,8 @@ class Run {
             const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
             const double step = 1e-4 * (segment.t1 - segment.t0);
             const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
-            const double growth = (contact_at(segment, late, false).force - contact_at(segment, early, false).force) / (late - early);
+            const double growth =
+                (contact_at(segment, late, false).force - contact_at(segment, early, false).force) / (late - early);
             w.grip = sign * c.slip - scout_.kinetic_coefficient() * growth / scout_.bristle_stiffness();
         }
         return w;
@@ -293,9 +305,12 @@ class Run {
             };
             if (const auto at = first_fall(release, a.release, b.release, 0)) offer(EventKind::release, *at);
             if (changes(a.clamp, b.clamp))
-                offer(EventKind::clamp, find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
+                offer(EventKind::clamp,
+                      find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
             if (b.grip < 0)
-                offer(EventKind::grip, a.grip > 0 ? find_root([&](double t) { return watch(segment, t).grip; }, t0, t1, a.grip, b.grip) : t0);
+                offer(EventKind::grip,
+                      a.grip > 0 ? find_root([&](double t) { return watch(segment, t).grip; }, t0, t1, a.grip, b.grip)
+                                 : t0);
             if (best.kind != EventKind::none) return best;
             a = b;
         }
@@ -315,7 +330,8 @@ class Run {
             if (event.kind == EventKind::touch || event.kind == EventKind::release) {
                 const ContactState c = contact_at(*ended, ended->t1, false);
                 const double dt = -c.gap / c.gap_rate;
-                if (std::isfinite(dt) && std::fabs(dt) < 1e-3 * (ended->t1 - start)) ended = &integrator_->shorten(event.t + dt);
+                if (std::isfinite(dt) && std::fabs(dt) < 1e-3 * (ended->t1 - start))
+                    ended = &integrator_->shorten(event.t + dt);
             }
             recorder_.stretch({ended, start, ended->t1, false});
             t_ = ended->t1;
@@ -325,15 +341,26 @@ class Run {
             segment.value(start, y_.data());
             t_ = start;
             // Events without progress: a guard that cannot leave its surface.
-            if (++idle_events_ > 50) throw StepFailure("the contact changes its state again and again without time passing");
+            if (++idle_events_ > 50)
+                throw StepFailure("the contact changes its state again and again without time passing");
         }
         switch (event.kind) {
-            case EventKind::none: break;
-            case EventKind::clamp: return;  // same phase, new step: the kink lies between steps
-            case EventKind::touch: problem_.contact.model == ContactModel::restitution ? strike() : touch(); break;
-            case EventKind::lift: lift(); break;
-            case EventKind::release: release(); break;
-            case EventKind::grip: change_grip(); break;
+            case EventKind::none:
+                break;
+            case EventKind::clamp:
+                return;  // same phase, new step: the kink lies between steps
+            case EventKind::touch:
+                problem_.contact.model == ContactModel::restitution ? strike() : touch();
+                break;
+            case EventKind::lift:
+                lift();
+                break;
+            case EventKind::release:
+                release();
+                break;
+            case EventKind::grip:
+                change_grip();
+                break;
         }
         recorder_.phase(phase_);
     }
@@ -350,7 +377,8 @@ class Run {
         const ApproachFloor& floor = problem_.contact.approach_floor;
         const bool same_collision = last_release_ && t_ - *last_release_ < problem_.contact.collision_gap;
         if (!same_collision) first_approach_ = approach;
-        phase_.approach = std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);
+        phase_.approach =
+            std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);
         if (approach < floor.value) ++floored_;
         set_grip();
         enter_phase();
@@ -372,9 +400,12 @@ class Run {
         const double chatter = kChatterShare * problem_.contact.approach_floor.value;
         const Compliance compliance = scout_.compliance(t_, y_.data(), c);
         const double e = problem_.contact.restitution;
-        ImpactResult impact = resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
+        ImpactResult impact =
+            resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
         const bool slow = impact.v_n < chatter;
-        if (slow) impact = resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
+        if (slow)
+            impact =
+                resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
         if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
         phase_start_ = t_;
         if (slow && scout_.free_gap_acceleration(t_, y_.data()) < 0) {
@@ -410,8 +441,10 @@ class Run {
         y_[static_cast<std::size_t>(2 * scout_.coordinates())] = 0;
         enter_phase();
         const ContactState c = contact_now();
-        const double growth = problem_.contact.exponent > 1 ? 0 : scout_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
-        if (scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth && c.slip != 0 && !(c.gap < 0))
+        const double growth =
+            problem_.contact.exponent > 1 ? 0 : scout_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
+        if (scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth && c.slip != 0 &&
+            !(c.gap < 0))
             phase_.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
         enter_phase();
     }
@@ -456,31 +489,37 @@ class Run {
         result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
         tell_chatter();
         if (floored_ > 0)
-            result_.warnings.push_back(fmt::format(
-                "{} of {} touches began slower than contact.approach_floor.value = {} m/s; their dissipation uses that floor", floored_,
-                result_.impacts.size(), problem_.contact.approach_floor.value));
+            result_.warnings.push_back(
+                fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
+                            "dissipation uses that floor",
+                            floored_, result_.impacts.size(), problem_.contact.approach_floor.value));
     }
 
     void tell_chatter() {
         if (chatters_ == 0) return;
         const double speed = kChatterShare * problem_.contact.approach_floor.value;
-        result_.warnings.push_back(fmt::format(
-            "chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s (contact.approach_floor.value times {:g}): energy "
-            "left out per end at most {:.2g} J", chatters_, chatters_ == 1 ? "" : "s", speed, kChatterShare,
-            0.5 * problem_.beam.line_density() * problem_.beam.length * speed * speed));
+        result_.warnings.push_back(
+            fmt::format("chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s "
+                        "(contact.approach_floor.value times {:g}): energy "
+                        "left out per end at most {:.2g} J",
+                        chatters_, chatters_ == 1 ? "" : "s", speed, kChatterShare,
+                        0.5 * problem_.beam.line_density() * problem_.beam.length * speed * speed));
     }
 
     std::string explain(const StepFailure& failure) const {
         const std::string when = fmt::format("at t = {:.9g} s", t_);
         if (dynamics_.inertia_lost())
             return fmt::format(
-                "{}: the {} model with {} {} modes lost its positive inertia (the hub is too light for these shapes); use "
+                "{}: the {} model with {} {} modes lost its positive inertia (the hub is too light for these shapes); "
+                "use "
                 "\"basis\": \"hub-beam\", fewer modes, or \"model\": \"second-order\"",
                 when, name(problem_.beam.model), problem_.beam.modes, name(resolved_basis(problem_)));
-        return fmt::format("{}: {}; contact stiffness {:g} N/m^{:g}, {} modes up to {:.3g} rad/s, rtol {:g}: a softer contact, fewer modes or a "
-                           "looser tolerance needs larger steps",
-                           when, failure.what(), contact_stiffness(problem_), problem_.contact.exponent, problem_.beam.modes,
-                           dynamics_.highest_frequency(), problem_.solver.rtol);
+        return fmt::format(
+            "{}: {}; contact stiffness {:g} N/m^{:g}, {} modes up to {:.3g} rad/s, rtol {:g}: a softer contact, fewer "
+            "modes or a "
+            "looser tolerance needs larger steps",
+            when, failure.what(), contact_stiffness(problem_), problem_.contact.exponent, problem_.beam.modes,
+            dynamics_.highest_frequency(), problem_.solver.rtol);
     }
 
     const Problem& problem_;
@@ -498,6 +537,31 @@ class Run {
     int idle_events_ = 0;
 };
 
+// Until when θ is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.
+constexpr double kHorizonError = 1e-6;  // [rad], relative to max(1, |θ|)
+constexpr double kHorizonRate = 1000;   // [Hz] of comparison
+
+double horizon(const Problem& problem, double end_time, const Progress& progress) {
+    Request request;
+    TableRequest table;
+    table.channels = {{ChannelKind::theta, 0}};
+    const auto rows = static_cast<long>(std::floor(end_time * kHorizonRate));
+    for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kHorizonRate);
+    table.times.push_back(end_time);
+    request.tables.push_back(table);
+    Problem tighter = problem;
+    tighter.solver.rtol = std::max(1e-13, problem.solver.rtol / 100);
+    tighter.solver.atol = problem.solver.atol / 100;
+    Run plain_run(problem, request, progress);
+    Run tight_run(tighter, request, progress);
+    const Result plain = plain_run.go(), tight = tight_run.go();
+    for (std::size_t i = 0; i < table.times.size(); ++i) {
+        const double a = plain.tables[0].values[0][i], b = tight.tables[0].values[0][i];
+        if (std::fabs(a - b) > kHorizonError * std::max(1.0, std::fabs(b))) return i > 0 ? table.times[i - 1] : 0;
+    }
+    return end_time;
+}
+
 }  // namespace
 
 SolverError::SolverError(const std::string& what, double last_good_time, Result partial_result)
@@ -507,7 +571,9 @@ Result simulate(const Problem& problem, const Request& request, const Progress& 
     for (const Finding& finding : validate(problem))
         if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
     Run run(problem, request, progress);
-    return run.go();
+    Result result = run.go();
+    if (request.horizon) result.reproducible_until = horizon(problem, result.end_time, progress);
+    return result;
 }
 
 }  // namespace beamcam::sim

@@ -25,7 +25,8 @@ System::System(const Problem& problem)
         // n K δⁿ⁻¹ at the penetration that the beam's mass reaches at 1 m/s (S37).
         const double n = law_.exponent, nu = problem.beam.poisson_ratio;
         const double depth = std::pow(0.5 * (n + 1) * model_->mass() / law_.stiffness, 1 / (n + 1));
-        bristle_stiffness_ = grip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * law_.stiffness * std::pow(depth, n - 1));
+        bristle_stiffness_ =
+            grip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * law_.stiffness * std::pow(depth, n - 1));
         bristle_damping_ = grip->damping.value_or(0);
     }
     controlled = 2 * n_ + (bristle_ ? 1 : 0);
@@ -33,7 +34,8 @@ System::System(const Problem& problem)
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     x_last_ = 0.5 * model_->length();
     // Slower than the lowest vibration, or than the swing of a rigid beam.
-    settle_ = n_ > 1 ? 0.1 * model_->frequency(0) : 10 * std::sqrt(std::max(1e-3, std::fabs(problem.gravity)) / model_->length());
+    settle_ = n_ > 1 ? 0.1 * model_->frequency(0)
+                     : 10 * std::sqrt(std::max(1e-3, std::fabs(problem.gravity)) / model_->length());
 }
 
 CamPose System::cam(double t) const {
@@ -41,7 +43,7 @@ CamPose System::cam(double t) const {
     CamPose pose;
     pose.angle = cam.phase - cam.speed * t;
     const Vec2 arm = cam.eccentricity * unit(pose.angle);
-    pose.disc = cam.centre + arm;                     // (S23)
+    pose.disc = cam.centre + arm;  // (S23)
     pose.velocity = -cam.speed * perp(arm);
     return pose;
 }
@@ -122,8 +124,8 @@ ContactState System::contact_geometry(double t, bool search) {
     const double distance = norm(d);
     c.normal = d * (1 / distance);
     c.tangent = -perp(c.normal);
-    c.gap = distance - problem_.cam->radius - offset_ + phase_.gap_offset;                      // (S25)
-    c.gap_rate = dot(c.normal, at_.v - pose.velocity);                                          // (S26)
+    c.gap = distance - problem_.cam->radius - offset_ + phase_.gap_offset;  // (S25)
+    c.gap_rate = dot(c.normal, at_.v - pose.velocity);                      // (S26)
     // χ̇ of the tangent; the touching face lies d below the centre line (S27).
     const double turn = cross(at_.r1, at_.v1) / dot(at_.r1, at_.r1);
     const double rim = problem_.cam->speed * problem_.cam->radius;
@@ -149,11 +151,14 @@ ContactState System::contact_placed(double t, const double* y, bool search) {
 
 double System::friction_force(const double* y, ContactState& c) const {
     if (mu_ == 0 && mu_static_ == 0) return 0;
-    if (!bristle_) return -mu_ * c.force * std::tanh(c.slip / slip_speed_);                     // (S34)
+    if (!bristle_) return -mu_ * c.force * std::tanh(c.slip / slip_speed_);  // (S34)
     switch (phase_.grip) {
-        case Grip::stick: return -(bristle_stiffness_ * y[2 * n_] + bristle_damping_ * c.slip); // (S35)
-        case Grip::slide_plus: return -mu_ * c.force;
-        case Grip::slide_minus: return mu_ * c.force;
+        case Grip::stick:
+            return -(bristle_stiffness_ * y[2 * n_] + bristle_damping_ * c.slip);  // (S35)
+        case Grip::slide_plus:
+            return -mu_ * c.force;
+        case Grip::slide_minus:
+            return mu_ * c.force;
     }
     return 0;
 }
@@ -185,7 +190,7 @@ void System::rhs(double t, const double* y, double* dy) {
         c = contact_placed(t, y, false);
         double jn[kMaxSize], jt[kMaxSize];
         contact_rows(c, jn, jt);
-        for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];               // (S28)
+        for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];  // (S28)
         if (bristle_) dy[2 * n_] = phase_.grip == Grip::stick ? c.slip : 0;
     }
     if (!phase_.held) ledger[kWorkDrive] += move(t, acc);
@@ -371,7 +376,9 @@ double System::gap_lower_bound(double t, const double* y) const {
 double System::bending_reach(const double* coordinates) const {
     double sum = 0;
     for (int i = 1; i < n_; ++i) sum += std::fabs(coordinates[i]);
-    return sum * (problem_.beam.model == ModelKind::exact ? 2 * model_->length() : 3.0 + 3.0 * std::fabs(problem_.hub.radius) / model_->length());
+    return sum * (problem_.beam.model == ModelKind::exact
+                      ? 2 * model_->length()
+                      : 3.0 + 3.0 * std::fabs(problem_.hub.radius) / model_->length());
 }
 
 double System::gap_speed_bound(const double* y) const {

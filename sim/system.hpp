@@ -18,15 +18,24 @@
 namespace beamcam::sim {
 
 // Integrals kept beside the state.
-enum Ledger : int { kLossStructural, kNormalWork, kFrictionWork, kWorkCam, kWorkDrive, kImpulseN, kImpulseT, kLedgerSize };
+enum Ledger : int {
+    kLossStructural,
+    kNormalWork,
+    kFrictionWork,
+    kWorkCam,
+    kWorkDrive,
+    kImpulseN,
+    kImpulseT,
+    kLedgerSize
+};
 
 // stick-slip friction: sticking, or sliding towards +t or −t.
 enum class Grip { stick, slide_plus, slide_minus };
 
 struct Phase {
     bool touching = false;
-    bool held = false;      // touching under a constraint (model `restitution`), not by penetration
-    double approach = 1;    // δ̇₋ of this touch, floored [m/s]
+    bool held = false;    // touching under a constraint (model `restitution`), not by penetration
+    double approach = 1;  // δ̇₋ of this touch, floored [m/s]
     Grip grip = Grip::stick;
     double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
 };
@@ -40,14 +49,14 @@ struct CamPose {
 
 // The beam against the cam at one state; everything of MODEL.md §7.
 struct ContactState {
-    double x = 0;       // x_c [m]
+    double x = 0;  // x_c [m]
     bool at_end = false;
     Vec2 normal, tangent;
     double gap = 0, gap_rate = 0;  // [m], [m/s]
-    double slip = 0;    // v_t [m/s]
-    double force = 0;   // N [N]
-    double friction = 0;// F_t on the beam along t [N]
-    double factor = 1;  // 1 + D δ̇/δ̇₋ (clamp where negative)
+    double slip = 0;               // v_t [m/s]
+    double force = 0;              // N [N]
+    double friction = 0;           // F_t on the beam along t [N]
+    double factor = 1;             // 1 + D δ̇/δ̇₋ (clamp where negative)
 };
 
 class System final : public Ode {
@@ -85,8 +94,8 @@ class System final : public Ode {
         Energies energies;
         double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
         double total() const {
-            return energies.kinetic + energies.gravity + energies.elastic + contact + loss_structural + loss_contact + loss_friction -
-                   work_cam - work_drive;
+            return energies.kinetic + energies.gravity + energies.elastic + contact + loss_structural + loss_contact +
+                   loss_friction - work_cam - work_drive;
         }
     };
     Books books(double t, const double* y);
