@@ -24,13 +24,18 @@ std::string hidden_name(const std::string& file_name, unsigned random) {
     return "." + file_name.substr(0, kLongestKept) + suffix;
 }
 
+// The file that a chain of symbolic links ends at, whether it exists yet or not.
 fs::path followed(const fs::path& target) {
+    constexpr int kLongestChain = 40;  // as in Linux
+    fs::path path = fs::absolute(target);
     std::error_code error;
-    const fs::path absolute = fs::absolute(target);
-    if (!fs::is_symlink(fs::symlink_status(absolute, error))) return absolute;
-    const fs::path real = fs::weakly_canonical(absolute, error);
-    if (error) throw write_error(target, error.value());
-    return real;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == kLongestChain) throw write_error(target, ELOOP);
+        const fs::path next = fs::read_symlink(path, error);
+        if (error) throw write_error(target, error.value());
+        path = path.parent_path() / next;  // an absolute `next` stands alone
+    }
+    return path;
 }
 
 void refuse_what_is_no_file(const fs::path& target, const fs::path& real) {

@@ -125,7 +125,8 @@ void write_npz(const std::filesystem::path& file, const sim::Table& table) {
         const std::string_view data(reinterpret_cast<const char*>(table.values[c].data()),
                                     table.rows() * sizeof(double));
         Entry entry{sim::name(table.channels[c]) + ".npy", 0, header.size() + data.size(), offset};
-        entry.crc = libdeflate_crc32(libdeflate_crc32(0, header.data(), header.size()), data.data(), data.size());
+        entry.crc = libdeflate_crc32(0, header.data(), header.size());
+        if (!data.empty()) entry.crc = libdeflate_crc32(entry.crc, data.data(), data.size());
         const std::string record = local_record(entry);
         for (std::string_view part : {std::string_view(record), std::string_view(header), data}) atomic.write(part);
         offset += record.size() + entry.size;
