@@ -16,6 +16,7 @@
 #include <numeric>
 #include <set>
 
+#include "output/video.hpp"
 #include "scenes/capabilities.hpp"
 #include "scenes/files.hpp"
 #include "scenes/overrides.hpp"
@@ -574,9 +575,9 @@ void read_time(Findings& findings, const Node* node, double& end_time) {
 
 // Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
-constexpr double kFastestFrameRate = 1000;  // [Hz]: players give up long before
-constexpr double kMostFrames = 250'000;     // over an hour at 60 fps; poses are held in memory
-constexpr double kMostRows = 20'000'000;    // 160 MB a channel
+constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
+constexpr double kMostFrames = 250'000;                              // over an hour at 60 fps; poses are held in memory
+constexpr double kMostRows = 20'000'000;                             // 160 MB a channel
 
 // Everything that the outputs' readers share.
 struct OutputContext {
@@ -661,10 +662,10 @@ void read_frame_rate(Fields& f, FrameRate& rate) {
     if (read)
         rate = *read;
     else
-        f.fail(*node, "fps",
-               fmt::format("{} = {} is no frame rate; write frames a second up to {}, with at most three decimals, or "
-                           "a fraction such as \"30000/1001\"",
-                           f.path("fps"), shown(*node), kFastestFrameRate));
+        f.fail(
+            *node, "fps",
+            fmt::format("{} = {} is no frame rate; write {} … {} frames a second, or a fraction such as \"30000/1001\"",
+                        f.path("fps"), shown(*node), kSlowestFrameRate, kFastestFrameRate));
 }
 
 // A time >= 0.
@@ -923,7 +924,9 @@ void judge_physics(const Node& root, const Scene& scene, Findings& findings, std
         const Place place = place_of(root, finding.path, exact);
         // With unread values replaced by defaults, only what the user wrote himself can be judged.
         if (partial && (!exact || !finding.fatal || findings.failed(finding.path))) continue;
-        messages.push_back({place, finding.message, finding.fatal});
+        const bool named = finding.message.starts_with(finding.path);
+        messages.push_back(
+            {place, named ? finding.message : fmt::format("{}: {}", finding.path, finding.message), finding.fatal});
     }
 }
 
@@ -1028,12 +1031,14 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     } else {
         double value = 0;
         const auto [last, error] = std::from_chars(text.data(), end, value);
-        if (error != std::errc{} || last != end || !(std::abs(value) <= kFastestFrameRate)) return std::nullopt;
-        const double thousandths = std::round(value * 1000);
-        if (std::abs(thousandths - value * 1000) > 1e-6) return std::nullopt;  // finer than rounding explains
-        rate = {static_cast<int>(thousandths), 1000};
+        if (error != std::errc{} || last != end || !(value >= kSlowestFrameRate && value <= kFastestFrameRate))
+            return std::nullopt;
+        const output::FrameRate meant = output::frame_rate(value);  // 29.97 means 30000/1001
+        rate = {meant.rate, meant.base};
     }
-    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() > kFastestFrameRate) return std::nullopt;
+    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < kSlowestFrameRate ||
+        rate.value() > kFastestFrameRate)
+        return std::nullopt;
     const int divisor = std::gcd(rate.numerator, rate.denominator);
     return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
 }

@@ -22,11 +22,31 @@ std::string_view first_characters(std::string_view bytes, std::size_t count) {
     return bytes.substr(0, i);
 }
 
-// Tabs would move the caret and control characters would speak to the terminal.
+// How many bytes the UTF-8 character at the front takes; 0 when it is none.
+std::size_t utf8_length(std::string_view text) {
+    const auto c = static_cast<unsigned char>(text[0]);
+    const std::size_t length = c < 0x80 ? 1 : c < 0xC2 ? 0 : c < 0xE0 ? 2 : c < 0xF0 ? 3 : c < 0xF5 ? 4 : 0;
+    if (length == 0 || length > text.size()) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if (!is_continuation(text[i])) return 0;
+    return length;
+}
+
+// Tabs would move the caret, control characters would speak to the terminal, and bytes that are no
+// text would spoil a log.
 std::string printable(std::string_view bytes) {
-    std::string out(bytes);
-    for (char& c : out)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    std::string out;
+    while (!bytes.empty()) {
+        const std::size_t length = utf8_length(bytes);
+        const auto c = static_cast<unsigned char>(bytes[0]);
+        if (length == 0)
+            out += is_continuation(bytes[0]) ? "" : "?";
+        else if (c < 0x20 || c == 0x7f)
+            out += ' ';
+        else
+            out += bytes.substr(0, length);
+        bytes.remove_prefix(std::max<std::size_t>(length, 1));
+    }
     return out;
 }
 

@@ -100,14 +100,13 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& last, const nlohmann::json::exception& error) override {
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
         const std::string_view what = error.what();
-        std::size_t start = position >= last.size() ? position - last.size() : 0;
-        start = std::min(start, text_.size());
         if (what.find("number overflow") != std::string_view::npos) {
-            return fail(start, fmt::format("number {} is too large for a double; the largest is 1.8e308", last));
+            skip_separators_and_brackets();
+            return fail(at_, fmt::format("number {} is too large for a double; the largest is 1.8e308", word_at(at_)));
         }
-        return syntax_error(start, what);
+        return syntax_error(position, what);
     }
 
     bool failed() const { return failed_; }
@@ -145,7 +144,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         Node& node = next_node();
         node.kind = kind;
         node.place = {source_, at_};
-        const std::size_t begin = at_;
+        const std::size_t begin = last_scalar_ = at_;
         if (at_ < text_.size() && text_[at_] == '"')
             at_ = after_string(text_, at_);
         else
@@ -197,60 +196,96 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         is_duplicate_ = false;
     }
 
-    // The library's refusal in the words of the four mistakes that people make, else in its own.
-    bool syntax_error(std::size_t at, std::string_view what) {
-        if (text_.substr(std::min(at, text_.size())).find_first_not_of(" \t\r\n") == std::string_view::npos ||
-            at >= text_.size())
-            return end_of_file();
-        while (at + 1 < text_.size() && is_space(text_[at])) ++at;
+    void skip_separators_and_brackets() {
+        while (at_ < text_.size() &&
+               (is_space(text_[at_]) || std::string_view(",:[]{}").find(text_[at_]) != std::string_view::npos))
+            ++at_;
+    }
+
+    static bool is_word_or_number(char c) { return is_word(c) || c == '-' || c == '+' || c == '.'; }
+    std::string_view word_at(std::size_t begin) const {
+        std::size_t end = begin;
+        while (end < text_.size() && is_word_or_number(text_[end])) ++end;
+        return text_.substr(begin, end - begin);
+    }
+
+    // Where the token begins that the library was reading when it had read `position` bytes.
+    std::size_t token_start(std::size_t position) const {
+        // Behind the last event; but in "09" the library stops inside what was walked over as one number.
+        std::size_t begin = position <= at_ ? last_scalar_ : at_;
+        while (true) {
+            while (begin < text_.size() && is_space(text_[begin])) ++begin;
+            std::size_t end = begin + 1;
+            if (begin < text_.size() && text_[begin] == '"')
+                end = after_string(text_, begin);
+            else if (begin < text_.size() && is_word_or_number(text_[begin]))
+                end = begin + word_at(begin).size();
+            if (end >= position || end > text_.size()) return std::min(begin, text_.size());
+            begin = end;
+        }
+    }
+
+    // The library's refusal in words for the mistakes that people make, else in its own.
+    bool syntax_error(std::size_t position, std::string_view what) {
+        auto says = [&](std::string_view part) { return what.find(part) != std::string_view::npos; };
+        const std::size_t at = token_start(position);
+        if (at >= text_.size()) return end_of_file();
         const char c = text_[at];
-        if (what.find("expected end of input") != std::string_view::npos)
-            return fail(at, "text after the end of the scene; a file holds one object { … }");
-        if (c == '\'') return fail(at, "a single quote; text and keys stand in double quotes: \"…\"");
         if (c == '/' || c == '#')
-            return fail(at, "not a comment that beamcam knows or one that is not closed; use // … or /* … */");
-        if (what.find("control character") != std::string_view::npos ||
-            what.find("missing closing quote") != std::string_view::npos)
             return fail(at,
-                        "a string that does not end in its line, or holds a control character; close it with \" (a "
-                        "line break is \\n)");
-        if (what.find("invalid string") != std::string_view::npos)
+                        "a comment that is not closed, or of a kind that scenes do not have; write // … or /* … */");
+        if (c == '\'') return fail(at, "a single quote; texts and keys stand in double quotes: \"…\"");
+        if (says("missing closing quote") || says("U+000A") || says("U+000D"))
             return fail(
-                at, fmt::format("an invalid escape in a string ({}); write \\\\ for a backslash", library_words(what)));
-        if (what.find("unexpected") != std::string_view::npos && what.find("expected ','") == std::string_view::npos &&
-            c == ',')
-            return fail(at, "a comma where a value or key should stand; remove it or write what is missing");
-        if (is_word(c) && what.find("invalid literal") != std::string_view::npos) return unknown_word(at);
-        if (c == '"' && what.find("expected ','") == std::string_view::npos &&
-            what.find("expected '") != std::string_view::npos)
-            return fail(at, "a comma is missing before this");
-        if (is_missing_comma(what, c)) return fail(at, "a comma is missing before this");
-        if (what.find("expected ':'") != std::string_view::npos)
-            return fail(at, "a colon is missing between a key and its value");
-        if (what.find("expected string literal") != std::string_view::npos)
+                at, "this text has no closing quote in its line; close it with \" (a line break inside a text is \\n)");
+        if (says("control character"))
+            return fail(at, "this text holds a control character; write it as \\t or \\u0000");
+        if (says("surrogate")) return fail(at, "half a surrogate pair in this text; write the character itself");
+        if (says("invalid string"))
+            return fail(at, "an escape that JSON does not have in this text; write \\\\ for a backslash");
+        if (says("; expected end of input"))
+            return fail(at, "text after the end of the scene; a file holds one object { … }");
+        if (is_word_or_number(c)) {
+            const std::string_view word = word_at(at);
+            if (word.size() > 1 && c == '0' && word[1] >= '0' && word[1] <= '9')
+                return fail(at, fmt::format("number {} begins with 0; JSON writes it without", word));
+            if (says("invalid")) return bad_word(at, word);
+        }
+        if (says("; expected ':'")) return fail(at, "a colon is missing between a key and its value");
+        if (c == ',') return fail(at, "a comma where a key or value should stand; remove it, or write what is missing");
+        if (says("; expected string literal"))
             return fail(at, "a key must stand here, in double quotes: \"key\": value");
-        return fail(
-            at, fmt::format("not JSON here ({}); compare with the examples of `beamcam init`", library_words(what)));
+        const bool after_value = says("; expected '}'") || says("; expected ']'");
+        if (after_value && (c == '"' || c == '{' || c == '[' || is_word_or_number(c)))
+            return fail(at, "a comma is missing before this");
+        if (c == '}' || c == ']') return wrong_bracket(at, after_value);
+        return fail(at, fmt::format("{} does not belong here ({}); compare with the scene of `beamcam init -`",
+                                    in_quotes(std::string_view(&c, 1)), library_words(what)));
     }
 
-    static bool is_missing_comma(std::string_view what, char c) {
-        const bool after_value =
-            what.find("expected '}'") != std::string_view::npos || what.find("expected ']'") != std::string_view::npos;
-        return after_value && (c == '"' || c == '{' || c == '[' || is_word(c) || c == '-');
+    bool wrong_bracket(std::size_t at, bool after_value) {
+        const char c = text_[at];
+        if (open_.empty()) return fail(at, fmt::format("a '{}' that closes nothing; remove it", c));
+        const Node& last = *open_.back();
+        const char expected = last.kind == Node::Kind::object ? '}' : ']';
+        if (c != expected)
+            return fail(at, fmt::format("'{}' closes what '{}' in line {} opened; write '{}'", c,
+                                        expected == '}' ? '{' : '[', locate(text_, last.place.offset).line, expected));
+        return fail(at, after_value ? fmt::format("'{}' does not belong here; remove it", c)
+                                    : "a value is missing before this; write it, or remove the key");
     }
 
-    bool unknown_word(std::size_t at) {
-        std::size_t begin = at, end = at;
-        while (begin > 0 && is_word(text_[begin - 1])) --begin;
-        while (end < text_.size() && is_word(text_[end])) ++end;
-        const std::string_view word = text_.substr(begin, end - begin);
-        if (word == "NaN" || word == "nan" || word == "Infinity" || word == "inf")
-            return fail(begin, fmt::format("{} is not a number that a scene can have; write a finite one", word));
+    bool bad_word(std::size_t at, std::string_view word) {
+        if (word == "NaN" || word == "nan" || word.ends_with("Infinity") || word.ends_with("inf"))
+            return fail(at, fmt::format("{} is not a number that a scene can have; write a finite one", word));
+        if (word[0] == '+' || word[0] == '.' || word[0] == '-' || (word[0] >= '0' && word[0] <= '9'))
+            return fail(at, fmt::format("{} is not how JSON writes a number; write for example 0.5, -3 or 1e-8, and "
+                                        "\"12 mm\" with a unit in quotes",
+                                        in_quotes(word)));
         return fail(
-            begin,
-            fmt::format(
-                "the bare word {}; put names and texts in double quotes (JSON's own words are true, false, null)",
-                in_quotes(word)));
+            at, fmt::format(
+                    "the bare word {}; put names and texts in double quotes (JSON's own words are true, false, null)",
+                    in_quotes(word)));
     }
 
     bool end_of_file() {
@@ -282,6 +317,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     std::size_t source_;
     Parsed& result_;
     std::size_t at_ = 0;
+    std::size_t last_scalar_ = 0;  // where the last one began
     // Pointers stay valid: a parent's vectors do not grow while a child is open.
     std::vector<Node*> open_;
     std::vector<bool> duplicates_;  // for each open node: is it the second of its key
