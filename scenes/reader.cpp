@@ -274,7 +274,7 @@ void read_torque(Fields& f, sim::Drive& drive) {
             f.fail(*torque, "torque",
                    fmt::format("{} has {} values and {} has {}; a table needs as many of one as of the other",
                                f.path("torque"), table.torque.size(), f.path("t"), table.t.size()));
-        drive = std::move(table);
+        if (fine) drive = std::move(table);
     } else if (f.has("amplitude") || f.has("frequency") || f.has("phase")) {
         sim::HarmonicTorque harmonic;
         if (const Node* node = f.require("amplitude", "0.5"))
@@ -327,7 +327,7 @@ void read_prescribed(Fields& f, sim::Drive& drive) {
                 f.fail(*theta, "theta",
                        fmt::format("{} has {} values and {} has {}; a table needs as many of one as of the other",
                                    f.path("theta"), table.theta.size(), f.path("t"), table.t.size()));
-            drive = std::move(table);
+            if (fine) drive = std::move(table);
             break;
         }
     }

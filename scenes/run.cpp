@@ -39,6 +39,18 @@ void print_data(const std::string& text) {
         throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
 }
 
+// One significant digit as people write it: 10⁻⁸, 2 × 10⁻⁹.
+std::string power_of_ten(double value) {
+    static constexpr std::string_view kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const std::string text = fmt::format("{:.0e}", value);  // "2e-09"
+    const std::string mantissa = text.substr(0, text.find('e'));
+    std::string out = mantissa == "1" ? "10" : mantissa + " × 10";
+    const int exponent = std::stoi(text.substr(text.find('e') + 1));
+    if (exponent < 0) out += "⁻";
+    for (const char digit : std::to_string(std::abs(exponent))) out += kDigits[digit - '0'];
+    return out;
+}
+
 // Where the time went, for -v.
 struct Times {
     double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
@@ -139,9 +151,13 @@ class Runner {
         return all;
     }
 
+    // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹"
     std::string accuracy_note() const {
-        return fmt::format("rtol {:g} · energy closes to {:.1e} of {:.3g} J", scene_.problem.solver.rtol,
-                           result_.energy_residual_max, result_.energy_scale);
+        std::string note = fmt::format("rtol {}", power_of_ten(scene_.problem.solver.rtol));
+        if (result_.energy_scale > 0 && result_.energy_residual_max > 0)
+            note +=
+                fmt::format(" · energy closes to {}", power_of_ten(result_.energy_residual_max / result_.energy_scale));
+        return note;
     }
 
     // ---- stages ----------------------------------------------------------------------------

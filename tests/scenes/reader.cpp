@@ -162,7 +162,7 @@ TEST(Reader, ImpossiblePhysicsStandsAtTheKeyThatSaysIt) {
     EXPECT_THAT(messages(read("{\n\"cam\": {\"eccentricity\": 0.2}}")),
                 ElementsAre(StartsWith("2:25 cam.eccentricity")));
     EXPECT_THAT(messages(read("{\n \"beam\": {\"model\": \"rigid\"}, \"cam\": {\"radius\": 0.3}}")),
-                ElementsAre(StartsWith("2:31 cam.centre")));
+                ElementsAre(StartsWith("2:30 cam.centre")));
     EXPECT_THAT(messages(read("{ \"initial\": {\"angle\": 0}}")), ElementsAre(StartsWith("1:24 initial.angle")));
 }
 
@@ -177,7 +177,7 @@ TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
     EXPECT_TRUE(reading.scene);
     ASSERT_EQ(reading.messages.size(), 1u);
     EXPECT_FALSE(reading.messages[0].fatal);
-    EXPECT_THAT(reading.report(), HasSubstr("scene.json:1:19: warning: cam.centre"));
+    EXPECT_THAT(reading.report(), HasSubstr("scene.json:1:20: warning: cam.centre"));
 }
 
 TEST(Reader, WhatTheVersionCannotDoIsRefusedByName) {

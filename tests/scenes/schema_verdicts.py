@@ -38,7 +38,7 @@ def replaced(scene, path, value):
 
 def mutants(scene):
     for path in places(scene):
-        for value in (None, True, "nonsense", "3 parsec/", [], {}, [None], {"type": "nonsense"}):
+        for value in (None, True, "nonsense", "3 !", [], {}, [None], {"type": "nonsense"}):
             if isinstance(at(scene, path), type(value)) and value in ([], {}):
                 continue  # not another kind
             yield replaced(scene, path, value)
