@@ -80,8 +80,9 @@ void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Col
 
 void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     const double u = unit_;
-    canvas.text({plot_.x, box_.y + 26 * u}, c_.title,
-                {.size = 21 * u, .color = p.ink, .weight = Weight::semibold, .max_width = plot_.w - 90 * u});
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const bool fits = canvas.measure(c_.words + c_.symbol, heading).w <= plot_.w - 84 * u;  // the reading stands beside
+    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + c_.symbol : c_.symbol, heading);
     const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
     for (double v : value_ticks_.values) {
         const double y = std::round(to_pixels(c_.time.low, v).y) + 0.5;

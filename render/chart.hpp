@@ -29,7 +29,8 @@ struct ChartMark {  // an impact
 };
 
 struct ChartContent {
-    std::string title;  // markup
+    std::string words;   // before the symbol, left out where there is no room: "Hub angle "
+    std::string symbol;  // markup with unit, "θ / rad"
     Range value;  // to be shown, in axis units; the axis is widened to round ends               // of the vertical
                   // axis, in axis units
     Range time;   // in axis units

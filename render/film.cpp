@@ -47,6 +47,16 @@ void check(const FilmSetup& s) {
         if (pose.centreline.size() < 2) throw PictureError("a pose needs at least two stations along the beam");
 }
 
+// A box with room for shadows around it, in whole pixels, cut to the mechanism's.
+Box covered(const Box& shapes, const Box& within, double unit) {
+    const Box wide = shapes.inset(-26 * unit - 4);
+    const double x0 = std::clamp(std::floor(wide.x), within.x, within.right() - 1),
+                 y0 = std::clamp(std::floor(wide.y), within.y, within.bottom() - 1);
+    const double x1 = std::clamp(std::ceil(wide.right()), x0 + 1, within.right()),
+                 y1 = std::clamp(std::ceil(wide.bottom()), y0 + 1, within.bottom());
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
 double pose_force(const Pose& pose) { return pose.nearest ? pose.nearest->force : kNan; }
 
 struct Flash {
@@ -68,6 +78,7 @@ struct Film::Prepared {
     double force_scale = 0;  // largest force of the film, rounded up [N]
     double arrow_scale = 0;  // largest force of a frame [N]
     std::vector<TraceSample> samples;
+    Box lit_box;             // what the lit mechanism ever covers, shadows included; whole pixels
     std::vector<Vec2> tips;  // drawn tip of every frame [px]
     std::vector<Flash> flashes;
     std::vector<Chart> charts;  // as places.charts
@@ -179,10 +190,15 @@ void Film::Prepared::place_camera() {
         // A beam thinner than a line gets the weight of one; it grows away from the cam.
         look.depth = std::max(problem.beam.depth, 7 * u / look.camera.scale);
     }
+    Bounds seen;
     for (int k = 0; k < static_cast<int>(setup->poses.size()); ++k) {
-        const DrawnBeam b = beam(k);
-        tips.push_back(look.camera.to_pixels((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5));
+        const MechanismShape shape = mechanism_shape(problem, pose(k), beam(k), look, *palette);
+        tips.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
+        seen.add(shape.hinge, shape.hub);
+        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
+    lit_box = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, places.mechanism, u);
 }
 
 void Film::Prepared::find_flashes() {
@@ -216,7 +232,7 @@ ChartContent Film::Prepared::blank_content() const {
 
 ChartContent Film::Prepared::angle_content() const {
     ChartContent c = blank_content();
-    c.title = "Hub angle " + math("θ") + " / rad";
+    c.words = "Hub angle ", c.symbol = math("θ") + " / rad";
     double low = setup->poses.front().theta, high = low;
     for (const Pose& p : setup->poses) low = std::min(low, p.theta), high = std::max(high, p.theta);
     const auto *t = column(setup->chart, ChannelKind::t), *theta = column(setup->chart, ChannelKind::theta);
@@ -235,7 +251,7 @@ ChartContent Film::Prepared::angle_content() const {
 ChartContent Film::Prepared::force_content() const {
     ChartContent c = blank_content();
     const Prefix prefix = prefix_for(force_scale > 0 ? force_scale : 1);
-    c.title = "Contact force " + math("F") + " / " + prefix.symbol + "N";
+    c.words = "Contact force ", c.symbol = math("F") + " / " + prefix.symbol + "N";
     c.color = palette->contact, c.faint = palette->contact_faint;
     c.filled = true;
     c.value = {0, (force_scale > 0 ? force_scale : 1) / prefix.factor};
@@ -266,7 +282,7 @@ ChartContent Film::Prepared::position_content() const {
     ChartContent c = blank_content();
     const sim::Problem& problem = setup->problem;
     const Prefix prefix = prefix_for(problem.beam.length);
-    c.title = "Contact point on the beam " + math("x") + "<sub>c</sub> / " + prefix.symbol + "m";
+    c.words = "Contact point on the beam ", c.symbol = math("x") + "<sub>c</sub> / " + prefix.symbol + "m";
     c.color = palette->contact, c.faint = palette->contact_faint;
     double low = 0, high = problem.beam.length / prefix.factor;
     if (!samples.empty()) {
@@ -295,7 +311,7 @@ double Film::Prepared::deflection_prefix() const {
 ChartContent Film::Prepared::deflection_content() const {
     ChartContent c = blank_content();
     const double unit = deflection_prefix();
-    c.title = std::string("Tip deflection / ") + prefix_for(unit).symbol + "m";
+    c.words = "Tip ", c.symbol = std::string("deflection / ") + prefix_for(unit).symbol + "m";
     const auto *t = column(setup->chart, ChannelKind::t), *v = column(setup->chart, ChannelKind::tip_deflection);
     double most = 0;
     for (std::size_t i = 0; t && v && i < setup->chart.rows(); ++i) {
@@ -365,7 +381,7 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     }
     if (const auto& b = places.note; b && !setup->accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(setup->accuracy_note),
-                    {.size = 17 * u, .color = palette->muted, .align = Align::right, .max_width = 0});
+                    {.size = 17 * u, .color = palette->muted, .align = Align::right, .max_width = b->w});
 }
 
 void Film::Prepared::draw_reference(Canvas& canvas) const {
@@ -553,14 +569,16 @@ void FramePainter::turning_arrow() const {
 // The straight line that deflection is drawn about.
 void FramePainter::base_line() const {
     if (c_.look.factor == 1) return;
-    canvas_.move_to(px({0, 0}));
-    canvas_.line_to(px(sim::unit(beam_.base_angle) * (problem().beam.length + problem().hub.radius)));
-    // It appears with the deflection: dashes along a straight edge would only be noise.
     const Vec2 base = sim::unit(beam_.base_angle);
-    double most = 0;
-    for (Vec2 p : beam_.line) most = std::max(most, std::abs(cross(base, p)));
-    const double strength = std::clamp(most * c_.look.camera.scale / (16 * u_) - 0.25, 0.0, 1.0);
-    canvas_.stroke({c_.palette.faint.faded(strength), 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
+    const double clear = 4 * u_ / c_.look.camera.scale;
+    std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
+    for (Vec2 p : beam_.line) {
+        const double below = -cross(base, p);  // the base line's offset from the centre line
+        const bool covered = below > beam_.low - clear && below < beam_.high + clear;
+        line.push_back(covered ? Vec2{kNan, kNan} : px(base * dot(base, p)));
+    }
+    canvas_.polyline(line);
+    canvas_.stroke({c_.palette.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
 }
 
 void FramePainter::disc_marks(const MechanismShape& shape, const Trace& trace) const {
@@ -797,7 +815,7 @@ void Film::paint(int frame, Style style, Image& out, std::vector<Box>* texts) {
 }
 
 void Film::draw_lit(const MechanismShape& shape, Canvas& canvas) {
-    const Box& box = prepared_->places.mechanism;
+    const Box& box = prepared_->lit_box;
     if (!tools_->lit) tools_->lit = make_lit_renderer(static_cast<int>(box.w), static_cast<int>(box.h));
     const LitScene scene = lit_scene(shape, prepared_->look, *prepared_->palette, {box.x, box.y});
     tools_->lit->draw(scene, tools_->lit_image);

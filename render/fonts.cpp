@@ -70,10 +70,7 @@ bool needs_cjk(std::string_view utf8) {
 Fonts::Handles::~Handles() {
     if (layout) g_object_unref(layout);
     if (context) g_object_unref(context);
-    if (map) {
-        pango_fc_font_map_shutdown(PANGO_FC_FONT_MAP(map));
-        g_object_unref(map);
-    }
+    if (map) g_object_unref(map);
     if (config) FcConfigDestroy(config);
 }
 
