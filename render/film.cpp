@@ -538,7 +538,7 @@ void FramePainter::angle_arc() const {
     canvas_.arc(px({0, 0}), radius, 0, angle);
     canvas_.stroke({c_.palette.muted, 1.6 * u_, {}, Cap::butt});
     const double room = std::clamp((std::abs(angle) * radius - 30 * u_) / (12 * u_), 0.0, 1.0);
-    if (room > 0)
+    if (room > 0 && radius > hub + 38 * u_)
         canvas_.text(px({0, 0}) + down(angle / 2) * (radius - 17 * u_) + Vec2{0, 6 * u_}, math("θ"),
                      {.size = 21 * u_,
                       .color = c_.palette.muted.faded(room),

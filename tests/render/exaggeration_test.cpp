@@ -21,9 +21,15 @@ double face_gap(const DrawnBeam& beam, const sim::Pose& pose, double radius) {
     return best - radius;
 }
 
-class Exaggerated : public testing::TestWithParam<double> {
+struct Case {
+    double factor;
+    bool half_depth;
+};
+void PrintTo(Case c, std::ostream* out) { *out << c.factor << (c.half_depth ? " half-depth" : " centre line"); }
+
+class Exaggerated : public testing::TestWithParam<Case> {
   protected:
-    FilmSetup film = test::synthetic_film();
+    FilmSetup film = test::synthetic_film({.half_depth = GetParam().half_depth});
     double px = 1.0 / 900;  // [m], of a full-size picture
 };
 
@@ -32,7 +38,7 @@ TEST_P(Exaggerated, TouchingBeamStillTouchesWithinHalfAPixel) {
     for (const sim::Pose& pose : film.poses) {
         if (!pose.nearest->touching || pose.nearest->gap > 1e-6) continue;
         ++touching;
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam(), film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
         EXPECT_LT(std::abs(face_gap(beam, pose, film.problem.cam->radius)), 0.5 * px) << "t = " << pose.t;
     }
     EXPECT_GT(touching, 10);
@@ -40,20 +46,22 @@ TEST_P(Exaggerated, TouchingBeamStillTouchesWithinHalfAPixel) {
 
 TEST_P(Exaggerated, HingeStays) {
     for (const sim::Pose& pose : film.poses) {
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam(), film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
         EXPECT_LT(norm(beam.line.front()), 1e-15);
     }
 }
 
 TEST_P(Exaggerated, BeamEntersTheDiscNowhere) {
     for (const sim::Pose& pose : film.poses) {
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam(), film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
         EXPECT_TRUE(beam.clear);
         EXPECT_GT(face_gap(beam, pose, film.problem.cam->radius), -0.1 * px) << "t = " << pose.t;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, Exaggerated, testing::Values(1.0, 2.0, 10.0, 20.0, 40.0));
+INSTANTIATE_TEST_SUITE_P(Factors, Exaggerated,
+                         testing::Values(Case{1, false}, Case{2, false}, Case{10, false}, Case{20, false},
+                                         Case{40, false}, Case{1, true}, Case{20, true}));
 
 TEST(Exaggeration, FactorOneIsTheTruth) {
     const FilmSetup film = test::synthetic_film();
