@@ -46,6 +46,18 @@ cairo_surface_t* surface_of(const Image& image) {
 
 void use(cairo_t* cr, Color c) { cairo_set_source_rgba(cr, c.r, c.g, c.b, c.a); }
 
+// The source, its corner at (x, y), within a rectangle of whole pixels: no edge is blended.
+void blend(cairo_t* cr, const Image& source, int x, int y, int left, int top, int width, int height) {
+    if (width <= 0 || height <= 0) return;
+    cairo_surface_t* surface = surface_of(source);
+    cairo_set_source_surface(cr, surface, x, y);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    cairo_rectangle(cr, left, top, width, height);
+    cairo_fill(cr);
+    use(cr, {});
+    cairo_surface_destroy(surface);
+}
+
 PangoWeight pango(Weight weight) {
     switch (weight) {
         case Weight::regular:
@@ -153,23 +165,6 @@ void Canvas::fill_even_odd(Color c) {
     fill(c);
     cairo_set_fill_rule(handles_->cr, CAIRO_FILL_RULE_WINDING);
 }
-void Canvas::fill_vertical(Color top, Color bottom, const Box& b) {
-    cairo_pattern_t* gradient = cairo_pattern_create_linear(0, b.y, 0, b.bottom());
-    cairo_pattern_add_color_stop_rgba(gradient, 0, top.r, top.g, top.b, top.a);
-    cairo_pattern_add_color_stop_rgba(gradient, 1, bottom.r, bottom.g, bottom.b, bottom.a);
-    cairo_set_source(handles_->cr, gradient);
-    cairo_fill(handles_->cr);
-    cairo_pattern_destroy(gradient);
-}
-void Canvas::fill_radial(Vec2 f, double radius, Color inner, Color outer) {
-    cairo_pattern_t* gradient = cairo_pattern_create_radial(f.x, f.y, 0, f.x, f.y, radius);
-    cairo_pattern_add_color_stop_rgba(gradient, 0, inner.r, inner.g, inner.b, inner.a);
-    cairo_pattern_add_color_stop_rgba(gradient, 1, outer.r, outer.g, outer.b, outer.a);
-    cairo_set_source(handles_->cr, gradient);
-    cairo_fill(handles_->cr);
-    cairo_pattern_destroy(gradient);
-}
-
 void Canvas::stroke(const Pen& pen) {
     cairo_t* cr = handles_->cr;
     use(cr, pen.color);
@@ -204,26 +199,16 @@ void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
     fill(pen.color);
 }
 
-void Canvas::image(const Image& source, int x, int y) {
-    cairo_surface_t* surface = surface_of(source);
-    cairo_set_source_surface(handles_->cr, surface, x, y);
-    cairo_pattern_set_filter(cairo_get_source(handles_->cr), CAIRO_FILTER_NEAREST);
-    cairo_rectangle(handles_->cr, x, y, source.width, source.height);
-    cairo_fill(handles_->cr);
-    use(handles_->cr, {});
-    cairo_surface_destroy(surface);
+void Canvas::image_until(const Image& source, int x, int y, int end) {
+    blend(handles_->cr, source, x, y, x, y, std::clamp(end - x, 0, source.width), source.height);
 }
 
-void Canvas::image_until(const Image& source, int x, int y, int end) {
-    const int columns = std::clamp(end - x, 0, source.width);
-    if (columns == 0) return;
-    cairo_surface_t* surface = surface_of(source);
-    cairo_set_source_surface(handles_->cr, surface, x, y);
-    cairo_pattern_set_filter(cairo_get_source(handles_->cr), CAIRO_FILTER_NEAREST);
-    cairo_rectangle(handles_->cr, x, y, columns, source.height);
-    cairo_fill(handles_->cr);
-    use(handles_->cr, {});
-    cairo_surface_destroy(surface);
+void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
+    const int x0 = std::clamp(static_cast<int>(std::floor(part.x)), 0, source.width);
+    const int y0 = std::clamp(static_cast<int>(std::floor(part.y)), 0, source.height);
+    const int x1 = std::clamp(static_cast<int>(std::ceil(part.right())), x0, source.width);
+    const int y1 = std::clamp(static_cast<int>(std::ceil(part.bottom())), y0, source.height);
+    blend(handles_->cr, source, x, y, x + x0, y + y0, x1 - x0, y1 - y0);
 }
 
 void Canvas::smooth_edges(bool on) {

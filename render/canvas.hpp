@@ -58,16 +58,14 @@ class Canvas {
     void rounded(const Box& box, double radius);
     void fill(Color color);
     void fill_keeping_path(Color color);
-    void fill_vertical(Color top, Color bottom, const Box& box);
-    void fill_radial(Vec2 focus, double radius, Color inner, Color outer);
     void fill_even_odd(Color color);
     void stroke(const Pen& pen);
     void paint(Color color);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
 
-    // Blends `source` with its top left pixel at (x, y), whole pixels.
-    void image(const Image& source, int x, int y);
-    // The part of `source` (placed as above) left of the column `end`, in picture pixels.
+    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards], or what
+    // lies left of the picture's column `end`. Whole pixels.
+    void image_part(const Image& source, int x, int y, const Box& part);
     void image_until(const Image& source, int x, int y, int end);
     void smooth_edges(bool on);
 

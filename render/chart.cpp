@@ -36,7 +36,12 @@ std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
 
 Chart::Chart(ChartContent content, Box box, Box plot, double unit)
     : c_(std::move(content)), box_(box), plot_(plot), unit_(unit) {
-    value_ticks_ = ticks(c_.value.low, c_.value.high, std::clamp(static_cast<int>(plot.h / (38 * unit)), 2, 6));
+    // Round ends first, then a mark at every multiple of the same step: the outermost lines carry labels.
+    const int marks = std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5);
+    const double step = ticks(c_.value.low, c_.value.high, marks).step;
+    c_.value = round_range(c_.value.low, c_.value.high, marks);
+    value_ticks_ =
+        ticks(c_.value.low, c_.value.high, static_cast<int>(std::lround((c_.value.high - c_.value.low) / step)) + 1);
     time_ticks_ = ticks(c_.time.low, c_.time.high, std::clamp(static_cast<int>(plot.w / (75 * unit)), 2, 7));
 }
 
@@ -75,8 +80,9 @@ void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Col
 
 void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     const double u = unit_;
-    canvas.text({plot_.x, box_.y + 26 * u}, c_.title,
-                {.size = 21 * u, .color = p.ink, .weight = Weight::semibold, .max_width = plot_.w - 90 * u});
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const bool fits = canvas.measure(c_.words + c_.symbol, heading).w <= plot_.w - 84 * u;  // the reading stands beside
+    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + c_.symbol : c_.symbol, heading);
     const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
     for (double v : value_ticks_.values) {
         const double y = std::round(to_pixels(c_.time.low, v).y) + 0.5;

@@ -29,9 +29,11 @@ struct ChartMark {  // an impact
 };
 
 struct ChartContent {
-    std::string title;         // markup
-    Range value;               // of the vertical axis, in axis units
-    Range time;                // in axis units
+    std::string words;   // before the symbol, left out where there is no room: "Hub angle "
+    std::string symbol;  // markup with unit, "θ / rad"
+    Range value;  // to be shown, in axis units; the axis is widened to round ends               // of the vertical
+                  // axis, in axis units
+    Range time;   // in axis units
     std::string time_label;    // markup, "t / s"
     std::vector<double> t, v;  // curve, in axis units; may be empty
     bool filled = false;       // area down to zero

@@ -47,6 +47,16 @@ void check(const FilmSetup& s) {
         if (pose.centreline.size() < 2) throw PictureError("a pose needs at least two stations along the beam");
 }
 
+// A box with room for shadows around it, in whole pixels, cut to the mechanism's.
+Box covered(const Box& shapes, const Box& within, double unit) {
+    const Box wide = shapes.inset(-26 * unit - 4);
+    const double x0 = std::clamp(std::floor(wide.x), within.x, within.right() - 1),
+                 y0 = std::clamp(std::floor(wide.y), within.y, within.bottom() - 1);
+    const double x1 = std::clamp(std::ceil(wide.right()), x0 + 1, within.right()),
+                 y1 = std::clamp(std::ceil(wide.bottom()), y0 + 1, within.bottom());
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
 double pose_force(const Pose& pose) { return pose.nearest ? pose.nearest->force : kNan; }
 
 struct Flash {
@@ -68,6 +78,7 @@ struct Film::Prepared {
     double force_scale = 0;  // largest force of the film, rounded up [N]
     double arrow_scale = 0;  // largest force of a frame [N]
     std::vector<TraceSample> samples;
+    Box lit_box;             // what the lit mechanism ever covers, shadows included; whole pixels
     std::vector<Vec2> tips;  // drawn tip of every frame [px]
     std::vector<Flash> flashes;
     std::vector<Chart> charts;  // as places.charts
@@ -88,6 +99,8 @@ struct Film::Prepared {
     ChartContent angle_content() const;
     ChartContent force_content() const;
     ChartContent position_content() const;
+    ChartContent deflection_content() const;
+    double deflection_prefix() const;
     ChartContent blank_content() const;
     void draw_ground();
     void draw_header(Canvas& canvas) const;
@@ -117,6 +130,8 @@ Film::Prepared::Prepared(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     samples = contact_samples(setup->trace);
     if (setup->problem.cam) kinds.push_back(ChartKind::force);
     if (setup->problem.cam) kinds.push_back(ChartKind::position);
+    if (!setup->problem.cam && column(setup->chart, ChannelKind::tip_deflection))
+        kinds.push_back(ChartKind::deflection);
     places = layout(setup->width, setup->height, kinds);
     std::vector<double> times;
     for (const Pose& p : setup->poses) times.push_back(p.t);
@@ -175,10 +190,15 @@ void Film::Prepared::place_camera() {
         // A beam thinner than a line gets the weight of one; it grows away from the cam.
         look.depth = std::max(problem.beam.depth, 7 * u / look.camera.scale);
     }
+    Bounds seen;
     for (int k = 0; k < static_cast<int>(setup->poses.size()); ++k) {
-        const DrawnBeam b = beam(k);
-        tips.push_back(look.camera.to_pixels((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5));
+        const MechanismShape shape = mechanism_shape(problem, pose(k), beam(k), look, *palette);
+        tips.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
+        seen.add(shape.hinge, shape.hub);
+        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
+    lit_box = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, places.mechanism, u);
 }
 
 void Film::Prepared::find_flashes() {
@@ -212,7 +232,7 @@ ChartContent Film::Prepared::blank_content() const {
 
 ChartContent Film::Prepared::angle_content() const {
     ChartContent c = blank_content();
-    c.title = "Hub angle " + math("θ") + " / rad";
+    c.words = "Hub angle ", c.symbol = math("θ") + " / rad";
     double low = setup->poses.front().theta, high = low;
     for (const Pose& p : setup->poses) low = std::min(low, p.theta), high = std::max(high, p.theta);
     const auto *t = column(setup->chart, ChannelKind::t), *theta = column(setup->chart, ChannelKind::theta);
@@ -223,7 +243,7 @@ ChartContent Film::Prepared::angle_content() const {
         }
     // A constant angle still needs an axis: a twentieth of a radian either way.
     if (high - low < 1e-9) low -= 0.05, high += 0.05;
-    c.value = round_range(low, high, 5);
+    c.value = {low, high};
     return c;
 }
 
@@ -231,10 +251,10 @@ ChartContent Film::Prepared::angle_content() const {
 ChartContent Film::Prepared::force_content() const {
     ChartContent c = blank_content();
     const Prefix prefix = prefix_for(force_scale > 0 ? force_scale : 1);
-    c.title = "Contact force " + math("F") + " / " + prefix.symbol + "N";
+    c.words = "Contact force ", c.symbol = math("F") + " / " + prefix.symbol + "N";
     c.color = palette->contact, c.faint = palette->contact_faint;
     c.filled = true;
-    c.value = round_range(0, (force_scale > 0 ? force_scale : 1) / prefix.factor, 5);
+    c.value = {0, (force_scale > 0 ? force_scale : 1) / prefix.factor};
     std::vector<std::array<double, 2>> rows;
     const auto *t = column(setup->chart, ChannelKind::t), *force = column(setup->chart, ChannelKind::contact_force);
     if (t && force)
@@ -254,7 +274,7 @@ ChartContent Film::Prepared::force_content() const {
         c.t.push_back(r[0] / time.unit), c.v.push_back(r[1] / prefix.factor);
         most = std::max(most, r[1] / prefix.factor);
     }
-    if (most > 0) c.value = round_range(0, 1.02 * most, 5);
+    if (most > 0) c.value = {0, 1.02 * most};
     return c;
 }
 
@@ -262,7 +282,7 @@ ChartContent Film::Prepared::position_content() const {
     ChartContent c = blank_content();
     const sim::Problem& problem = setup->problem;
     const Prefix prefix = prefix_for(problem.beam.length);
-    c.title = "Contact point on the beam " + math("x") + "<sub><small>c</small></sub> / " + prefix.symbol + "m";
+    c.words = "Contact point on the beam ", c.symbol = math("x") + "<sub>c</sub> / " + prefix.symbol + "m";
     c.color = palette->contact, c.faint = palette->contact_faint;
     double low = 0, high = problem.beam.length / prefix.factor;
     if (!samples.empty()) {
@@ -271,12 +291,35 @@ ChartContent Film::Prepared::position_content() const {
         const double around = std::max(0.05 * (high - low), 1e-3 * problem.beam.length / prefix.factor);
         low -= around, high += around;
     }
-    c.value = round_range(low, high, 5);
+    c.value = {low, high};
     for (const TraceSample& s : samples) {
         const double t = s.t / time.unit;
         if (t < c.time.low || t > c.time.high) continue;
         c.dots.push_back({t, s.x / prefix.factor, force_color(*palette, std::sqrt(s.force / force_scale))});
     }
+    return c;
+}
+
+double Film::Prepared::deflection_prefix() const {
+    double most = 0;
+    if (const auto* v = column(setup->chart, ChannelKind::tip_deflection))
+        for (double d : *v)
+            if (std::abs(d) > most) most = std::abs(d);
+    return most > 0 ? prefix_for(most).factor : 1;
+}
+
+ChartContent Film::Prepared::deflection_content() const {
+    ChartContent c = blank_content();
+    const double unit = deflection_prefix();
+    c.words = "Tip ", c.symbol = std::string("deflection / ") + prefix_for(unit).symbol + "m";
+    const auto *t = column(setup->chart, ChannelKind::t), *v = column(setup->chart, ChannelKind::tip_deflection);
+    double most = 0;
+    for (std::size_t i = 0; t && v && i < setup->chart.rows(); ++i) {
+        c.t.push_back((*t)[i] / time.unit), c.v.push_back((*v)[i] / unit);
+        if (!std::isnan(c.v.back())) most = std::max(most, std::abs(c.v.back()));
+    }
+    if (most == 0) most = 1;
+    c.value = {-most, most};
     return c;
 }
 
@@ -292,6 +335,9 @@ void Film::Prepared::make_charts() {
                 break;
             case ChartKind::position:
                 charts.emplace_back(position_content(), slot.box, slot.plot, places.unit);
+                break;
+            case ChartKind::deflection:
+                charts.emplace_back(deflection_content(), slot.box, slot.plot, places.unit);
                 break;
         }
         pasts.push_back(charts.back().past(fonts, *palette));
@@ -315,9 +361,14 @@ void Film::Prepared::draw_ground() {
 
 void Film::Prepared::draw_header(Canvas& canvas) const {
     const double u = places.unit;
-    if (const auto& b = places.title; b && !setup->title.empty())
-        canvas.text({b->x, b->y + 38 * u}, escape(setup->title),
-                    {.size = 40 * u, .color = palette->ink, .weight = Weight::semibold, .max_width = b->w});
+    if (const auto& b = places.title; b && !setup->title.empty()) {
+        TextStyle style{.size = 40 * u, .color = palette->ink, .weight = Weight::semibold};
+        // A long title becomes smaller, down to two thirds; then it is cut.
+        const double natural = canvas.measure(escape(setup->title), style).w;
+        if (natural > b->w) style.size *= std::max(2.0 / 3, 0.999 * b->w / natural);
+        style.max_width = b->w;
+        canvas.text({b->x, b->y + 38 * u}, escape(setup->title), style);
+    }
     if (const auto& b = places.parameters) {
         const TextStyle style{.size = 21 * u, .color = palette->muted};
         double x = b->x;
@@ -330,7 +381,7 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     }
     if (const auto& b = places.note; b && !setup->accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(setup->accuracy_note),
-                    {.size = 17 * u, .color = palette->muted, .align = Align::right, .max_width = 0});
+                    {.size = 17 * u, .color = palette->muted, .align = Align::right, .max_width = b->w});
 }
 
 void Film::Prepared::draw_reference(Canvas& canvas) const {
@@ -385,7 +436,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         right -= 300 * u;
     }
     if (look.moment_scale > 0) {
-        const std::string top = quantity(look.moment_scale, "N\u200Am");
+        const std::string top = quantity(look.moment_scale, "N\u2009m");
         bar(right, "bending moment", [&](double s) { return moment_color(*palette, 2 * s - 1); }, {"−" + top, "0", top},
             {0, 0.5, 1});
     }
@@ -486,9 +537,13 @@ void FramePainter::angle_arc() const {
     if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
     canvas_.arc(px({0, 0}), radius, 0, angle);
     canvas_.stroke({c_.palette.muted, 1.6 * u_, {}, Cap::butt});
-    if (std::abs(angle) * radius > 34 * u_)
+    const double room = std::clamp((std::abs(angle) * radius - 30 * u_) / (12 * u_), 0.0, 1.0);
+    if (room > 0 && radius > hub + 38 * u_)
         canvas_.text(px({0, 0}) + down(angle / 2) * (radius - 17 * u_) + Vec2{0, 6 * u_}, math("θ"),
-                     {.size = 21 * u_, .color = c_.palette.muted, .align = Align::centre, .halo = c_.palette.paper});
+                     {.size = 21 * u_,
+                      .color = c_.palette.muted.faded(room),
+                      .align = Align::centre,
+                      .halo = c_.palette.paper.faded(room)});
 }
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
@@ -514,8 +569,15 @@ void FramePainter::turning_arrow() const {
 // The straight line that deflection is drawn about.
 void FramePainter::base_line() const {
     if (c_.look.factor == 1) return;
-    canvas_.move_to(px({0, 0}));
-    canvas_.line_to(px(sim::unit(beam_.base_angle) * (problem().beam.length + problem().hub.radius)));
+    const Vec2 base = sim::unit(beam_.base_angle);
+    const double clear = 4 * u_ / c_.look.camera.scale;
+    std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
+    for (Vec2 p : beam_.line) {
+        const double below = -cross(base, p);  // the base line's offset from the centre line
+        const bool covered = below > beam_.low - clear && below < beam_.high + clear;
+        line.push_back(covered ? Vec2{kNan, kNan} : px(base * dot(base, p)));
+    }
+    canvas_.polyline(line);
     canvas_.stroke({c_.palette.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
 }
 
@@ -534,8 +596,8 @@ void FramePainter::disc_marks(const MechanismShape& shape, const Trace& trace) c
                       : c_.setup.view.theme == Theme::dark                                     ? rgb(0x14171D)
                                                                                                : c_.palette.steel_edge;
     const double apart = norm(d.centre - d.axis);
-    if (apart > 2) {
-        canvas_.move_to(d.axis);
+    if (apart > d.bore + 2) {
+        canvas_.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
         canvas_.line_to(d.centre);
         canvas_.stroke({ink, 1.8 * u_});
     }
@@ -545,7 +607,7 @@ void FramePainter::disc_marks(const MechanismShape& shape, const Trace& trace) c
         canvas_.move_to(d.axis - arm * (d.bore * 0.75));
         canvas_.line_to(d.axis + arm * (d.bore * 0.75));
     }
-    canvas_.stroke({ink, 1.6 * u_, {}, Cap::butt});
+    canvas_.stroke({c_.palette.ink, 1.6 * u_, {}, Cap::butt});
     if (d.radius < 60 * u_) return;
     // The letters stand beyond the ends of the line C–B, so that they keep off it at any angle.
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
@@ -589,7 +651,9 @@ void FramePainter::force_arrow() const {
     const Vec2 foot = px(beam_.contact->on_disc), n{beam_.contact->normal.x, -beam_.contact->normal.y};
     canvas_.circle(foot, 5 * u_);
     canvas_.fill(c_.palette.contact);
-    const double length = (small_ ? 60 : 150) * u_ * pose_.nearest->force / c_.arrow_scale;
+    // A stub that shows the direction, then in proportion to the force; the number stands beside it.
+    const double longest = (small_ ? 60 : 150) * u_, stub = 36 * u_;
+    const double length = stub + (longest - stub) * pose_.nearest->force / c_.arrow_scale;
     const Vec2 tip = foot + n * length;
     canvas_.arrow(foot, tip, {c_.palette.contact, 4 * u_}, 19 * u_);
     if (small_) return;
@@ -654,6 +718,17 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
     return scene;
 }
 
+// What the scene can touch, shadows included: beyond it the lit picture is transparent.
+Box lit_bounds(const LitScene& scene) {
+    Bounds all;
+    for (const auto* rounds : {&scene.behind, &scene.front})
+        for (const LitRound& r : *rounds) all.add(r.centre, r.radius);
+    for (Vec2 p : scene.strip.face) all.add(p);
+    for (Vec2 p : scene.strip.back) all.add(p);
+    const double around = 26 * scene.unit + 4;
+    return {all.x0 - around, all.y0 - around, all.x1 - all.x0 + 2 * around, all.y1 - all.y0 + 2 * around};
+}
+
 }  // namespace
 
 // ---- the film --------------------------------------------------------------------------------
@@ -696,13 +771,16 @@ void paint_cursors(Canvas& canvas, const std::vector<Chart>& charts, const std::
                 chart.draw_cursor(canvas, palette, t, x, on ? fixed(x, problem.beam.length == 1 ? 4 : 3) : "");
                 break;
             }
+            case ChartKind::deflection:
+                chart.draw_cursor(canvas, palette, t, kNan, "");
+                break;
         }
     }
 }
 
 }  // namespace
 
-void Film::draw(int frame, Image& out) {
+void Film::paint(int frame, Style style, Image& out, std::vector<Box>* texts) {
     const Prepared& p = *prepared_;
     if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
     out = p.ground;
@@ -711,6 +789,7 @@ void Film::draw(int frame, Image& out) {
     const MechanismShape shape = mechanism_shape(p.setup->problem, pose, beam, p.look, *p.palette);
     tools_->trace.show_until(pose.t);
     Canvas canvas(out, tools_->fonts);
+    canvas.record = texts;
     const FramePainter::Context context{*p.setup, *p.palette, p.places, p.look,        p.time,
                                         p.tips,   p.flashes,  p.pills,  p.force_scale, p.arrow_scale};
     const FramePainter painter(context, frame, beam, canvas);
@@ -719,14 +798,13 @@ void Film::draw(int frame, Image& out) {
     painter.angle_arc();
     painter.base_line();
     painter.turning_arrow();
-    if (p.setup->view.style == Style::lit) {
-        const Box& box = p.places.mechanism;
-        const int x = static_cast<int>(box.x), y = static_cast<int>(box.y);
-        if (!tools_->lit) tools_->lit = make_lit_renderer(static_cast<int>(box.w), static_cast<int>(box.h));
-        tools_->lit->draw(lit_scene(shape, p.look, *p.palette, {box.x, box.y}), tools_->lit_image);
-        canvas.image(tools_->lit_image, x, y);
-    } else {
-        draw_flat(canvas, shape, p.look, *p.palette);
+    switch (style) {
+        case Style::lit:
+            draw_lit(shape, canvas);
+            break;
+        case Style::flat:
+            draw_flat(canvas, shape, p.look, *p.palette);
+            break;
     }
     painter.disc_marks(shape, tools_->trace);
     painter.beam_trace(tools_->trace);
@@ -736,9 +814,23 @@ void Film::draw(int frame, Image& out) {
     paint_cursors(canvas, p.charts, p.pasts, p.places, *p.palette, pose, p.time, p.setup->problem, p.force_scale);
 }
 
-FrameGeometry Film::geometry(int frame) const {
+void Film::draw_lit(const MechanismShape& shape, Canvas& canvas) {
+    const Box& box = prepared_->lit_box;
+    if (!tools_->lit) tools_->lit = make_lit_renderer(static_cast<int>(box.w), static_cast<int>(box.h));
+    const LitScene scene = lit_scene(shape, prepared_->look, *prepared_->palette, {box.x, box.y});
+    tools_->lit->draw(scene, tools_->lit_image);
+    canvas.image_part(tools_->lit_image, static_cast<int>(box.x), static_cast<int>(box.y), lit_bounds(scene));
+}
+
+void Film::draw(int frame, Image& out) { paint(frame, prepared_->setup->view.style, out, nullptr); }
+
+FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
-    return {p.places, p.look.camera, p.look.factor, p.beam(frame), p.ground_texts};
+    FrameGeometry out{p.places, p.look.camera, p.look.factor, {}, p.ground_texts};
+    Image scratch;
+    paint(frame, Style::flat, scratch, &out.texts);
+    out.beam = p.beam(frame);
+    return out;
 }
 
 }  // namespace beamcam::render

@@ -22,6 +22,9 @@
 
 namespace beamcam::render {
 
+class Canvas;
+struct MechanismShape;
+
 enum class Style { lit, flat };
 
 struct View {
@@ -64,14 +67,16 @@ class Film {
     Film another() const;
 
     int frames() const;
-    void draw(int frame, Image& out);  // `out` is resized as needed; 0 <= frame < frames()
-    FrameGeometry geometry(int frame) const;
+    void draw(int frame, Image& out);   // `out` is resized as needed; 0 <= frame < frames()
+    FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
 
   private:
     struct Prepared;
     struct Tools;
     explicit Film(std::shared_ptr<const Prepared> prepared);
+    void draw_lit(const MechanismShape& shape, Canvas& canvas);
+    void paint(int frame, Style style, Image& out, std::vector<Box>* texts);
     std::shared_ptr<const Prepared> prepared_;
     std::unique_ptr<Tools> tools_;
 };

@@ -26,7 +26,8 @@ constexpr std::array kFiles{FontFile{"Inter-Regular.otf", "fonts-inter"}, FontFi
                             FontFile{"Inter-SemiBold.otf", "fonts-inter"},
                             FontFile{"STIXGeneral-Regular.otf", "fonts-stix"},
                             FontFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
-constexpr std::array kCjkFiles{FontFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"}};
+constexpr std::array kCjkFiles{FontFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
+                               FontFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
 
 std::vector<fs::path> folders() {
     if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
@@ -70,10 +71,7 @@ bool needs_cjk(std::string_view utf8) {
 Fonts::Handles::~Handles() {
     if (layout) g_object_unref(layout);
     if (context) g_object_unref(context);
-    if (map) {
-        pango_fc_font_map_shutdown(PANGO_FC_FONT_MAP(map));
-        g_object_unref(map);
-    }
+    if (map) g_object_unref(map);
     if (config) FcConfigDestroy(config);
 }
 

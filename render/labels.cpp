@@ -17,7 +17,7 @@ std::string contact_piece(const sim::Problem& problem) {
     if (problem.contact.model == sim::ContactModel::restitution)
         return equation("c", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
-                                            fmt::format("\u00A0N\u200Am<sup>−{:.3g}</sup>", problem.contact.exponent));
+                                            fmt::format("\u00A0N\u2009m<sup>−{:.3g}</sup>", problem.contact.exponent));
     if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
     return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
 }

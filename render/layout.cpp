@@ -22,7 +22,7 @@ void stack(Layout& out, const std::vector<ChartKind>& kinds, const Box& area) {
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.h + gap) / (215 * u + gap)));
     const std::size_t n = std::min(kinds.size(), room);
     for (std::size_t i = 0; i < n; ++i) {
-        const double h = std::min(360 * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
+        const double h = std::min(440 * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
         out.charts.push_back(chart_slot(kinds[i], {area.x, area.y + (h + gap) * static_cast<double>(i), area.w, h}, u));
     }
 }

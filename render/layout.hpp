@@ -11,7 +11,7 @@
 
 namespace beamcam::render {
 
-enum class ChartKind { angle, force, position };  // in this order of importance
+enum class ChartKind { angle, force, position, deflection };  // in this order of importance
 
 struct ChartSlot {
     ChartKind kind = ChartKind::angle;

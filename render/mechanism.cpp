@@ -70,8 +70,16 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
 
 }  // namespace
 
+// Wide enough to cover the root's corners, within reason, and always short of the circle that the disc sweeps.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
-    return std::max(problem.hub.radius * camera.scale, 19 * unit);
+    const double offset = problem.cam ? sim::contact_offset(problem) : problem.beam.depth / 2;
+    const double corner = 1.06 * std::max(offset, problem.beam.depth - offset) * camera.scale;
+    double boss = std::clamp(corner, 19 * unit, 36 * unit);
+    if (problem.cam) {
+        const double free = norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity;
+        boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);
+    }
+    return std::max({problem.hub.radius * camera.scale, boss, 1.0});
 }
 
 double support_reach(double hub, double unit) { return hub + 44 * unit; }
@@ -107,7 +115,7 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     }
     s.hinge = look.camera.to_pixels({0, 0});
     s.hub = hub_radius(problem, look.camera, look.unit);
-    s.pin = 7 * look.unit;
+    s.pin = std::min(7 * look.unit, 0.4 * s.hub);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
     return s;
 }

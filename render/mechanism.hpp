@@ -42,7 +42,7 @@ struct MechanismLook {
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
                                const MechanismLook& look, const Palette& palette);
 
-// Radius of the hub's boss [px]: the hub's own where that is larger than a readable pin.
+// Radius of the hub's boss [px]: the hub's own where that is larger than a readable boss.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit);
 // The bearing that O stands on; does not move. `reach`: how far it extends below O [px].
 double support_reach(double hub_radius, double unit);

@@ -34,33 +34,44 @@ void main() {
     gl_Position = vec4(p.x, -p.y, 0.0, 1.0);
 })";
 
-// Shared by both fragment shaders. Light from the upper left, the viewer straight ahead; colours are lit linearly.
+// Shared by both lit fragment shaders. Light from the upper left, the viewer straight ahead; colours are lit linearly
+// (sRGB taken as a square). Powers are squared out: on a software renderer a power costs as much as all the rest.
 constexpr const char* kLight = R"(
 const vec3 to_light = normalize(vec3(-0.50, 0.72, 0.85));
-const vec3 to_eye = vec3(0.0, 0.0, 1.0);
+const vec3 half_way = normalize(to_light + vec3(0.0, 0.0, 1.0));
+float power_32(float x) { x *= x; x *= x; x *= x; x *= x; return x * x; }
 vec3 lit(vec3 srgb, vec3 n, vec3 grain, float grain_strength) {
-    vec3 albedo = pow(srgb, vec3(2.2)), half_way = normalize(to_light + to_eye);
-    float sky = 0.5 + 0.5 * n.y;
-    float diffuse = max(dot(n, to_light), 0.0);
-    float spot = pow(max(dot(n, half_way), 0.0), 60.0);
+    float sky = 0.5 + 0.5 * n.y, diffuse = max(dot(n, to_light), 0.0), spot = max(dot(n, half_way), 0.0);
     // Scratches along `grain` spread the highlight across them.
-    float along = dot(grain, half_way);
-    float streak = pow(max(1.0 - along * along, 0.0), 24.0) * grain_strength;
-    vec3 c = albedo * (0.30 + 0.22 * sky + 0.66 * diffuse) + vec3(0.28) * spot + vec3(streak);
-    return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2));
+    float along = dot(grain, half_way), streak = power_32(1.0 - along * along) * grain_strength;
+    vec3 c = srgb * srgb * (0.30 + 0.22 * sky + 0.66 * diffuse) + vec3(0.28 * power_32(spot * spot) + streak);
+    return sqrt(clamp(c, 0.0, 1.0));
 }
 )";
 
+// Shadows are programs of their own: this renderer runs both sides of a branch.
+constexpr const char* kRoundShadow = R"(
+in vec2 at; out vec4 color;
+uniform float radius, hole_radius, soft, opacity; uniform vec2 hole;
+void main() {
+    float edge = radius - length(at), bore = hole_radius > 0.0 ? length(at - hole) - hole_radius : 1e6;
+    color = vec4(0.0, 0.0, 0.0, opacity * smoothstep(-soft, soft, min(edge, bore)));
+})";
+
+constexpr const char* kStripShadow = R"(
+in vec2 st; out vec4 color;
+uniform float length_px, depth_px, soft, opacity;
+void main() {
+    float ends = min(st.x, length_px - st.x), sides = min(st.y, depth_px - st.y);
+    color = vec4(0.0, 0.0, 0.0, opacity * smoothstep(-soft, soft, ends) * smoothstep(-soft, soft, sides));
+})";
+
 constexpr const char* kRoundFragment = R"(
 in vec2 at; out vec4 color;
-uniform vec3 paint; uniform float radius, chamfer, hole_radius, soft, opacity; uniform vec2 hole; uniform int finish;
+uniform vec3 paint; uniform float radius, chamfer, hole_radius; uniform vec2 hole; uniform int finish;
 void main() {
     float r = length(at), inner = length(at - hole);
     float edge = radius - r, bore = hole_radius > 0.0 ? inner - hole_radius : 1e6;
-    if (soft > 0.0) {  // a shadow
-        color = vec4(0.0, 0.0, 0.0, opacity * smoothstep(-soft, soft, min(edge, bore)));
-        return;
-    }
     float cover = clamp(edge + 0.5, 0.0, 1.0) * clamp(bore + 0.5, 0.0, 1.0);
     vec2 out_ward = r > 1e-3 ? at / r : vec2(0.0), n = vec2(0.0);
     vec3 grain = vec3(0.0); float strength = 0.0;
@@ -92,13 +103,9 @@ void main() {
 
 constexpr const char* kStripFragment = R"(
 in vec2 st; in vec2 across_dir; in vec3 paint; out vec4 color;
-uniform float length_px, depth_px, chamfer, soft, opacity;
+uniform float length_px, depth_px, chamfer;
 void main() {
     float ends = min(st.x, length_px - st.x), sides = min(st.y, depth_px - st.y);
-    if (soft > 0.0) {
-        color = vec4(0.0, 0.0, 0.0, opacity * smoothstep(-soft, soft, ends) * smoothstep(-soft, soft, sides));
-        return;
-    }
     float cover = clamp(ends + 0.5, 0.0, 1.0) * clamp(sides + 0.5, 0.0, 1.0);
     float w = clamp(st.y / depth_px, 0.0, 1.0), bevel = 1.0 - smoothstep(0.0, chamfer, sides);
     float lean = 0.28 * (2.0 * w - 1.0) + 0.62 * bevel * (w < 0.5 ? -1.0 : 1.0);
@@ -124,9 +131,9 @@ GLuint compile(GLenum kind, const std::vector<const char*>& parts) {
     return shader;
 }
 
-GLuint link(const char* vertex, const char* fragment) {
+GLuint link(const char* vertex, const char* functions, const char* fragment) {
     const GLuint program = glCreateProgram(), v = compile(GL_VERTEX_SHADER, {vertex}),
-                 f = compile(GL_FRAGMENT_SHADER, {"#version 330 core\n", kLight, fragment});
+                 f = compile(GL_FRAGMENT_SHADER, {"#version 330 core\n", functions, fragment});
     glAttachShader(program, v);
     glAttachShader(program, f);
     glLinkProgram(program);
@@ -248,8 +255,10 @@ class OsmesaRenderer final : public LitRenderer {
     void make_objects() {
         name_ = fmt::format("{} {}", reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
                             reinterpret_cast<const char*>(glGetString(GL_VERSION)));
-        round_ = link(kRoundVertex, kRoundFragment);
-        strip_ = link(kStripVertex, kStripFragment);
+        round_ = link(kRoundVertex, kLight, kRoundFragment);
+        round_shadow_ = link(kRoundVertex, "", kRoundShadow);
+        strip_ = link(kStripVertex, kLight, kStripFragment);
+        strip_shadow_ = link(kStripVertex, "", kStripShadow);
         glGenVertexArrays(1, &no_vertices_);
         glGenVertexArrays(1, &strip_vertices_);
         glGenBuffers(1, &buffer_);
@@ -275,18 +284,19 @@ class OsmesaRenderer final : public LitRenderer {
     }
 
     void draw_round(const LitRound& r, Vec2 shift, float soft, float opacity) {
-        glUseProgram(round_);
-        set(round_, "size", Vec2{double(width_), double(height_)});
-        set(round_, "centre", r.centre + shift);
-        set(round_, "reach", float(r.radius + 1.5 + soft));
-        set(round_, "radius", float(r.radius));
-        set(round_, "chamfer", float(r.chamfer));
-        set(round_, "hole", r.hole - r.centre);
-        set(round_, "hole_radius", float(r.hole_radius));
-        set(round_, "soft", soft);
-        set(round_, "opacity", opacity);
-        glUniform1i(glGetUniformLocation(round_, "finish"), finish_code(r.finish));
-        glUniform3f(glGetUniformLocation(round_, "paint"), float(r.color.r), float(r.color.g), float(r.color.b));
+        const GLuint program = soft > 0 ? round_shadow_ : round_;
+        glUseProgram(program);
+        set(program, "size", Vec2{double(width_), double(height_)});
+        set(program, "centre", r.centre + shift);
+        set(program, "reach", float(r.radius + 1.5 + soft));
+        set(program, "radius", float(r.radius));
+        set(program, "chamfer", float(r.chamfer));
+        set(program, "hole", r.hole - r.centre);
+        set(program, "hole_radius", float(r.hole_radius));
+        set(program, "soft", soft);
+        set(program, "opacity", opacity);
+        glUniform1i(glGetUniformLocation(program, "finish"), finish_code(r.finish));
+        glUniform3f(glGetUniformLocation(program, "paint"), float(r.color.r), float(r.color.g), float(r.color.b));
         glBindVertexArray(no_vertices_);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
@@ -308,14 +318,15 @@ class OsmesaRenderer final : public LitRenderer {
     void draw_strip(const LitStrip& strip, Vec2 shift, float soft, float opacity) {
         if (strip.face.size() < 2) return;
         const StripMesh mesh = strip_mesh(strip, 1.5 + soft);
-        glUseProgram(strip_);
-        set(strip_, "size", Vec2{double(width_), double(height_)});
-        set(strip_, "shift", shift);
-        set(strip_, "length_px", mesh.length);
-        set(strip_, "depth_px", mesh.depth);
-        set(strip_, "chamfer", float(strip.chamfer));
-        set(strip_, "soft", soft);
-        set(strip_, "opacity", opacity);
+        const GLuint program = soft > 0 ? strip_shadow_ : strip_;
+        glUseProgram(program);
+        set(program, "size", Vec2{double(width_), double(height_)});
+        set(program, "shift", shift);
+        set(program, "length_px", mesh.length);
+        set(program, "depth_px", mesh.depth);
+        set(program, "chamfer", float(strip.chamfer));
+        set(program, "soft", soft);
+        set(program, "opacity", opacity);
         glBindVertexArray(strip_vertices_);
         glBindBuffer(GL_ARRAY_BUFFER, buffer_);
         glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)),
@@ -326,7 +337,8 @@ class OsmesaRenderer final : public LitRenderer {
     int width_, height_;
     OSMesaContext context_ = nullptr;
     std::string name_;
-    GLuint round_ = 0, strip_ = 0, no_vertices_ = 0, strip_vertices_ = 0, buffer_ = 0;
+    GLuint round_ = 0, round_shadow_ = 0, strip_ = 0, strip_shadow_ = 0, no_vertices_ = 0, strip_vertices_ = 0,
+           buffer_ = 0;
 };
 
 }  // namespace

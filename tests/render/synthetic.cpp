@@ -113,6 +113,7 @@ render::FilmSetup synthetic_film(const Synthetic& how) {
     p.cam->centre = p.cam->centre * how.size, p.cam->radius *= how.size, p.cam->eccentricity *= how.size;
     p.cam->speed = how.speed;
     if (!how.cam) p.cam.reset();
+    if (how.half_depth) p.contact.offset.reset();
     film.title = "Flexible beam on a rotating eccentric cam";
     film.accuracy_note = "energy ledger closed to 3·10⁻¹⁰";
     const int frames = int(std::lround(how.duration * how.fps));

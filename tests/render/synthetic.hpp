@@ -15,7 +15,8 @@ struct Synthetic {
     double amplitude = 2e-3;  // of the vibration, tip [m per m of length]
     double size = 1;          // scales every length
     bool cam = true;
-    double speed = 5;  // of the cam [rad/s]
+    bool half_depth = false;  // contact.offset
+    double speed = 5;         // of the cam [rad/s]
 };
 
 sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, double t);
