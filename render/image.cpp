@@ -1,1 +1,2 @@
-namespace beamcam::render {}
+// Image is all in its header.
+#include "render/image.hpp"

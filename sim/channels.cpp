@@ -64,7 +64,8 @@ std::optional<Channel> channel_named(std::string_view text) {
     if (text.size() > 1 && text.front() == 'q' && text[1] != '0') {
         int index = 0;
         const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), index);
-        if (error == std::errc() && end == text.data() + text.size() && index >= 1) return Channel{ChannelKind::q, index};
+        if (error == std::errc() && end == text.data() + text.size() && index >= 1)
+            return Channel{ChannelKind::q, index};
     }
     return std::nullopt;
 }

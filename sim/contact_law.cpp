@@ -41,14 +41,22 @@ double restitution_residual(double d, double e) {
 
 double damping_factor(DampingLaw law, double c) {
     switch (law) {
-        case DampingLaw::none: return 0;
-        case DampingLaw::hunt_crossley: return 1.5 * (1 - c);
-        case DampingLaw::lankarani_nikravesh: return 0.75 * (1 - c * c);
-        case DampingLaw::herbert_mcwhannell: return 6 * (1 - c) / ((2 * c - 1) * (2 * c - 1) + 3);
-        case DampingLaw::lee_wang: return 0.75 * (1 - c);
-        case DampingLaw::gonthier: return (1 - c * c) / c;
-        case DampingLaw::flores: return 8 * (1 - c) / (5 * c);
-        case DampingLaw::hu_guo: return 1.5 * (1 - c) / c;
+        case DampingLaw::none:
+            return 0;
+        case DampingLaw::hunt_crossley:
+            return 1.5 * (1 - c);
+        case DampingLaw::lankarani_nikravesh:
+            return 0.75 * (1 - c * c);
+        case DampingLaw::herbert_mcwhannell:
+            return 6 * (1 - c) / ((2 * c - 1) * (2 * c - 1) + 3);
+        case DampingLaw::lee_wang:
+            return 0.75 * (1 - c);
+        case DampingLaw::gonthier:
+            return (1 - c * c) / c;
+        case DampingLaw::flores:
+            return 8 * (1 - c) / (5 * c);
+        case DampingLaw::hu_guo:
+            return 1.5 * (1 - c) / c;
         case DampingLaw::zhang_sharf: {
             if (c >= 1) return 0;
             // The residual starts negative for small D·(…)… its non-zero root lies below 1/c, where the

@@ -17,8 +17,8 @@ class DriveLaw {
     DriveLaw(const Drive& drive, double start_angle);
     bool prescribed() const { return prescribed_; }
     bool has_torque() const { return has_torque_; }
-    double torque(double t) const;      // [N m]; 0 unless a torque law
-    HubMotion motion(double t) const;   // only if prescribed; θ(0) is the initial angle, or the table's
+    double torque(double t) const;     // [N m]; 0 unless a torque law
+    HubMotion motion(double t) const;  // only if prescribed; θ(0) is the initial angle, or the table's
     // Instants > 0 where the law is not smooth: steps end there.
     const std::vector<double>& kinks() const { return kinks_; }
 

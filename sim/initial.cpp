@@ -62,7 +62,8 @@ bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& x
     const int n = model.size();
     Eigen::VectorXd x(n + 1), scale(n + 1), force(n);
     x << xi, 0;
-    scale << scales(problem, n), problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
+    scale << scales(problem, n),
+        problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         static_force(model, at.head(n), force);
         double theta = 0;
@@ -77,24 +78,40 @@ bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& x
     return found;
 }
 
-// Equilibrium on the cam at rest, at the cam's pose of time t: f(ξ) + JᵀN n = 0, N = Kδⁿ.
+// Equilibrium on the cam at rest, at the cam's pose of time t: f(ξ) + JᵀN n = 0 with N = Kδⁿ, or with
+// whatever N keeps the gap at zero (model `restitution`).
 bool rest(System& system, double t, Eigen::VectorXd& xi) {
     const int n = system.coordinates();
+    const Problem& problem = system.problem();
+    const bool rigid_contact = problem.contact.model == ContactModel::restitution;
     Model& model = system.model();
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
-    Eigen::VectorXd force(n);
+    const double stiffness = system.normal_law().stiffness;
+    const double weight = std::fabs(problem.gravity) * model.mass();
+    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), force(n);
+    x.head(n) = xi;
+    scale.head(n) = scales(problem, n);
+    if (rigid_contact) {
+        x[n] = 0.5 * weight;
+        scale[n] = std::max(weight, 1e-300);
+    }
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
         static_force(model, at, force);
         const ContactState c = system.contact(t, y.data(), true);
         double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize];
         model.jacobian(c.x, jx, jy, jchi);
-        // Linear for a separated beam, so that Newton finds its way back.
-        const double push = c.gap < 0 ? system.normal_law().elastic(-c.gap) : -c.gap * system.normal_law().stiffness * 1e-6;
+        // Compliant: linear for a separated beam, so that Newton finds its way back.
+        const double push = rigid_contact ? at[n]
+                            : c.gap < 0   ? system.normal_law().elastic(-c.gap)
+                                          : -c.gap * stiffness * 1e-6;
         for (int i = 0; i < n; ++i) force[i] += push * (jx[i] * c.normal.x + jy[i] * c.normal.y);
-        r = force;
+        r.head(n) = force;
+        if (rigid_contact) r[n] = c.gap * std::max(weight, 1e-300) / problem.beam.length;
     };
-    return newton(residual, xi, scales(system.problem(), n));
+    const bool found = newton(residual, x, scale);
+    xi = x.head(n);
+    return found && (!rigid_contact || x[n] >= 0);
 }
 
 }  // namespace
@@ -108,7 +125,8 @@ InitialState initial_state(const Problem& problem) {
     xi[0] = system.drive().prescribed() ? system.drive().motion(0).angle : problem.initial.angle;
     double* y = state.y.data();
     switch (problem.initial.shape) {
-        case InitialShape::straight: break;
+        case InitialShape::straight:
+            break;
         case InitialShape::static_equilibrium:
             if (!hold(problem, system.model(), xi[0], xi))
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
@@ -120,7 +138,10 @@ InitialState initial_state(const Problem& problem) {
             const double lie = std::atan2(disc.y, disc.x) + std::asin(std::min(1.0, reach / norm(disc)));
             const double lever = problem.hub.radius + 0.5 * problem.beam.length;
             const double weight = problem.gravity * system.model().mass() * lever * std::cos(lie) / norm(disc);
-            const double press = std::pow(std::max(weight, 0.0) / system.normal_law().stiffness, 1 / problem.contact.exponent);
+            const double press =
+                problem.contact.model == ContactModel::restitution
+                    ? 0
+                    : std::pow(std::max(weight, 0.0) / system.normal_law().stiffness, 1 / problem.contact.exponent);
             xi.setZero();
             xi[0] = lie - press / norm(disc);
             Phase phase;
@@ -137,6 +158,7 @@ InitialState initial_state(const Problem& problem) {
                 std::copy_n(rate.data(), n, y + n);
             }
             state.phase.touching = true;
+            state.phase.held = problem.contact.model == ContactModel::restitution;
             state.phase.approach = problem.contact.approach_floor.value;
             break;
         }

@@ -21,13 +21,13 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
     for (Eigen::Index k = 0; k < rule.x.size(); ++k) {
         const double x = rule.x[k], w = rho * rule.w[k];
         shapes.evaluate(x, y.data(), y1.data(), y2.data());
-        m.U += w * (a + x) * y;                                                        // (S8)
-        m.W += w * y;                                                                  // (S9)
+        m.U += w * (a + x) * y;  // (S8)
+        m.W += w * y;            // (S9)
         m.K += beam.bending_stiffness() * rule.w[k] * y2.cwiseAbs2();
-        m.M.noalias() += w * y * y.transpose();                                        // (S10)
+        m.M.noalias() += w * y * y.transpose();  // (S10)
         const double stiffening = a * (length - x) + 0.5 * (length * length - x * x);
-        m.D.noalias() += w * stiffening * y1 * y1.transpose();                         // (S11)
-        m.G.noalias() += w * (length - x) * y1 * y1.transpose();                       // (S12)
+        m.D.noalias() += w * stiffening * y1 * y1.transpose();    // (S11)
+        m.G.noalias() += w * (length - x) * y1 * y1.transpose();  // (S12)
         m.P0.noalias() += w * y1 * y1.transpose();
         m.P1.noalias() += w * x * y1 * y1.transpose();
         m.P2.noalias() += w * x * x * y1 * y1.transpose();
@@ -46,10 +46,38 @@ struct ModalModel::Tables {
     ModalMatrices m;
     Eigen::MatrixXd B;  // what multiplies θ̇² and qq in the inertia: M − D, or M
     Shapes shapes;
-    Eigen::MatrixXd slopes;  // φ′ at the nodes: nodes × N
-    SpectralIntegral integral;
+    std::vector<double> beta4;
+    Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
+    Eigen::MatrixXd root;        // what the antiderivative of φ_i′φ_j′ is at x = 0
     bool foreshortening = true;
 };
+
+namespace {
+
+// Σ_j A_ij(x) q_j with A_ij the antiderivative of φ_i′φ_j′, from φ⁗ = β⁴φ and by parts:          (S5a)
+//   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
+//   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
+template <class Tables>
+void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
+                    const double* y3, const double* q, double* out) {
+    const auto n = static_cast<int>(tables.beta4.size());
+    for (int i = 0; i < n; ++i) {
+        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+        for (int j = 0; j < n; ++j) {
+            const double c = tables.difference(j, i) * q[j];  // antisymmetric: the sign is turned below
+            s0 += c * tables.beta4[static_cast<std::size_t>(j)] * y[j];
+            s1 += c * y1[j];
+            s2 += c * y2[j];
+            s3 += c * y3[j];
+        }
+        const double b4 = tables.beta4[static_cast<std::size_t>(i)];
+        const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] -
+                                   y2[i] * y3[i] / b4);
+        out[i] = own * q[i] - (b4 * y[i] * s1 - y3[i] * s2 + y2[i] * s3 - y1[i] * s0);
+    }
+}
+
+}  // namespace
 
 ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.beam.model) {
     auto tables = std::make_shared<Tables>();
@@ -63,19 +91,22 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
     for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = m.slope[i];
 
     if (tables->foreshortening) {
-        // v′² oscillates with 2β_N ≈ 2π(N + ¼)/L. Interpolation by a polynomial converges once its degree
-        // passes half of that, πN, and then faster than any power: 20 more reach 1e-9 of u.
-        const Quadrature rule = gauss_legendre(7 * modes_ / 2 + 20, length_);
-        tables->integral = SpectralIntegral(rule, length_);
-        tables->slopes.resize(rule.x.size(), modes_);
-        Eigen::VectorXd y1(modes_);
-        for (Eigen::Index k = 0; k < rule.x.size(); ++k) {
-            tables->shapes.evaluate(rule.x[k], nullptr, y1.data(), nullptr);
-            tables->slopes.row(k) = y1.transpose();
+        tables->difference = tables->root = Eigen::MatrixXd::Zero(modes_, modes_);
+        for (int i = 0; i < modes_; ++i) tables->beta4.push_back(std::pow(tables->shapes.beta(i), 4));
+        for (int i = 0; i < modes_; ++i)
+            for (int j = 0; j < modes_; ++j)
+                if (i != j)
+                    tables->difference(i, j) =
+                        1 / (tables->beta4[static_cast<std::size_t>(i)] - tables->beta4[static_cast<std::size_t>(j)]);
+        Local here;
+        tables->shapes.evaluate(0, here.y, here.y1, here.y2, here.y3);
+        Eigen::VectorXd unit_coordinate = Eigen::VectorXd::Zero(modes_), column(modes_);
+        for (int j = 0; j < modes_; ++j) {
+            unit_coordinate[j] = 1;
+            antiderivative(*tables, 0, here.y, here.y1, here.y2, here.y3, unit_coordinate.data(), column.data());
+            tables->root.col(j) = column;
+            unit_coordinate[j] = 0;
         }
-        slope_.resize(rule.x.size());
-        slope_rate_.resize(rule.x.size());
-        weights_.resize(rule.x.size());
     }
     bq_ = gq_ = Eigen::VectorXd::Zero(modes_);
     tables_ = tables;
@@ -85,14 +116,29 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
 void ModalModel::state_changed() {
     sin_ = std::sin(xi_[0]);
     cos_ = std::cos(xi_[0]);
-    slopes_known_ = false;
+    turn_ = turn_rate_ = 0;
+    for (int i = 1; i < size_; ++i) {
+        turn_ += hub_row_[i] * xi_[i];
+        turn_rate_ += hub_row_[i] * rate_[i];
+    }
+    local_.shortened = false;
 }
 
-void ModalModel::slopes_at_nodes() const {
-    if (slopes_known_ || !tables_->foreshortening) return;
-    slope_.noalias() = tables_->slopes * Eigen::Map<const Eigen::VectorXd>(xi_ + 1, modes_);
-    slope_rate_.noalias() = tables_->slopes * Eigen::Map<const Eigen::VectorXd>(rate_ + 1, modes_);
-    slopes_known_ = true;
+const ModalModel::Local& ModalModel::at(double x) const {
+    if (local_.x != x) {
+        tables_->shapes.evaluate(x, local_.y, local_.y1, local_.y2, local_.y3);
+        local_.x = x;
+        local_.shortened = false;
+    }
+    if (tables_->foreshortening && !local_.shortened) shorten(local_);
+    return local_;
+}
+
+void ModalModel::shorten(Local& here) const {
+    antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, xi_ + 1, here.shortening);
+    for (int j = 0; j < modes_; ++j)
+        for (int i = 0; i < modes_; ++i) here.shortening[i] -= tables_->root(i, j) * xi_[1 + j];
+    here.shortened = true;
 }
 
 // first-order (S14), zeroth-order: D = G = 0, paper (S15):
@@ -157,33 +203,27 @@ double ModalModel::solve_held(double* f, double hub) const {
 }
 
 void ModalModel::point(double x, BeamPoint& p) const {
-    double y[kMaxModes], y1[kMaxModes], y2[kMaxModes];
-    tables_->shapes.evaluate(x, y, y1, y2);
-    double v = 0, v1 = 0, v2 = 0, dv = 0, dv1 = 0;
+    const Local& here = at(x);
+    double v = 0, v1 = 0, v2 = 0, dv = 0, dv1 = 0, qHq = 0, rHq = 0;
     for (int i = 0; i < modes_; ++i) {
         const double q = xi_[1 + i], dq = rate_[1 + i];
-        v += y[i] * q;
-        v1 += y1[i] * q;
-        v2 += y2[i] * q;
-        dv += y[i] * dq;
-        dv1 += y1[i] * dq;
+        v += here.y[i] * q;
+        v1 += here.y1[i] * q;
+        v2 += here.y2[i] * q;
+        dv += here.y[i] * dq;
+        dv1 += here.y1[i] * dq;
     }
     double u = 0, du = 0, u1 = 0, u2 = 0, du1 = 0;
     if (tables_->foreshortening) {
-        slopes_at_nodes();
-        tables_->integral.weights(x, weights_.data());
-        u = -0.5 * weights_.dot(slope_.cwiseAbs2());                   // (S5)
-        du = -weights_.dot(slope_.cwiseProduct(slope_rate_));
+        for (int i = 0; i < modes_; ++i) {
+            qHq += xi_[1 + i] * here.shortening[i];
+            rHq += rate_[1 + i] * here.shortening[i];
+        }
+        u = -0.5 * qHq - 0.5 * radius_ * turn_ * turn_;  // (S5), (S13)
+        du = -rHq - radius_ * turn_ * turn_rate_;
         u1 = -0.5 * v1 * v1;
         u2 = -v1 * v2;
         du1 = -v1 * dv1;
-        double turn = 0, turn_rate = 0;  // α, α̇ (S13)
-        for (int i = 1; i < size_; ++i) {
-            turn += hub_row_[i] * xi_[i];
-            turn_rate += hub_row_[i] * rate_[i];
-        }
-        u -= 0.5 * radius_ * turn * turn;
-        du -= radius_ * turn * turn_rate;
     }
     const Vec2 along{cos_, sin_}, across{-sin_, cos_};
     const double spin = rate_[0];
@@ -191,43 +231,52 @@ void ModalModel::point(double x, BeamPoint& p) const {
     p.r = rx * along + ry * across;
     p.r1 = (1 + u1) * along + v1 * across;
     p.r2 = u2 * along + v2 * across;
-    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;        // (S7)
+    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;  // (S7)
     p.v1 = (du1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
 }
 
 void ModalModel::jacobian(double x, double* jx, double* jy, double* jchi) const {
-    double y[kMaxModes], y1[kMaxModes];
-    tables_->shapes.evaluate(x, y, y1, nullptr);
-    double v = 0, v1 = 0;
-    for (int i = 0; i < modes_; ++i) {
-        v += y[i] * xi_[1 + i];
-        v1 += y1[i] * xi_[1 + i];
-    }
-    double u = 0, turn = 0;
+    const Local& here = at(x);
     const bool shortening = tables_->foreshortening;
-    if (shortening) {
-        slopes_at_nodes();
-        tables_->integral.weights(x, weights_.data());
-        weights_.array() *= slope_.array();
-        u = -0.5 * weights_.dot(slope_);
-        for (int i = 1; i < size_; ++i) turn += hub_row_[i] * xi_[i];
-        u -= 0.5 * radius_ * turn * turn;
+    double v = 0, v1 = 0, u = 0;
+    for (int i = 0; i < modes_; ++i) {
+        v += here.y[i] * xi_[1 + i];
+        v1 += here.y1[i] * xi_[1 + i];
+        if (shortening) u -= 0.5 * here.shortening[i] * xi_[1 + i];
     }
+    if (shortening) u -= 0.5 * radius_ * turn_ * turn_;
     const double rx = radius_ + x + u, t1 = shortening ? 1 - 0.5 * v1 * v1 : 1;
     const double speed2 = t1 * t1 + v1 * v1;
     jx[0] = -rx * sin_ - v * cos_;
     jy[0] = rx * cos_ - v * sin_;
     jchi[0] = 1;
     for (int i = 0; i < modes_; ++i) {
-        double ui = 0, ui1 = 0;
-        if (shortening) {
-            ui = -weights_.dot(tables_->slopes.col(i)) - radius_ * turn * hub_row_[1 + i];
-            ui1 = -v1 * y1[i];
-        }
-        jx[1 + i] = ui * cos_ - y[i] * sin_;
-        jy[1 + i] = ui * sin_ + y[i] * cos_;
-        jchi[1 + i] = (t1 * y1[i] - v1 * ui1) / speed2;
+        const double ui = shortening ? -here.shortening[i] - radius_ * turn_ * hub_row_[1 + i] : 0;
+        const double ui1 = shortening ? -v1 * here.y1[i] : 0;
+        jx[1 + i] = ui * cos_ - here.y[i] * sin_;
+        jy[1 + i] = ui * sin_ + here.y[i] * cos_;
+        jchi[1 + i] = (t1 * here.y1[i] - v1 * ui1) / speed2;
     }
+}
+
+// −Θ̇² r + 2Θ̇ k×(u̇, v̇) + (ü, 0) with ü = −q̇ᵀH(x)q̇ − aα̇², as in (S17).
+Vec2 ModalModel::convective(double x) const {
+    BeamPoint p;
+    point(x, p);
+    const Local& here = at(x);
+    const double spin = rate_[0];
+    const Vec2 along{cos_, sin_};
+    const Vec2 relative = p.v - spin * perp(p.r);
+    double bend = 0;
+    if (tables_->foreshortening) {
+        double h_rate[kMaxModes];
+        antiderivative(*tables_, x, here.y, here.y1, here.y2, here.y3, rate_ + 1, h_rate);
+        for (int j = 0; j < modes_; ++j)
+            for (int i = 0; i < modes_; ++i) h_rate[i] -= tables_->root(i, j) * rate_[1 + j];
+        for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
+        bend -= radius_ * turn_rate_ * turn_rate_;
+    }
+    return -spin * spin * p.r + 2 * spin * perp(relative) + bend * along;
 }
 
 double ModalModel::bending_moment(double x) const {

@@ -61,7 +61,8 @@ double Model::damping_power() const {
 
 void Model::build_damping(const Problem& problem) {
     const Beam& beam = problem.beam;
-    const bool by_ratio = std::any_of(beam.damping_ratio.begin(), beam.damping_ratio.end(), [](double z) { return z != 0; });
+    const bool by_ratio =
+        std::any_of(beam.damping_ratio.begin(), beam.damping_ratio.end(), [](double z) { return z != 0; });
     const bool by_time = beam.kelvin_voigt && *beam.kelvin_voigt > 0;
     if (modes_ == 0 || (!by_ratio && !by_time)) return;
     Eigen::MatrixXd mass(size_, size_), stiffness(size_, size_), centrifugal(size_, size_);
@@ -73,8 +74,10 @@ void Model::build_damping(const Problem& problem) {
     } else {
         // Modes of the free hub (Θ condensed out: it carries no stiffness) or of the held one (S20).
         Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n);
-        if (!is_prescribed(problem.hub.drive)) inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness.bottomRightCorner(n, n), inertia);
+        if (!is_prescribed(problem.hub.drive))
+            inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness.bottomRightCorner(n, n),
+                                                                              inertia);
         Eigen::VectorXd twice(n);
         for (Eigen::Index i = 0; i < n; ++i) {
             const std::size_t k = beam.damping_ratio.size() == 1 ? 0 : static_cast<std::size_t>(i);
@@ -101,9 +104,11 @@ std::unique_ptr<Model> make_model(const Problem& problem) {
         case ModelKind::rigid:
         case ModelKind::zeroth_order:
         case ModelKind::first_order:
-        case ModelKind::paper: return std::make_unique<ModalModel>(problem);
+        case ModelKind::paper:
+            return std::make_unique<ModalModel>(problem);
         case ModelKind::second_order:
-        case ModelKind::exact: return make_quadrature_model(problem);
+        case ModelKind::exact:
+            return make_quadrature_model(problem);
     }
     return nullptr;
 }

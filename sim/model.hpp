@@ -28,9 +28,9 @@ struct BeamPoint {
 };
 
 struct Energies {
-    double kinetic = 0;    // T [J]
-    double gravity = 0;    // V_g, zero at the height of O [J]
-    double elastic = 0;    // bending [J]
+    double kinetic = 0;  // T [J]
+    double gravity = 0;  // V_g, zero at the height of O [J]
+    double elastic = 0;  // bending [J]
 };
 
 class Model {
@@ -58,13 +58,15 @@ class Model {
     virtual void point(double x, BeamPoint& p) const = 0;
     // ∂r/∂ξ as rows of X and Y, and ∂χ/∂ξ of the angle χ of the tangent; arrays of `size`.
     virtual void jacobian(double x, double* jx, double* jy, double* jchi) const = 0;
+    // Acceleration of the point at ξ̈ = 0: (dJ/dt) ξ̇ [m/s²].
+    virtual Vec2 convective(double x) const = 0;
     virtual double bending_moment(double x) const = 0;  // EI κ [N m]
     virtual Energies energies() const = 0;
     double damping_power() const;  // q̇ᵀ C_d q̇ [W]
 
-    double hub_angle() const;                              // θ of the set state
-    double hub_rate() const;                               // θ̇
-    const double* hub_row() const { return hub_row_; }     // ∂θ/∂ξ
+    double hub_angle() const;                           // θ of the set state
+    double hub_rate() const;                            // θ̇
+    const double* hub_row() const { return hub_row_; }  // ∂θ/∂ξ
 
     // Linearized about the straight beam at rest, without gravity: dense, column-major, size²:
     // inertia and stiffness of (Θ, q), and the centrifugal stiffness per Ω² of the turning beam.

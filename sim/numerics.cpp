@@ -38,7 +38,8 @@ SpectralIntegral::SpectralIntegral(const Quadrature& nodes, double length)
     for (int k = 0; k < n; ++k) {
         legendre(2 * nodes.x[k] / length - 1, n, p.data());
         // c_j = (2j+1)/2 Σ_k w_k P_j(z_k) f_k on [−1, 1]; w of [0, L] carries L/2, ∫dx another L/2.
-        for (int j = 0; j < n; ++j) legendre_(j, k) = (2 * j + 1) / length * nodes.w[k] * p[static_cast<std::size_t>(j)] * length / 2;
+        for (int j = 0; j < n; ++j)
+            legendre_(j, k) = (2 * j + 1) / length * nodes.w[k] * p[static_cast<std::size_t>(j)] * length / 2;
     }
 }
 

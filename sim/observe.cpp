@@ -1,6 +1,7 @@
 #include "sim/observe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,31 +12,8 @@
 namespace beamcam::sim {
 namespace {
 
+constexpr int kMaxPieces = 24;  // looks a step at most
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// The largest value of f in [a, b] with an interior point m above both ends (golden section).
-template <class F>
-std::pair<double, double> peak(F&& f, double a, double b) {
-    constexpr double kRatio = 0.6180339887498949;
-    double x1 = b - kRatio * (b - a), x2 = a + kRatio * (b - a), f1 = f(x1), f2 = f(x2);
-    // A maximum is flat: half the digits of t give all digits of the value.
-    for (int i = 0; i < 60 && b - a > 1e-12 * std::max(std::fabs(a), std::fabs(b)); ++i) {
-        if (f1 > f2) {
-            b = x2;
-            x2 = x1;
-            f2 = f1;
-            x1 = b - kRatio * (b - a);
-            f1 = f(x1);
-        } else {
-            a = x1;
-            x1 = x2;
-            f1 = f2;
-            x2 = a + kRatio * (b - a);
-            f2 = f(x2);
-        }
-    }
-    return f1 > f2 ? std::pair{x1, f1} : std::pair{x2, f2};
-}
 
 }  // namespace
 
@@ -69,9 +47,12 @@ double Eye::value(Channel channel) {
     const Model& model = system_.model();
     const bool cam = system_.has_cam();
     switch (channel.kind) {
-        case ChannelKind::t: return t_;
-        case ChannelKind::theta: return model.hub_angle();
-        case ChannelKind::theta_dot: return model.hub_rate();
+        case ChannelKind::t:
+            return t_;
+        case ChannelKind::theta:
+            return model.hub_angle();
+        case ChannelKind::theta_dot:
+            return model.hub_rate();
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate: {
             // Across the tangent at the root, which is the hub's direction (S6).
@@ -82,28 +63,44 @@ double Eye::value(Channel channel) {
             if (channel.kind == ChannelKind::tip_deflection) return dot(span, across);
             return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
         }
-        case ChannelKind::contact_force: return cam ? contact().force : kNan;
-        case ChannelKind::friction_force: return cam ? contact().friction : kNan;
-        case ChannelKind::gap: return cam ? contact().gap : kNan;
-        case ChannelKind::contact_x: return cam ? contact().x : kNan;
+        case ChannelKind::contact_force:
+            return cam ? contact().force : kNan;
+        case ChannelKind::friction_force:
+            return cam ? contact().friction : kNan;
+        case ChannelKind::gap:
+            return cam ? contact().gap : kNan;
+        case ChannelKind::contact_x:
+            return cam ? contact().x : kNan;
         case ChannelKind::contact_s: {
             if (!cam) return kNan;
             const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
             const double full = 2 * std::numbers::pi;
             return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
         }
-        case ChannelKind::cam_angle: return cam ? system_.cam(t_).angle : kNan;
-        case ChannelKind::q: return channel.index < n ? y_[static_cast<std::size_t>(channel.index)] : kNan;
-        case ChannelKind::energy_kinetic: return books().energies.kinetic;
-        case ChannelKind::energy_potential: return books().energies.gravity;
-        case ChannelKind::energy_elastic: return books().energies.elastic;
-        case ChannelKind::energy_contact: return cam ? books().contact : kNan;
-        case ChannelKind::loss_structural: return books().loss_structural;
-        case ChannelKind::loss_contact: return cam ? books().loss_contact : kNan;
-        case ChannelKind::loss_friction: return cam ? books().loss_friction : kNan;
-        case ChannelKind::work_cam: return cam ? books().work_cam : kNan;
-        case ChannelKind::work_drive: return books().work_drive;
-        case ChannelKind::energy_residual: return books().total() - start_total_;
+        case ChannelKind::cam_angle:
+            return cam ? system_.cam(t_).angle : kNan;
+        case ChannelKind::q:
+            return channel.index < n ? y_[static_cast<std::size_t>(channel.index)] : kNan;
+        case ChannelKind::energy_kinetic:
+            return books().energies.kinetic;
+        case ChannelKind::energy_potential:
+            return books().energies.gravity;
+        case ChannelKind::energy_elastic:
+            return books().energies.elastic;
+        case ChannelKind::energy_contact:
+            return cam ? books().contact : kNan;
+        case ChannelKind::loss_structural:
+            return books().loss_structural;
+        case ChannelKind::loss_contact:
+            return cam ? books().loss_contact : kNan;
+        case ChannelKind::loss_friction:
+            return cam ? books().loss_friction : kNan;
+        case ChannelKind::work_cam:
+            return cam ? books().work_cam : kNan;
+        case ChannelKind::work_drive:
+            return books().work_drive;
+        case ChannelKind::energy_residual:
+            return books().total() - start_total_;
         case ChannelKind::separation:
         case ChannelKind::separation_paper: {
             if (!cam) return kNan;
@@ -122,7 +119,8 @@ double Eye::value(Channel channel) {
             model.point(0, root);
             const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
             const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
-            const double pull = 3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
+            const double pull =
+                3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
             return hub_acceleration_ * arm + (channel.kind == ChannelKind::separation ? pull : -pull);
         }
     }
@@ -167,12 +165,17 @@ Pose Eye::pose(int stations) {
 // ---- recorder --------------------------------------------------------------------------------
 
 Recorder::Recorder(const Problem& problem, const Request& request, Result& result)
-    : problem_(problem), request_(request), result_(result), eye_(problem), y_(static_cast<std::size_t>(eye_.system().size)) {
+    : problem_(problem),
+      request_(request),
+      result_(result),
+      eye_(problem),
+      y_(static_cast<std::size_t>(eye_.system().size)) {
     const auto ordered = [](const std::vector<double>& times) {
         Cursor cursor;
         cursor.order.resize(times.size());
         std::iota(cursor.order.begin(), cursor.order.end(), std::size_t{0});
-        std::stable_sort(cursor.order.begin(), cursor.order.end(), [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+        std::stable_sort(cursor.order.begin(), cursor.order.end(),
+                         [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
         return cursor;
     };
     for (const TableRequest& table : request.tables) {
@@ -185,6 +188,10 @@ Recorder::Recorder(const Problem& problem, const Request& request, Result& resul
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ordered(poses.times));
         result_.poses.emplace_back(poses.times.size());
+    }
+    for (const PointRequest& points : request.points) {
+        point_cursors_.push_back(ordered(points.times));
+        result_.points.emplace_back(points.times.size());
     }
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
@@ -205,7 +212,7 @@ void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
 int Recorder::pieces(const Stretch& s) {
     // Steps of high order span a good part of the fastest period: look a few times a radian.
     const double radians = (s.to - s.from) * eye_.system().highest_frequency();
-    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, 24.0));
+    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, double(kMaxPieces)));
 }
 
 template <class F>
@@ -225,12 +232,22 @@ void Recorder::sample(const Stretch& s) {
     for (std::size_t i = 0; i < request_.tables.size(); ++i) {
         const TableRequest& table = request_.tables[i];
         sweep(table.times, table_cursors_[i], s, [&](std::size_t row) {
-            for (std::size_t c = 0; c < table.channels.size(); ++c) result_.tables[i].values[c][row] = eye_.value(table.channels[c]);
+            for (std::size_t c = 0; c < table.channels.size(); ++c)
+                result_.tables[i].values[c][row] = eye_.value(table.channels[c]);
         });
     }
     for (std::size_t i = 0; i < request_.poses.size(); ++i) {
         const PoseRequest& poses = request_.poses[i];
-        sweep(poses.times, pose_cursors_[i], s, [&](std::size_t row) { result_.poses[i][row] = eye_.pose(poses.stations); });
+        sweep(poses.times, pose_cursors_[i], s,
+              [&](std::size_t row) { result_.poses[i][row] = eye_.pose(poses.stations); });
+    }
+    for (std::size_t i = 0; i < request_.points.size(); ++i) {
+        const PointRequest& points = request_.points[i];
+        sweep(points.times, point_cursors_[i], s, [&](std::size_t row) {
+            BeamPoint p;
+            eye_.system().model().point(points.x, p);
+            result_.points[i][row] = p.r;
+        });
     }
 }
 
@@ -249,13 +266,23 @@ void Recorder::turning_points(const Stretch& s) {
         at(t1, theta1, rate1);
         if (rate0 > 0 && rate1 <= 0) {
             double theta, rate;
-            const double t = find_root([&](double x) { at(x, theta, rate); return rate; }, t0, t1, rate0, rate1);
+            const double t = find_root(
+                [&](double x) {
+                    at(x, theta, rate);
+                    return rate;
+                },
+                t0, t1, rate0, rate1);
             at(t, theta, rate);
             result_.apexes.push_back({t, theta});
         }
         if ((theta0 > 0) != (theta1 > 0) && theta0 != 0) {
             double theta, rate;
-            const double t = find_root([&](double x) { at(x, theta, rate); return theta; }, t0, t1, theta0, theta1);
+            const double t = find_root(
+                [&](double x) {
+                    at(x, theta, rate);
+                    return theta;
+                },
+                t0, t1, theta0, theta1);
             at(t, theta, rate);
             result_.theta_zero.push_back({t, rate});
         }
@@ -268,28 +295,33 @@ void Recorder::turning_points(const Stretch& s) {
 void Recorder::contact_peaks(const Stretch& s) {
     if (!impact_open_) return;
     Impact& impact = result_.impacts.back();
-    const auto scan = [&](auto&& f, double& best) {
-        const int count = std::max(4, pieces(s));
-        std::vector<double> values(static_cast<std::size_t>(count) + 1);
-        const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
-        for (int i = 0; i <= count; ++i) {
-            values[static_cast<std::size_t>(i)] = f(time(i));
-            best = std::max(best, values[static_cast<std::size_t>(i)]);
-        }
-        for (int i = 1; i < count; ++i) {
-            const double left = values[static_cast<std::size_t>(i - 1)], here = values[static_cast<std::size_t>(i)],
-                         right = values[static_cast<std::size_t>(i + 1)];
-            if (here >= left && here >= right && here >= 0.9 * best && here > 0)
-                best = std::max(best, peak(f, time(i - 1), time(i + 1)).second);
-        }
-    };
     const auto contact_at = [&](double t) -> const ContactState& {
         s.segment->value(t, y_.data());
         eye_.look(t, y_.data());
         return eye_.contact();
     };
-    scan([&](double t) { return contact_at(t).force; }, impact.force_peak);
-    scan([&](double t) { return -contact_at(t).gap; }, impact.penetration_peak);
+    const auto force = [&](double t) { return contact_at(t).force; };
+    const auto depth = [&](double t) { return -contact_at(t).gap; };
+    const int count = std::max(4, pieces(s));
+    const auto time = [&](int i) { return i >= count ? s.to : s.from + (s.to - s.from) * i / count; };
+    std::array<double, kMaxPieces + 1> forces, depths;
+    for (int i = 0; i <= count; ++i) {
+        const ContactState& c = contact_at(time(i));
+        forces[static_cast<std::size_t>(i)] = c.force;
+        depths[static_cast<std::size_t>(i)] = -c.gap;
+    }
+    const auto refine = [&](const auto& values, const auto& f, double& best) {
+        for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
+        for (int i = 1; i < count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double left = values[k - 1], here = values[k], right = values[k + 1];
+            // Only what could exceed the best: a parabola through three points rises by less than its fall.
+            if (here < left || here < right || here + std::max(here - left, here - right) <= best) continue;
+            best = std::max(best, find_peak(f, time(i - 1), time(i + 1)).second);
+        }
+    };
+    refine(forces, force, impact.force_peak);
+    refine(depths, depth, impact.penetration_peak);
 }
 
 void Recorder::extrema(const Stretch& s) {
@@ -301,13 +333,20 @@ void Recorder::extrema(const Stretch& s) {
     for (int i = 0; i <= count; ++i) {
         s.segment->value(time(i), y_.data());
         eye_.look(time(i), y_.data());
-        for (std::size_t c = 0; c < channels; ++c) values[c][static_cast<std::size_t>(i)] = eye_.value(request_.extrema[c]);
+        for (std::size_t c = 0; c < channels; ++c)
+            values[c][static_cast<std::size_t>(i)] = eye_.value(request_.extrema[c]);
     }
     for (std::size_t c = 0; c < channels; ++c) {
         Extremum& e = result_.extrema[c];
         const auto offer = [&](double t, double v) {
-            if (v < e.min) { e.min = v; e.t_min = t; }
-            if (v > e.max) { e.max = v; e.t_max = t; }
+            if (v < e.min) {
+                e.min = v;
+                e.t_min = t;
+            }
+            if (v > e.max) {
+                e.max = v;
+                e.t_max = t;
+            }
         };
         const auto at = [&](double t) {
             s.segment->value(t, y_.data());
@@ -316,16 +355,17 @@ void Recorder::extrema(const Stretch& s) {
         };
         for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
         for (int i = 1; i < count; ++i) {
-            const double left = values[c][static_cast<std::size_t>(i - 1)], here = values[c][static_cast<std::size_t>(i)],
+            const double left = values[c][static_cast<std::size_t>(i - 1)],
+                         here = values[c][static_cast<std::size_t>(i)],
                          right = values[c][static_cast<std::size_t>(i + 1)];
             // Refine only what could become the extremum: a parabola rises by at most the larger step.
             const double rise = std::max(std::fabs(here - left), std::fabs(here - right));
             if (here >= left && here >= right && here > left + right - here && here + rise > e.max) {
-                const auto [t, v] = peak(at, time(i - 1), time(i + 1));
+                const auto [t, v] = find_peak(at, time(i - 1), time(i + 1));
                 offer(t, v);
             }
             if (here <= left && here <= right && here < left + right - here && here - rise < e.min) {
-                const auto [t, v] = peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
+                const auto [t, v] = find_peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
                 offer(t, -v);
             }
         }

@@ -72,7 +72,7 @@ class Recorder {
     Result& result_;
     Eye eye_;
     std::vector<double> y_;
-    std::vector<Cursor> table_cursors_, pose_cursors_;
+    std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     double start_total_ = 0;
     bool impact_open_ = false;
     double books_at_touch_lost_ = 0, impulse_n_at_touch_ = 0, impulse_t_at_touch_ = 0;

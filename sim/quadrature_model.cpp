@@ -219,6 +219,14 @@ class SecondOrderModel final : public QuadratureModel {
         }
     }
 
+    Vec2 convective(double x) const override {
+        BeamPoint p;
+        point(x, p);
+        const double spin = rate_[0], bend = -weights_.dot(dv1_.cwiseAbs2()) - radius_ * turn_rate_ * turn_rate_;
+        const Vec2 relative = p.v - spin * perp(p.r);
+        return -spin * spin * p.r + 2 * spin * perp(relative) + bend * Vec2{cos_, sin_};  // (S17)
+    }
+
     double bending_moment(double x) const override {
         double y2[kMaxModes];
         shapes_.evaluate(x, nullptr, nullptr, y2);
@@ -345,6 +353,13 @@ class ExactModel final : public QuadratureModel {
             jy[1 + i] = sy;
             jchi[1 + i] = value[i];
         }
+    }
+
+    Vec2 convective(double x) const override {
+        integral_.weights(x, weights_.data());
+        const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())),
+                         weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
+        return -radius_ * rate_[0] * rate_[0] * unit(xi_[0]) - inner;  // (S19)
     }
 
     double bending_moment(double x) const override {

@@ -103,7 +103,7 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
     return shapes;
 }
 
-void Shapes::evaluate(double x, double* y, double* y1, double* y2) const {
+void Shapes::evaluate(double x, double* y, double* y1, double* y2, double* y3) const {
     for (std::size_t i = 0; i < beta_.size(); ++i) {
         const Coefficients& k = coefficients_[i];
         const double beta = beta_[i], bx = beta * x;
@@ -113,6 +113,7 @@ void Shapes::evaluate(double x, double* y, double* y1, double* y2) const {
         if (y) y[i] = wave + near + far;
         if (y1) y1[i] = beta * (k.b * c - k.a * s - near + far);
         if (y2) y2[i] = beta * beta * (near + far - wave);
+        if (y3) y3[i] = beta * beta * beta * (k.a * s - k.b * c - near + far);
     }
 }
 

@@ -4,17 +4,16 @@
 //
 // A segment is the Nordsieck polynomial of the step, which is CVODE's own dense output.
 #include <cvode/cvode.h>
+#include <fmt/format.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_config.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "sim/integrator.hpp"
@@ -39,7 +38,11 @@ void check(int flag, const char* call) {
 class Cvode final : public Integrator, private Segment {
   public:
     Cvode(Method method, Ode& ode, double rtol, double atol)
-        : ode_(ode), rtol_(rtol), atol_(atol), n_(static_cast<std::size_t>(ode.size)), bdf_(method == Method::cvode_bdf) {
+        : ode_(ode),
+          rtol_(rtol),
+          atol_(atol),
+          n_(static_cast<std::size_t>(ode.size)),
+          bdf_(method == Method::cvode_bdf) {
         if (SUNContext_Create(BEAMCAM_NO_COMM, &context_) != 0) throw StepFailure("the integrator could not be set up");
         y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
         work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
@@ -70,13 +73,13 @@ class Cvode final : public Integrator, private Segment {
 
     const Segment& step() override {
         t0 = t1;
-        if (std::isfinite(stop_) && stop_ > t0)
-            check(CVodeSetStopTime(memory_, stop_), "the stop time");
+        if (std::isfinite(stop_) && stop_ > t0) check(CVodeSetStopTime(memory_, stop_), "the stop time");
         double reached = t0;
-        const int flag = CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + 1e3, y_, &reached, CV_ONE_STEP);
+        const int flag =
+            CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + 1e3, y_, &reached, CV_ONE_STEP);
         if (flag < 0) {
-            const char* reason = flag == CV_TOO_MUCH_ACC ? "the tolerance is below rounding"
-                                 : flag == CV_ERR_FAILURE ? "the error test failed again and again"
+            const char* reason = flag == CV_TOO_MUCH_ACC   ? "the tolerance is below rounding"
+                                 : flag == CV_ERR_FAILURE  ? "the error test failed again and again"
                                  : flag == CV_CONV_FAILURE ? "the nonlinear iteration did not converge"
                                                            : "the integrator gave up";
             throw StepFailure(reason);
@@ -181,7 +184,9 @@ class Cvode final : public Integrator, private Segment {
         check(CVodeWFtolerances(memory_, &Cvode::weights), "the tolerances");
         check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
         // Failures come back as flags and are told once, by us.
-        check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*) {}, nullptr), "the start");
+        check(CVodeSetErrHandlerFn(
+                  memory_, [](int, const char*, const char*, char*, void*) {}, nullptr),
+              "the start");
         if (bdf_) {
             matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);

@@ -10,6 +10,7 @@
 
 #include "sim/contact_law.hpp"
 #include "sim/drive.hpp"
+#include "sim/impulse.hpp"
 #include "sim/integrator.hpp"
 #include "sim/model.hpp"
 #include "sim/problem.hpp"
@@ -17,14 +18,24 @@
 namespace beamcam::sim {
 
 // Integrals kept beside the state.
-enum Ledger : int { kLossStructural, kNormalWork, kFrictionWork, kWorkCam, kWorkDrive, kImpulseN, kImpulseT, kLedgerSize };
+enum Ledger : int {
+    kLossStructural,
+    kNormalWork,
+    kFrictionWork,
+    kWorkCam,
+    kWorkDrive,
+    kImpulseN,
+    kImpulseT,
+    kLedgerSize
+};
 
 // stick-slip friction: sticking, or sliding towards +t or −t.
 enum class Grip { stick, slide_plus, slide_minus };
 
 struct Phase {
     bool touching = false;
-    double approach = 1;    // δ̇₋ of this touch, floored [m/s]
+    bool held = false;    // touching under a constraint (model `restitution`), not by penetration
+    double approach = 1;  // δ̇₋ of this touch, floored [m/s]
     Grip grip = Grip::stick;
     double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
 };
@@ -38,14 +49,14 @@ struct CamPose {
 
 // The beam against the cam at one state; everything of MODEL.md §7.
 struct ContactState {
-    double x = 0;       // x_c [m]
+    double x = 0;  // x_c [m]
     bool at_end = false;
     Vec2 normal, tangent;
     double gap = 0, gap_rate = 0;  // [m], [m/s]
-    double slip = 0;    // v_t [m/s]
-    double force = 0;   // N [N]
-    double friction = 0;// F_t on the beam along t [N]
-    double factor = 1;  // 1 + D δ̇/δ̇₋ (clamp where negative)
+    double slip = 0;               // v_t [m/s]
+    double force = 0;              // N [N]
+    double friction = 0;           // F_t on the beam along t [N]
+    double factor = 1;             // 1 + D δ̇/δ̇₋ (clamp where negative)
 };
 
 class System final : public Ode {
@@ -83,8 +94,8 @@ class System final : public Ode {
         Energies energies;
         double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
         double total() const {
-            return energies.kinetic + energies.gravity + energies.elastic + contact + loss_structural + loss_contact + loss_friction -
-                   work_cam - work_drive;
+            return energies.kinetic + energies.gravity + energies.elastic + contact + loss_structural + loss_contact +
+                   loss_friction - work_cam - work_drive;
         }
     };
     Books books(double t, const double* y);
@@ -93,8 +104,8 @@ class System final : public Ode {
 
     // Bristle deflection that carries the sliding force: where z is put at slip (S36).
     double sliding_bristle(const ContactState& contact) const;
-    // Speed of the bristle's foot over the cam in the direction of sliding: v_t − ż of a bristle with a
-    // dashpot, which lags behind its force; only then is z a state while sliding (S36).
+    // Speed of the bristle's foot over the cam in the direction of sliding, v_t − ż. A bristle with a
+    // dashpot lags behind its force; only then is z a state while sliding (S36).
     double foot_speed(const double* y, const ContactState& contact) const;
     bool bristle_lags() const { return bristle_damping_ > 0; }
     double bristle_stiffness() const { return bristle_stiffness_; }
@@ -107,12 +118,27 @@ class System final : public Ode {
     double highest_frequency() const { return highest_frequency_; }
 
     bool inertia_lost() const { return inertia_lost_; }
+    // Impulsive contact: how the contact point answers, and the jump of ξ̇ and of the ledger in y.
+    Compliance compliance(double t, const double* y, const ContactState& c);
+    void strike(double t, double* y, const ContactState& c, const ImpactResult& impact);
+    // Rate of the gap's rate if nothing pushed: < 0 presses on the cam [m/s²].
+    double free_gap_acceleration(double t, const double* y);
+
     long gap_evaluations = 0;
 
   private:
     Vec2 foot(Vec2 disc, bool search, ContactState& c);
     double friction_force(const double* y, ContactState& c) const;
+    ContactState contact_geometry(double t, bool search);
+    void add_torque(double t, double* f) const;
+    double move(double t, double* acc) const;
+    void contact_rows(const ContactState& c, double* jn, double* jt) const;
+    double gap_acceleration_at_rest(double t, const ContactState& c) const;
+    void respond(double* f) const;
+    double hold(double t, ContactState& c, double* acc, bool pushed);
     double bristle_rate(const double* y, const ContactState& c) const;
+    // Forces and inertia of the model; false when the inertia that must answer is not positive.
+    bool assemble(double* f);
     double bending_reach(const double* coordinates) const;
 
     Problem problem_;
@@ -126,6 +152,8 @@ class System final : public Ode {
     double mu_ = 0, mu_static_ = 0, slip_speed_ = 1e-3, bristle_stiffness_ = 0, bristle_damping_ = 0;
     double highest_frequency_ = 0;
     double x_last_ = 0;
+    double settle_ = 0, free_gap_acceleration_ = 0;
+    double answer_[kMaxSize] = {};
     BeamPoint at_;
     bool inertia_lost_ = false, search_next_ = true;
 };

@@ -1,0 +1,247 @@
+#include "render/canvas.hpp"
+
+#include <cairo.h>
+#include <fmt/format.h>
+#include <pango/pangocairo.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/error.hpp"
+#include "render/font_handles.hpp"
+
+namespace beamcam::render {
+
+std::string escape(std::string_view plain) {
+    char* escaped = g_markup_escape_text(plain.data(), static_cast<gssize>(plain.size()));
+    std::string out = escaped;
+    g_free(escaped);
+    return out;
+}
+
+// STIX is a little smaller on the body than Inter; 112 % matches the x-heights.
+std::string math(std::string_view symbol) {
+    return fmt::format("<span face='STIXGeneral' style='italic' weight='normal' size='112%'>{}</span>", symbol);
+}
+
+struct Canvas::Handles {
+    cairo_surface_t* surface = nullptr;
+    cairo_t* cr = nullptr;
+    ~Handles() {
+        if (cr) cairo_destroy(cr);
+        if (surface) {
+            cairo_surface_flush(surface);
+            cairo_surface_destroy(surface);
+        }
+    }
+};
+
+namespace {
+
+cairo_surface_t* surface_of(const Image& image) {
+    // Cairo writes only through surfaces that are drawn to; sources are read.
+    auto* bytes = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(image.pixels.data()));
+    return cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
+}
+
+void use(cairo_t* cr, Color c) { cairo_set_source_rgba(cr, c.r, c.g, c.b, c.a); }
+
+// The source, its corner at (x, y), within a rectangle of whole pixels: no edge is blended.
+void blend(cairo_t* cr, const Image& source, int x, int y, int left, int top, int width, int height) {
+    if (width <= 0 || height <= 0) return;
+    cairo_surface_t* surface = surface_of(source);
+    cairo_set_source_surface(cr, surface, x, y);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    cairo_rectangle(cr, left, top, width, height);
+    cairo_fill(cr);
+    use(cr, {});
+    cairo_surface_destroy(surface);
+}
+
+PangoWeight pango(Weight weight) {
+    switch (weight) {
+        case Weight::regular:
+            return PANGO_WEIGHT_NORMAL;
+        case Weight::medium:
+            return PANGO_WEIGHT_MEDIUM;
+        case Weight::semibold:
+            return PANGO_WEIGHT_SEMIBOLD;
+    }
+    return PANGO_WEIGHT_NORMAL;
+}
+
+// Sets the layout up; figures are tabular so that running numbers do not jitter.
+void prepare(PangoLayout* layout, const std::string& markup, const TextStyle& style) {
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, "Inter,STIXGeneral,Noto Sans CJK SC");
+    pango_font_description_set_weight(font, pango(style.weight));
+    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    pango_layout_set_ellipsize(layout, style.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
+    pango_layout_set_width(layout, style.max_width > 0 ? static_cast<int>(style.max_width * PANGO_SCALE) : -1);
+    const std::string wrapped = "<span font_features='tnum=1'>" + markup + "</span>";
+    pango_layout_set_markup(layout, wrapped.c_str(), static_cast<int>(wrapped.size()));
+}
+
+struct Metrics {
+    Box ink;          // relative to the baseline's start
+    double advance;   // [px]
+    double baseline;  // from the layout's top
+};
+
+Metrics metrics(PangoLayout* layout) {
+    PangoRectangle ink, logical;
+    pango_layout_get_extents(layout, &ink, &logical);
+    const double k = 1.0 / PANGO_SCALE, baseline = pango_layout_get_baseline(layout) * k;
+    return {{ink.x * k, ink.y * k - baseline, ink.width * k, ink.height * k}, logical.width * k, baseline};
+}
+
+}  // namespace
+
+Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), fonts_(fonts) {
+    handles_->surface = surface_of(image);
+    handles_->cr = cairo_create(handles_->surface);
+    if (cairo_status(handles_->cr) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn: {}", image.width, image.height,
+                                       cairo_status_to_string(cairo_status(handles_->cr))));
+    cairo_set_line_join(handles_->cr, CAIRO_LINE_JOIN_ROUND);
+}
+Canvas::~Canvas() = default;
+
+void Canvas::move_to(Vec2 p) { cairo_move_to(handles_->cr, p.x, p.y); }
+void Canvas::line_to(Vec2 p) { cairo_line_to(handles_->cr, p.x, p.y); }
+void Canvas::close() { cairo_close_path(handles_->cr); }
+
+void Canvas::polyline(std::span<const Vec2> points) {
+    bool pen_down = false;
+    for (Vec2 p : points) {
+        if (std::isnan(p.x) || std::isnan(p.y)) {
+            pen_down = false;
+        } else {
+            pen_down ? line_to(p) : move_to(p);
+            pen_down = true;
+        }
+    }
+}
+
+void Canvas::arc(Vec2 c, double radius, double from, double to) {
+    if (to >= from)
+        cairo_arc_negative(handles_->cr, c.x, c.y, radius, -from, -to);
+    else
+        cairo_arc(handles_->cr, c.x, c.y, radius, -from, -to);
+}
+
+void Canvas::circle(Vec2 c, double radius) {
+    cairo_new_sub_path(handles_->cr);
+    cairo_arc(handles_->cr, c.x, c.y, radius, 0, 2 * std::numbers::pi);
+    cairo_close_path(handles_->cr);
+}
+
+void Canvas::rectangle(const Box& b) { cairo_rectangle(handles_->cr, b.x, b.y, b.w, b.h); }
+
+void Canvas::rounded(const Box& b, double r) {
+    constexpr double q = std::numbers::pi / 2;
+    cairo_t* cr = handles_->cr;
+    cairo_new_sub_path(cr);
+    cairo_arc(cr, b.right() - r, b.y + r, r, -q, 0);
+    cairo_arc(cr, b.right() - r, b.bottom() - r, r, 0, q);
+    cairo_arc(cr, b.x + r, b.bottom() - r, r, q, 2 * q);
+    cairo_arc(cr, b.x + r, b.y + r, r, 2 * q, 3 * q);
+    cairo_close_path(cr);
+}
+
+void Canvas::fill(Color c) {
+    use(handles_->cr, c);
+    cairo_fill(handles_->cr);
+}
+void Canvas::fill_keeping_path(Color c) {
+    use(handles_->cr, c);
+    cairo_fill_preserve(handles_->cr);
+}
+void Canvas::fill_even_odd(Color c) {
+    cairo_set_fill_rule(handles_->cr, CAIRO_FILL_RULE_EVEN_ODD);
+    fill(c);
+    cairo_set_fill_rule(handles_->cr, CAIRO_FILL_RULE_WINDING);
+}
+void Canvas::stroke(const Pen& pen) {
+    cairo_t* cr = handles_->cr;
+    use(cr, pen.color);
+    cairo_set_line_width(cr, pen.width);
+    cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
+    cairo_stroke(cr);
+}
+
+void Canvas::paint(Color c) {
+    use(handles_->cr, c);
+    cairo_paint(handles_->cr);
+}
+
+// A shaft and a filled head; an arrow shorter than its head is a smaller head.
+void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
+    const Vec2 way = to - from;
+    const double length = norm(way);
+    if (!(length > 0)) return;
+    const Vec2 u = way * (1 / length), v = sim::perp(u);
+    const double tip = std::min(head, length);
+    const Vec2 neck = to - u * tip;
+    if (length > tip) {
+        move_to(from);
+        line_to(neck + u * (0.2 * tip));
+        stroke({pen.color, pen.width, {}, Cap::butt});
+    }
+    move_to(to);
+    line_to(neck + v * (0.42 * tip));
+    line_to(neck - v * (0.42 * tip));
+    close();
+    fill(pen.color);
+}
+
+void Canvas::image_until(const Image& source, int x, int y, int end) {
+    blend(handles_->cr, source, x, y, x, y, std::clamp(end - x, 0, source.width), source.height);
+}
+
+void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
+    const int x0 = std::clamp(static_cast<int>(std::floor(part.x)), 0, source.width);
+    const int y0 = std::clamp(static_cast<int>(std::floor(part.y)), 0, source.height);
+    const int x1 = std::clamp(static_cast<int>(std::ceil(part.right())), x0, source.width);
+    const int y1 = std::clamp(static_cast<int>(std::ceil(part.bottom())), y0, source.height);
+    blend(handles_->cr, source, x, y, x + x0, y + y0, x1 - x0, y1 - y0);
+}
+
+void Canvas::smooth_edges(bool on) {
+    cairo_set_antialias(handles_->cr, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+}
+
+Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = fonts_.handles().layout;
+    prepare(layout, markup, style);
+    const Metrics m = metrics(layout);
+    double x = baseline.x;
+    if (style.align == Align::centre) x -= m.advance / 2;
+    if (style.align == Align::right) x -= m.advance;
+    cairo_t* cr = handles_->cr;
+    cairo_move_to(cr, x, baseline.y - m.baseline);
+    if (style.halo) {
+        pango_cairo_layout_path(cr, layout);
+        stroke({*style.halo, 0.30 * style.size});
+        cairo_move_to(cr, x, baseline.y - m.baseline);
+    }
+    use(cr, style.color);
+    pango_cairo_show_layout(cr, layout);
+    cairo_new_path(cr);
+    const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
+    if (record) record->push_back(ink);
+    return {x, ink.y, m.advance, ink.h};
+}
+
+Box Canvas::measure(const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = fonts_.handles().layout;
+    prepare(layout, markup, style);
+    const Metrics m = metrics(layout);
+    return {0, m.ink.y, m.advance, m.ink.h};
+}
+
+}  // namespace beamcam::render

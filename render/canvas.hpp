@@ -1,0 +1,83 @@
+// Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
+//
+// Text is Pango markup (`escape` what users wrote). Every text drawn can be recorded, so that tests
+// check that labels keep to their boxes and apart from each other.
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/color.hpp"
+#include "render/fonts.hpp"
+#include "render/geometry.hpp"
+#include "render/image.hpp"
+
+namespace beamcam::render {
+
+std::string escape(std::string_view plain);
+std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
+
+enum class Weight { regular, medium, semibold };
+enum class Align { left, centre, right };
+struct TextStyle {
+    double size = 16;  // [px]
+    Color color = {};
+    Weight weight = Weight::regular;
+    Align align = Align::left;
+    double max_width = 0;            // > 0: cut with an ellipsis there [px]
+    std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
+};
+
+enum class Cap { butt, round };
+struct Pen {
+    Color color;
+    double width = 1;               // [px]
+    std::vector<double> dash = {};  // [px]
+    Cap cap = Cap::round;
+};
+
+class Canvas {
+  public:
+    Canvas(Image& image, const Fonts& fonts);
+    ~Canvas();
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
+
+    void move_to(Vec2 p);
+    void line_to(Vec2 p);
+    void polyline(std::span<const Vec2> points);  // NaN breaks the line
+    void close();
+    void arc(Vec2 centre, double radius, double from, double to);  // angles counter-clockwise, Y up [rad]
+    void circle(Vec2 centre, double radius);
+    void rectangle(const Box& box);
+    void rounded(const Box& box, double radius);
+    void fill(Color color);
+    void fill_keeping_path(Color color);
+    void fill_even_odd(Color color);
+    void stroke(const Pen& pen);
+    void paint(Color color);
+    void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
+
+    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards], or what
+    // lies left of the picture's column `end`. Whole pixels.
+    void image_part(const Image& source, int x, int y, const Box& part);
+    void image_until(const Image& source, int x, int y, int end);
+    void smooth_edges(bool on);
+
+    Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
+    Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
+
+    std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
+
+  private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+    const Fonts& fonts_;
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,41 @@
+// Colours as drawn (sRGB, 0…1, not premultiplied), and the palette of each theme.
+//
+// Meanings are fixed throughout: blue is the beam and motion, vermilion is contact, grey is reference.
+// Blue and vermilion are told apart with every common colour deficiency.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace beamcam::render {
+
+struct Color {
+    double r = 0, g = 0, b = 0, a = 1;
+    constexpr Color faded(double alpha) const { return {r, g, b, a * alpha}; }
+    constexpr bool operator==(const Color&) const = default;
+};
+constexpr Color rgb(std::uint32_t hex) {
+    return {((hex >> 16) & 255) / 255.0, ((hex >> 8) & 255) / 255.0, (hex & 255) / 255.0, 1};
+}
+constexpr Color mix(Color a, Color b, double share_of_b) {
+    const double s = share_of_b, k = 1 - s;
+    return {a.r * k + b.r * s, a.g * k + b.g * s, a.b * k + b.b * s, a.a * k + b.a * s};
+}
+
+enum class Theme { light, dark, print };
+
+struct Palette {
+    Color paper, ink, muted, faint, grid;
+    Color motion, motion_faint;    // beam, curves of motion; what is still to come
+    Color contact, contact_faint;  // forces
+    Color steel, steel_edge, pin;  // disc, outline, hub
+    std::array<Color, 5> moment;   // −1, −½, 0, ½, 1 of the scale
+    std::array<Color, 3> force;    // 0, ½, 1 of the scale
+    double shadow = 0.3;           // opacity of the soft shadow in lit views
+};
+const Palette& palette(Theme theme);
+
+Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
+Color force_color(const Palette& palette, double share);   // 0…1
+
+}  // namespace beamcam::render

@@ -1,0 +1,106 @@
+#include "render/fonts.hpp"
+
+#include <fmt/format.h>
+#include <pango/pangofc-fontmap.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/error.hpp"
+#include "render/font_handles.hpp"
+
+namespace beamcam::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FontFile {
+    const char* name;
+    const char* package;  // Debian's
+};
+
+constexpr std::array kFiles{FontFile{"Inter-Regular.otf", "fonts-inter"}, FontFile{"Inter-Medium.otf", "fonts-inter"},
+                            FontFile{"Inter-SemiBold.otf", "fonts-inter"},
+                            FontFile{"STIXGeneral-Regular.otf", "fonts-stix"},
+                            FontFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
+constexpr std::array kCjkFiles{FontFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
+                               FontFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
+
+std::vector<fs::path> folders() {
+    if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
+    return {"/usr/share/fonts/opentype/inter", "/usr/share/fonts/opentype/stix", "/usr/share/fonts/opentype/noto",
+            "/usr/share/fonts/truetype/inter", "/usr/local/share/fonts"};
+}
+
+fs::path locate(const FontFile& file) {
+    std::string tried;
+    for (const fs::path& folder : folders()) {
+        std::error_code unreadable;
+        if (fs::is_regular_file(folder / file.name, unreadable)) return folder / file.name;
+        tried += (tried.empty() ? "" : ", ") + folder.string();
+    }
+    throw FontError(
+        fmt::format("font {} not found (looked in {}); install the Debian package {}, or set "
+                    "BEAMCAM_FONT_DIR to a folder that holds it",
+                    file.name, tried, file.package));
+}
+
+void add(FcConfig* config, const FontFile& file) {
+    const std::string path = locate(file).string();
+    if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(path.c_str())))
+        throw FontError(
+            fmt::format("font {} cannot be read as a font; reinstall the Debian package {}", path, file.package));
+}
+
+}  // namespace
+
+// UTF-8 lead bytes: U+2E80 and above starts with E2 BA; everything from E3 on is beyond it. U+E000…
+// U+FFFF (EE, EF) holds punctuation of the same scripts (full-width forms).
+bool needs_cjk(std::string_view utf8) {
+    for (std::size_t i = 0; i < utf8.size(); ++i) {
+        const auto lead = static_cast<unsigned char>(utf8[i]);
+        if (lead >= 0xE3 && lead <= 0xF4) return true;
+        if (lead == 0xE2 && i + 1 < utf8.size() && static_cast<unsigned char>(utf8[i + 1]) >= 0xBA) return true;
+    }
+    return false;
+}
+
+Fonts::Handles::~Handles() {
+    if (layout) g_object_unref(layout);
+    if (context) g_object_unref(context);
+    if (map) g_object_unref(map);
+    if (config) FcConfigDestroy(config);
+}
+
+Fonts::Fonts(bool cjk) : handles_(std::make_unique<Handles>()) {
+    Handles& h = *handles_;
+    h.config = FcConfigCreate();  // empty: no system file is read
+    if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
+    for (const FontFile& file : kFiles) add(h.config, file);
+    if (cjk)
+        for (const FontFile& file : kCjkFiles) add(h.config, file);
+
+    h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
+    if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");
+    pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(h.map), h.config);
+    pango_cairo_font_map_set_resolution(PANGO_CAIRO_FONT_MAP(h.map), 72);
+    h.context = pango_font_map_create_context(h.map);
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(h.context, options);
+    cairo_font_options_destroy(options);
+    pango_context_set_round_glyph_positions(h.context, FALSE);
+    pango_context_set_language(h.context, pango_language_from_string("en"));  // not the locale's
+    h.layout = pango_layout_new(h.context);
+}
+
+Fonts::~Fonts() = default;
+Fonts::Fonts(Fonts&&) noexcept = default;
+Fonts& Fonts::operator=(Fonts&&) noexcept = default;
+
+}  // namespace beamcam::render

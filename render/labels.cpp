@@ -1,0 +1,86 @@
+#include "render/labels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/canvas.hpp"
+#include "render/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+std::string equation(const char* symbol, const std::string& value) { return math(symbol) + "\u2009=\u2009" + value; }
+
+std::string contact_piece(const sim::Problem& problem) {
+    if (problem.contact.model == sim::ContactModel::restitution)
+        return equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+    const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
+                                            fmt::format("\u00A0N\u2009m<sup>−{:.3g}</sup>", problem.contact.exponent));
+    if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
+    return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+}
+
+struct FrictionPiece {
+    std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
+    std::string operator()(const sim::CoulombFriction& f) const {
+        return equation("μ", fmt::format("{:.3g}", f.coefficient));
+    }
+    std::string operator()(const sim::StickSlipFriction& f) const {
+        return equation("μ", fmt::format("{:.3g}", f.coefficient)) + ", stick–slip";
+    }
+};
+
+}  // namespace
+
+std::string power_text(double value, int digits) {
+    if (value == 0) return "0";
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
+    const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
+    const std::string power = fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
+    return mantissa == "1" ? power : mantissa + "·" + power;
+}
+
+std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
+    std::vector<std::string> out;
+    out.push_back(equation("L", quantity(problem.beam.length, "m")));
+    if (problem.cam) {
+        out.push_back(equation("R", quantity(problem.cam->radius, "m")));
+        out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));
+    }
+    if (problem.beam.model == sim::ModelKind::rigid)
+        out.push_back("rigid beam");
+    else
+        out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
+                                  problem.beam.modes == 1 ? "" : "s"));
+    if (problem.cam) {
+        out.push_back(contact_piece(problem));
+        out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));
+    }
+    return out;
+}
+
+TimeFormat time_format(const std::vector<double>& times) {
+    TimeFormat out;
+    const double span = std::max(std::abs(times.front()), std::abs(times.back()));
+    if (span > 0 && span < 0.1) {
+        const Prefix p = prefix_for(span);
+        static constexpr struct { const char *prefix, *symbol; } kUnits[] = {{"m", "ms"}, {"µ", "µs"}, {"n", "ns"}};
+        for (const auto& u : kUnits)
+            if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
+    }
+    double step = times.back() > times.front() ? times.back() - times.front() : out.unit;
+    for (std::size_t i = 1; i < times.size(); ++i)
+        if (times[i] > times[i - 1]) step = std::min(step, times[i] - times[i - 1]);
+    // One digit beyond the smallest step, so that every frame's reading differs; 9 is a nanosecond.
+    out.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(step / out.unit))), 1, 9);
+    return out;
+}
+
+std::string clock_text(const TimeFormat& format, double t) {
+    return math("t") + "\u2009=\u2009" + fixed(t / format.unit, format.decimals) + "\u00A0" + format.symbol;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,58 @@
+// The lit view: shaded metal through OpenGL (OSMesa, core profile), orthographic, seen from the front.
+//
+// Light and shadow come from normals computed per pixel (chamfers, turned faces, brushed lengths); edges are
+// antialiased by the distance to the shape, which is smoother than four samples and needs none. The renderer lives in
+// a module of its own (gl/osmesa.cpp) that is loaded when a lit picture is drawn, and only then. A machine without it
+// gets GlError, which names the package and the flat view.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/color.hpp"
+#include "render/geometry.hpp"
+#include "render/image.hpp"
+
+namespace beamcam::render {
+
+enum class Finish { turned, plain, dome, dimple };
+
+struct LitRound {
+    Vec2 centre;  // [px] of the picture, as all here
+    double radius = 0;
+    Vec2 hole;  // centre of the bore
+    double hole_radius = 0;
+    double chamfer = 3;
+    Color color;
+    Finish finish = Finish::plain;
+    bool shadow = true;
+};
+
+struct LitStrip {
+    std::vector<Vec2> face, back;  // both edges, same count >= 2
+    std::vector<Color> colors;
+    double chamfer = 5;
+};
+
+struct LitScene {
+    std::vector<LitRound> behind;  // in this order, then the strip, then `front`
+    LitStrip strip;
+    std::vector<LitRound> front;
+    double unit = 1;
+    double shadow = 0.3;  // opacity
+};
+
+// What the module provides; one thread at a time.
+class LitRenderer {
+  public:
+    virtual ~LitRenderer() = default;
+    // Premultiplied pixels on a transparent ground, of the size given at creation.
+    virtual void draw(const LitScene& scene, Image& out) = 0;
+    virtual std::string name() const = 0;  // the driver's, for fingerprints
+};
+
+// Throws GlError.
+std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height);
+
+}  // namespace beamcam::render

@@ -1,0 +1,39 @@
+// Round numbers: steps of 1, 2 and 5 times a power of ten, for axes, scale bars and factors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace beamcam::render {
+
+// The largest of … 0.1, 0.2, 0.5, 1, 2, 5, 10 … that is <= value, or the smallest >= value. value > 0.
+double round_down_125(double value);
+double round_up_125(double value);
+
+// Marks at multiples of a 1-2-5 step within [low, high] (rounding slack of 1e-9 steps), at most
+// `most` of them; the step is the smallest that allows it. low < high, most >= 2.
+struct Ticks {
+    double step = 1;
+    int decimals = 0;  // that tell neighbours apart
+    std::vector<double> values;
+};
+Ticks ticks(double low, double high, int most);
+
+// [low, high] widened outwards to multiples of the step that `ticks` would choose.
+struct Range {
+    double low = 0, high = 1;
+};
+Range round_range(double low, double high, int most);
+
+std::string fixed(double value, int decimals);  // with a true minus sign; never "−0"
+
+// Three significant digits with an SI prefix: quantity(0.02, "m") is "20 mm"; a no-break space between.
+std::string quantity(double value, const char* unit, int digits = 3);
+// The SI prefix that suits values up to `largest`: its symbol and factor ("m", 1e-3).
+struct Prefix {
+    const char* symbol;
+    double factor;
+};
+Prefix prefix_for(double largest);
+
+}  // namespace beamcam::render

@@ -1,0 +1,57 @@
+#include "render/trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+const std::vector<double>* column(const sim::Table& table, sim::ChannelKind kind) {
+    for (std::size_t c = 0; c < table.channels.size(); ++c)
+        if (table.channels[c].kind == kind && c < table.values.size()) return &table.values[c];
+    return nullptr;
+}
+
+std::size_t place(double share, std::size_t places) {
+    const double at = std::floor(share * static_cast<double>(places));
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(places - 1)));
+}
+
+}  // namespace
+
+std::vector<TraceSample> contact_samples(const sim::Table& table) {
+    using Kind = sim::ChannelKind;
+    const auto *t = column(table, Kind::t), *x = column(table, Kind::contact_x), *s = column(table, Kind::contact_s),
+               *force = column(table, Kind::contact_force);
+    std::vector<TraceSample> out;
+    if (!t || !x || !s || !force) return out;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        if ((*force)[i] > 0 && !std::isnan((*x)[i]) && !std::isnan((*s)[i]))
+            out.push_back({(*t)[i], (*x)[i], (*s)[i], (*force)[i]});
+    std::ranges::stable_sort(out, {}, &TraceSample::t);
+    return out;
+}
+
+Trace::Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
+             std::size_t beam_places)
+    : samples_(samples), circumference_(circumference), length_(length), rim_(rim_places), beam_(beam_places) {}
+
+void Trace::show_until(double t) {
+    const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
+    const auto until = static_cast<std::size_t>(after - samples_.begin());
+    if (until < shown_) {
+        std::ranges::fill(rim_, 0.0F);
+        std::ranges::fill(beam_, 0.0F);
+        shown_ = 0;
+    }
+    for (; shown_ < until; ++shown_) {
+        const TraceSample& sample = samples_[shown_];
+        const double turns = sample.s / circumference_;
+        float& on_rim = rim_[place(turns - std::floor(turns), rim_.size())];
+        float& on_beam = beam_[place(sample.x / length_, beam_.size())];
+        on_rim = std::max(on_rim, static_cast<float>(sample.force));
+        on_beam = std::max(on_beam, static_cast<float>(sample.force));
+    }
+}
+
+}  // namespace beamcam::render
