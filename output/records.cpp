@@ -107,8 +107,10 @@ std::string impacts_json(const sim::Result& result) {
 
 std::string impacts_csv(const sim::Result& result) {
     std::string text;
-    for_each_field(sim::Impact{},
-                   [&text](const char* name, const auto&) { text += (text.empty() ? "" : ",") + std::string(name); });
+    for_each_field(sim::Impact{}, [&text](const char* name, const auto&) {
+        if (!text.empty()) text += ',';
+        text += name;
+    });
     text += '\n';
     for (const sim::Impact& impact : result.impacts) {
         std::string line;
