@@ -1,2 +1,4 @@
 // The program: arguments in, exit code out.
-int main() { return 0; }
+#include "scenes/cli.hpp"
+
+int main(int argc, char** argv) { return beamcam::scenes::command_line(argc, argv); }

@@ -12,10 +12,30 @@
 namespace beamcam::sim {
 
 enum class ChannelKind {
-    t, theta, theta_dot, tip_deflection, tip_rate, contact_force, friction_force, gap, contact_x, contact_s, cam_angle,
+    t,
+    theta,
+    theta_dot,
+    tip_deflection,
+    tip_rate,
+    contact_force,
+    friction_force,
+    gap,
+    contact_x,
+    contact_s,
+    cam_angle,
     q,  // q1…qN, with Channel::index
-    energy_kinetic, energy_potential, energy_elastic, energy_contact, loss_structural, loss_contact, loss_friction,
-    work_cam, work_drive, energy_residual, separation, separation_paper
+    energy_kinetic,
+    energy_potential,
+    energy_elastic,
+    energy_contact,
+    loss_structural,
+    loss_contact,
+    loss_friction,
+    work_cam,
+    work_drive,
+    energy_residual,
+    separation,
+    separation_paper
 };
 
 struct Channel {
@@ -24,7 +44,7 @@ struct Channel {
     bool operator==(const Channel&) const = default;
 };
 
-std::string name(Channel channel);              // "theta", "q1"
+std::string name(Channel channel);                          // "theta", "q1"
 const char* unit(Channel channel, const Problem& problem);  // "rad", "m", "" for none
 // The channel of that name, or nothing. q indices are checked against the problem by `all_channels`.
 std::optional<Channel> channel_named(std::string_view name);

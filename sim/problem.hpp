@@ -20,23 +20,23 @@ struct FreeDrive {};
 struct ConstantTorque {
     double value = 0;  // [N m], positive counter-clockwise
 };
-struct HarmonicTorque {  // amplitude · sin(2π·frequency·t + phase)
+struct HarmonicTorque {    // amplitude · sin(2π·frequency·t + phase)
     double amplitude = 0;  // [N m]
     double frequency = 0;  // [Hz], >= 0
     double phase = 0;      // [rad]
 };
-struct TorqueTable {  // linear between the points, held constant outside them
+struct TorqueTable {             // linear between the points, held constant outside them
     std::vector<double> t;       // [s], strictly increasing, at least one
     std::vector<double> torque;  // [N m]
 };
 struct ConstantSpeed {
     double speed = 0;  // [rad/s], positive counter-clockwise
 };
-struct SpinUp {  // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω   (Kane, Ryan & Banerjee 1987)
+struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω   (Kane, Ryan & Banerjee 1987)
     double speed = 0;     // Ω [rad/s]
     double duration = 1;  // T [s], > 0
 };
-struct AngleTable {  // C²: natural cubic spline through the points; at rest outside them
+struct AngleTable {             // C²: natural cubic spline through the points; at rest outside them
     std::vector<double> t;      // [s], strictly increasing, at least two
     std::vector<double> theta;  // [rad]
 };
@@ -57,45 +57,55 @@ enum class ModelKind { rigid, zeroth_order, first_order, paper, second_order, ex
 enum class Basis { automatic, cantilever, hub_beam };
 
 struct Beam {
-    double length = 1;                 // L [m], > 0
-    double area = 7.2968e-5;           // A [m²], > 0
-    double second_moment = 8.2189e-9;  // I [m⁴], > 0
-    double density = 2766.7;           // ρ [kg/m³], > 0
-    double youngs_modulus = 6.8952e10; // E [Pa], > 0
-    double poisson_ratio = 0.3;        // ν [–], −1 < ν < 0.5; Hertz stiffness only
-    double depth = 0.0368;             // h [m], > 0; drawn, and the contact offset "half-depth"
+    double length = 1;                  // L [m], > 0
+    double area = 7.2968e-5;            // A [m²], > 0
+    double second_moment = 8.2189e-9;   // I [m⁴], > 0
+    double density = 2766.7;            // ρ [kg/m³], > 0
+    double youngs_modulus = 6.8952e10;  // E [Pa], > 0
+    double poisson_ratio = 0.3;         // ν [–], −1 < ν < 0.5; Hertz stiffness only
+    double depth = 0.0368;              // h [m], > 0; drawn, and the contact offset "half-depth"
     ModelKind model = ModelKind::first_order;
-    Basis basis = Basis::automatic;    // automatic: cantilever for prescribed drive and `paper`, else hub-beam
-    int modes = 2;                     // N, 1…40; ignored by `rigid`
-    std::vector<double> damping_ratio; // ζ_i [–], >= 0; empty: none; one value: all modes; else one per mode
-    std::optional<double> kelvin_voigt;// η [s], >= 0; excludes damping_ratio
+    Basis basis = Basis::automatic;      // automatic: cantilever for prescribed drive and `paper`, else hub-beam
+    int modes = 2;                       // N, 1…40; ignored by `rigid`
+    std::vector<double> damping_ratio;   // ζ_i [–], >= 0; empty: none; one value: all modes; else one per mode
+    std::optional<double> kelvin_voigt;  // η [s], >= 0; excludes damping_ratio
 
-    double line_density() const { return density * area; }                 // ρA [kg/m]
+    double line_density() const { return density * area; }                       // ρA [kg/m]
     double bending_stiffness() const { return youngs_modulus * second_moment; }  // EI [N m²]
 };
 
 // ---- cam -------------------------------------------------------------------------------------
 
 struct Cam {
-    Vec2 centre{0.25, 0};         // C, the axis of rotation [m]
-    double radius = 0.1;          // R [m], > 0
-    double eccentricity = 0.02;   // e [m], 0 <= e < R
-    double phase = 0;             // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
-    double speed = 1;             // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
+    Vec2 centre{0.25, 0};                  // C, the axis of rotation [m]
+    double radius = 0.1;                   // R [m], > 0
+    double eccentricity = 0.02;            // e [m], 0 <= e < R
+    double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
+    double speed = 1;                      // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
     std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; the beam's when absent
-    double poisson_ratio = 0.3;   // [–]
+    double poisson_ratio = 0.3;            // [–]
 };
 
 // ---- contact ---------------------------------------------------------------------------------
 
 enum class ContactModel { compliant, restitution };
-enum class DampingLaw { none, hunt_crossley, lankarani_nikravesh, herbert_mcwhannell, lee_wang, gonthier, flores, hu_guo, zhang_sharf };
+enum class DampingLaw {
+    none,
+    hunt_crossley,
+    lankarani_nikravesh,
+    herbert_mcwhannell,
+    lee_wang,
+    gonthier,
+    flores,
+    hu_guo,
+    zhang_sharf
+};
 enum class ImpactLaw { newton, poisson, stronge };
 
 struct NoFriction {};
 struct CoulombFriction {
-    double coefficient = 0.2;   // μ [–], >= 0
-    double slip_speed = 1e-3;   // v_s [m/s], > 0: regularization of compliant contact
+    double coefficient = 0.2;  // μ [–], >= 0
+    double slip_speed = 1e-3;  // v_s [m/s], > 0: regularization of compliant contact
 };
 struct StickSlipFriction {
     double coefficient = 0.2;                  // μ, kinetic [–], >= 0
@@ -116,12 +126,12 @@ struct Contact {
     std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: "hertz", from the materials
     double exponent = 1.5;                  // n [–], 1…2
     DampingLaw damping = DampingLaw::lankarani_nikravesh;
-    double restitution = 0.7;               // c_r [–], 0…1
-    ImpactLaw law = ImpactLaw::newton;      // of the model `restitution`
+    double restitution = 0.7;           // c_r [–], 0…1
+    ImpactLaw law = ImpactLaw::newton;  // of the model `restitution`
     Friction friction;
-    std::optional<double> offset = 0.0;     // d [m], >= 0, of the contact face; absent: "half-depth"
+    std::optional<double> offset = 0.0;  // d [m], >= 0, of the contact face; absent: "half-depth"
     ApproachFloor approach_floor;
-    double collision_gap = 0.02;            // [s]: impacts closer than this form one collision
+    double collision_gap = 0.02;  // [s]: impacts closer than this form one collision
 };
 
 // ---- initial state, solver -------------------------------------------------------------------
@@ -152,9 +162,9 @@ struct Problem {
 
 // ---- derived ---------------------------------------------------------------------------------
 
-Basis resolved_basis(const Problem& problem);            // never `automatic`
-double contact_stiffness(const Problem& problem);        // K, Hertz evaluated [N/m^n]
-double contact_offset(const Problem& problem);           // d [m]
+Basis resolved_basis(const Problem& problem);      // never `automatic`
+double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
+double contact_offset(const Problem& problem);     // d [m]
 // Dissipation factor D_c of F = Kδⁿ(1 + D_c δ̇/δ̇₋) for a pre-set restitution c.
 double damping_factor(DampingLaw law, double restitution);
 // The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].

@@ -21,19 +21,19 @@ namespace beamcam::sim {
 
 // One touch, from approach to release. Speeds: v_n < 0 approaches; v_t is beam minus cam material.
 struct Impact {
-    double t_start = 0;                  // [s]
-    std::optional<double> t_end;         // absent: still touching at the end of the run
-    double x = 0;                        // contact_x at touch [m]
-    double cam_angle = 0;                // ψ at touch [rad]
-    double v_n_before = 0, v_t_before = 0;                // at touch [m/s]
-    std::optional<double> v_n_after, v_t_after;           // at release [m/s]
-    std::optional<double> duration;                       // [s]
-    double force_peak = 0;               // [N]
-    double penetration_peak = 0;         // [m]
-    double impulse_n = 0, impulse_t = 0; // [N s]
-    std::optional<double> restitution;   // −v_n_after / v_n_before
-    double energy_lost = 0;              // contact + friction losses between touch and release [J]
-    int collision = 0;                   // 0-based index into the collisions
+    double t_start = 0;                          // [s]
+    std::optional<double> t_end;                 // absent: still touching at the end of the run
+    double x = 0;                                // contact_x at touch [m]
+    double cam_angle = 0;                        // ψ at touch [rad]
+    double v_n_before = 0, v_t_before = 0;       // at touch [m/s]
+    std::optional<double> v_n_after, v_t_after;  // at release [m/s]
+    std::optional<double> duration;              // [s]
+    double force_peak = 0;                       // [N]
+    double penetration_peak = 0;                 // [m]
+    double impulse_n = 0, impulse_t = 0;         // [N s]
+    std::optional<double> restitution;           // −v_n_after / v_n_before
+    double energy_lost = 0;                      // contact + friction losses between touch and release [J]
+    int collision = 0;                           // 0-based index into the collisions
 };
 
 // Impacts closer than contact.collision_gap.
@@ -57,7 +57,7 @@ struct Extremum {
 };
 
 struct Counters {
-    long steps = 0;             // accepted
+    long steps = 0;  // accepted
     long rejected = 0;
     long rhs_evaluations = 0;
     long gap_evaluations = 0;
@@ -67,36 +67,43 @@ struct Counters {
 // What is wanted. Times may lie in any order, must be >= 0, and the run extends to the largest of
 // them and of `end_time`.
 struct TableRequest {
-    std::vector<double> times;      // [s]; rows come in this order
+    std::vector<double> times;  // [s]; rows come in this order
     std::vector<Channel> channels;
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]
     int stations = 97;          // points along the centre line, >= 2
 };
+// The path of a material point of the centre line.
+struct PointRequest {
+    double x = 0;               // arc position, 0…L [m]
+    std::vector<double> times;  // [s]
+};
 struct Request {
-    double end_time = 0;                // [s]
+    double end_time = 0;  // [s]
     std::vector<TableRequest> tables;
     std::vector<PoseRequest> poses;
-    std::vector<Channel> extrema;       // located on the dense output
-    bool horizon = false;               // until when θ is reproducible; costs a second run
+    std::vector<PointRequest> points;
+    std::vector<Channel> extrema;  // located on the dense output
+    bool horizon = false;          // until when θ is reproducible; costs a second run
 };
 
 struct Result {
-    double end_time = 0;  // reached [s]
-    std::vector<Table> tables;               // one per TableRequest
-    std::vector<std::vector<Pose>> poses;    // one per PoseRequest, in the order of its times
+    double end_time = 0;                    // reached [s]
+    std::vector<Table> tables;              // one per TableRequest
+    std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times
+    std::vector<std::vector<Vec2>> points;  // one per PointRequest [m]
     std::vector<Impact> impacts;
     std::vector<Collision> collisions;
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
-    std::vector<Extremum> extrema;           // one per Request::extrema
-    double energy_residual_max = 0;          // [J]
-    double energy_scale = 0;                 // [J]
+    std::vector<Extremum> extrema;             // one per Request::extrema
+    double energy_residual_max = 0;            // [J]
+    double energy_scale = 0;                   // [J]
     std::optional<double> reproducible_until;  // [s]
     Counters counters;
     double wall_seconds = 0;
-    std::vector<std::string> warnings;       // in the user's terms
+    std::vector<std::string> warnings;  // in the user's terms
 };
 
 // The integration could not go on (exit code 4). `partial` holds what was reached by then.

@@ -12,7 +12,11 @@ struct Vec2 {
     constexpr Vec2 operator-(Vec2 o) const { return {x - o.x, y - o.y}; }
     constexpr Vec2 operator-() const { return {-x, -y}; }
     constexpr Vec2 operator*(double s) const { return {x * s, y * s}; }
-    constexpr Vec2& operator+=(Vec2 o) { x += o.x; y += o.y; return *this; }
+    constexpr Vec2& operator+=(Vec2 o) {
+        x += o.x;
+        y += o.y;
+        return *this;
+    }
     constexpr bool operator==(const Vec2&) const = default;
 };
 constexpr Vec2 operator*(double s, Vec2 v) { return {s * v.x, s * v.y}; }

@@ -1,0 +1,131 @@
+#include "output/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <random>
+#include <utility>
+
+namespace beamcam::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// ".fall.mp4.3f9c01d2.part"; the middle is shortened where the file system's 255 bytes would not hold it.
+std::string hidden_name(const std::string& file_name, unsigned random) {
+    constexpr std::size_t kLongestKept = 200;
+    char suffix[24];
+    std::snprintf(suffix, sizeof suffix, ".%08x.part", random);
+    return "." + file_name.substr(0, kLongestKept) + suffix;
+}
+
+// The file that a chain of symbolic links ends at, whether it exists yet or not.
+fs::path followed(const fs::path& target) {
+    constexpr int kLongestChain = 40;  // as in Linux
+    fs::path path = fs::absolute(target);
+    std::error_code error;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == kLongestChain) throw write_error(target, ELOOP);
+        const fs::path next = fs::read_symlink(path, error);
+        if (error) throw write_error(target, error.value());
+        path = path.parent_path() / next;  // an absolute `next` stands alone
+    }
+    return path;
+}
+
+void refuse_what_is_no_file(const fs::path& target, const fs::path& real) {
+    if (!real.has_filename())
+        throw IoError("cannot write " + target.string() + ": it names a directory; add a file name");
+    std::error_code error;
+    const fs::file_status status = fs::status(real, error);
+    if (!fs::exists(status) || fs::is_regular_file(status)) return;
+    if (fs::is_directory(status)) throw write_error(target, EISDIR);
+    throw IoError("cannot write " + target.string() + ": it is a device or a pipe, which cannot be replaced by a file");
+}
+
+void sync_directory(const fs::path& directory) {
+    const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;  // the file itself is safe; some file systems do not open directories
+    fsync(descriptor);
+    close(descriptor);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(target), real_(followed(target)) {
+    refuse_what_is_no_file(target_, real_);
+    std::random_device random;
+    for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
+        temporary_ = real_.parent_path() / hidden_name(real_.filename().string(), random());
+        // Registered first: a signal between the two lines must not leave the file behind.
+        registered_.emplace(temporary_);
+        descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // less the umask
+        if (descriptor_ < 0 && errno != EEXIST) throw write_error(target_, errno);
+    }
+    if (descriptor_ < 0) throw write_error(target_, EEXIST);
+    pending_ = true;
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (pending_) unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw write_error(target_, errno);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::commit(Durability durability) {
+    if (!pending_) throw std::logic_error("AtomicFile: " + target_.string() + " is committed already");
+    if (durability == Durability::synced && fsync(descriptor_) != 0) throw write_error(target_, errno);
+    // Closed before it is renamed: network file systems report a full disk only here.
+    if (close(std::exchange(descriptor_, -1)) != 0) throw write_error(target_, errno);
+    if (rename(temporary_.c_str(), real_.c_str()) != 0) throw write_error(target_, errno);
+    pending_ = false;
+    registered_.reset();
+    if (durability == Durability::synced) sync_directory(real_.parent_path());
+}
+
+void write_file(const fs::path& target, std::string_view bytes, Durability durability) {
+    AtomicFile file(target);
+    file.write(bytes);
+    file.commit(durability);
+}
+
+void ensure_directory(const fs::path& directory) {
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (!error && !fs::is_directory(directory)) error = std::make_error_code(std::errc::not_a_directory);
+    if (error) throw IoError("cannot make the directory " + directory.string() + ": " + error.message());
+}
+
+std::string read_file(const fs::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throw read_error(file, errno);
+    std::string content;
+    constexpr std::size_t kChunk = 1 << 20;
+    for (;;) {
+        const std::size_t used = content.size();
+        content.resize(used + kChunk);
+        const ssize_t got = read(descriptor, content.data() + used, kChunk);
+        content.resize(used + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+        if (got < 0 && errno == EINTR) continue;
+        const int error_number = errno;
+        if (got > 0) continue;
+        close(descriptor);
+        if (got < 0) throw read_error(file, error_number);
+        return content;
+    }
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,36 @@
+// What can go wrong between a picture in memory and a file on disk, in the user's terms: every
+// message names the file and the remedy. The command line maps each type to its exit code.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace beamcam::output {
+
+// A file could not be read or written: full disk, missing directory, no permission.   Exit code 6.
+struct IoError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// A file stands where an output should go, and beamcam did not make it or it was changed since.   Exit code 6.
+struct WouldOverwrite : IoError {
+    using IoError::IoError;
+};
+
+// The video module, or the encoder in it, is not on this machine.   Exit code 5.
+struct MissingCodec : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// The scene asks for something that a writer cannot do, such as a film of odd size.   Exit code 3.
+struct UnsupportedOption : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// "cannot write out/fall.mp4: No space left on device; free some space or …" from an errno value.
+IoError write_error(const std::filesystem::path& file, int error_number);
+// "cannot read film.mp4: No such file or directory".
+IoError read_error(const std::filesystem::path& file, int error_number);
+
+}  // namespace beamcam::output

@@ -1,0 +1,18 @@
+// Numbers as text: independent of the locale, 17 significant digits, so that reading gives the same bits.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace beamcam::output {
+
+// Appends the value; nothing where it is undefined (NaN).
+inline void append_number(std::string& text, double value) {
+    if (std::isnan(value)) return;
+    char buffer[32];  // sign, 17 digits, point, e, sign, 3 digits: 25
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
+    text.append(buffer, end.ptr);
+}
+
+}  // namespace beamcam::output

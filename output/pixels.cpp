@@ -1,0 +1,53 @@
+#include "output/pixels.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace beamcam::output {
+
+namespace {
+
+std::uint32_t unpremultiplied(std::uint32_t channel, std::uint32_t alpha) {
+    return alpha == 0 ? 0 : std::min<std::uint32_t>((channel * 255 + alpha / 2) / alpha, 255);
+}
+
+void put_rgba(std::uint32_t pixel, char* out) {
+    const std::uint32_t alpha = pixel >> 24;
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t channel = pixel >> (16 - 8 * i) & 0xff;
+        out[i] = static_cast<char>(alpha == 255 ? channel : unpremultiplied(channel, alpha));
+    }
+    out[3] = static_cast<char>(alpha);
+}
+
+}  // namespace
+
+bool is_opaque(const render::Image& image) {
+    std::uint32_t all = 0xff000000;
+    for (std::uint32_t pixel : image.pixels) all &= pixel;
+    return all >= 0xff000000;
+}
+
+std::string rgb_bytes(const render::Image& image) {
+    std::string bytes(image.pixels.size() * 3, '\0');
+    char* out = bytes.data();
+    for (std::uint32_t pixel : image.pixels) {
+        out[0] = static_cast<char>(pixel >> 16 & 0xff);
+        out[1] = static_cast<char>(pixel >> 8 & 0xff);
+        out[2] = static_cast<char>(pixel & 0xff);
+        out += 3;
+    }
+    return bytes;
+}
+
+std::string rgba_bytes(const render::Image& image) {
+    std::string bytes(image.pixels.size() * 4, '\0');
+    char* out = bytes.data();
+    for (std::uint32_t pixel : image.pixels) {
+        put_rgba(pixel, out);
+        out += 4;
+    }
+    return bytes;
+}
+
+}  // namespace beamcam::output

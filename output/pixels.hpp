@@ -1,0 +1,17 @@
+// The pixels of an Image as files and digests see them: bytes, colour not premultiplied.
+#pragma once
+
+#include <string>
+
+#include "render/image.hpp"
+
+namespace beamcam::output {
+
+bool is_opaque(const render::Image& image);
+
+// R, G, B per pixel, rows top to bottom; right for opaque images only.
+std::string rgb_bytes(const render::Image& image);
+// R, G, B, A per pixel: c = round(255 c' / a) for the premultiplied c', 0 where a = 0.
+std::string rgba_bytes(const render::Image& image);
+
+}  // namespace beamcam::output

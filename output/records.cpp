@@ -1,0 +1,182 @@
+#include "output/records.hpp"
+
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "output/atomic_file.hpp"
+#include "output/numbers.hpp"
+
+namespace beamcam::output {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A value of any member below, absent ones as null. NaN and infinities become null as well: JSON has no other word.
+template <typename T>
+Json json_of(const T& value) {
+    return value;
+}
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+// Calls visit(name, value) for every field, in the order of the file; JSON and CSV share it.
+template <typename Visit>
+void for_each_field(const sim::Impact& i, Visit visit) {
+    visit("t_start", i.t_start);
+    visit("t_end", i.t_end);
+    visit("x", i.x);
+    visit("cam_angle", i.cam_angle);
+    visit("v_n_before", i.v_n_before);
+    visit("v_t_before", i.v_t_before);
+    visit("v_n_after", i.v_n_after);
+    visit("v_t_after", i.v_t_after);
+    visit("duration", i.duration);
+    visit("force_peak", i.force_peak);
+    visit("penetration_peak", i.penetration_peak);
+    visit("impulse_n", i.impulse_n);
+    visit("impulse_t", i.impulse_t);
+    visit("restitution", i.restitution);
+    visit("energy_lost", i.energy_lost);
+    visit("collision", i.collision);
+}
+
+template <typename Visit>
+void for_each_field(const sim::Collision& c, Visit visit) {
+    visit("t_start", c.t_start);
+    visit("t_end", c.t_end);
+    visit("count", c.count);
+    visit("x", c.x);
+    visit("v_n_before", c.v_n_before);
+    visit("v_n_after", c.v_n_after);
+    visit("restitution", c.restitution);
+    visit("force_peak", c.force_peak);
+    visit("energy_lost", c.energy_lost);
+}
+
+template <typename Record>
+Json array_of(const std::vector<Record>& records) {
+    Json list = Json::array();
+    for (const Record& record : records) {
+        Json object = Json::object();
+        for_each_field(record, [&object](const char* name, const auto& value) { object[name] = json_of(value); });
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+void append_cell(std::string& line, double value) { append_number(line, value); }
+void append_cell(std::string& line, int value) { line += std::to_string(value); }
+void append_cell(std::string& line, const std::optional<double>& value) {
+    if (value) append_number(line, *value);
+}
+
+// Messages may quote a user's bytes, which need not be UTF-8; they become U+FFFD.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json units(const sim::Problem& problem) {
+    Json map = Json::object();
+    for (const sim::Channel channel : sim::all_channels(problem)) map[sim::name(channel)] = sim::unit(channel, problem);
+    return map;
+}
+
+Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& channels) {
+    if (channels.size() != result.extrema.size())
+        throw std::logic_error("summary: " + std::to_string(channels.size()) + " channels for " +
+                               std::to_string(result.extrema.size()) + " extrema");
+    Json map = Json::object();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const sim::Extremum& e = result.extrema[i];
+        map[sim::name(channels[i])] = {{"min", e.min}, {"t_min", e.t_min}, {"max", e.max}, {"t_max", e.t_max}};
+    }
+    return map;
+}
+
+constexpr const char* kManifestFormat = "beamcam manifest 1";
+
+}  // namespace
+
+std::string impacts_json(const sim::Result& result) {
+    Json json;
+    json["impacts"] = array_of(result.impacts);
+    json["collisions"] = array_of(result.collisions);
+    return text_of(json);
+}
+
+std::string impacts_csv(const sim::Result& result) {
+    std::string text;
+    for_each_field(sim::Impact{},
+                   [&text](const char* name, const auto&) { text += (text.empty() ? "" : ",") + std::string(name); });
+    text += '\n';
+    for (const sim::Impact& impact : result.impacts) {
+        std::string line;
+        for_each_field(impact, [&line](const char* name, const auto& value) {
+            if (std::string_view(name) != "t_start") line += ',';
+            append_cell(line, value);
+        });
+        text += line + '\n';
+    }
+    return text;
+}
+
+void write_impacts(const std::filesystem::path& file, const sim::Result& result) {
+    const std::string ending = file.extension().string();
+    if (ending == ".json") return write_file(file, impacts_json(result));
+    if (ending == ".csv") return write_file(file, impacts_csv(result));
+    throw UnsupportedOption("cannot write " + file.string() + ": impacts end in .json or .csv");
+}
+
+std::string summary_json(const sim::Problem& problem, const sim::Result& result,
+                         const std::vector<sim::Channel>& extrema) {
+    Json json;
+    json["units"] = units(problem);
+    json["model"] = sim::name(problem.beam.model);
+    json["modes"] = problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes;
+    json["end_time"] = result.end_time;
+    json["steps"] = result.counters.steps;
+    json["rhs_evaluations"] = result.counters.rhs_evaluations;
+    json["wall_seconds"] = result.wall_seconds;
+    Json& zeros = json["events"]["theta_zero"] = Json::array();
+    for (const sim::ZeroCrossing& zero : result.theta_zero)
+        zeros.push_back({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
+    json["extrema"] = extrema_of(result, extrema);
+    json["energy_residual_max"] = result.energy_residual_max;
+    json["energy_scale"] = result.energy_scale;
+    json["impacts"] = result.impacts.size();
+    json["collisions"] = result.collisions.size();
+    if (result.reproducible_until) json["reproducible_until"] = *result.reproducible_until;
+    json["warnings"] = result.warnings;
+    return text_of(json);
+}
+
+void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
+                   const std::vector<sim::Channel>& extrema) {
+    write_file(file, summary_json(problem, result, extrema));
+}
+
+std::string manifest_json(const MadeFiles& files) {
+    Json json;
+    json["format"] = kManifestFormat;
+    json["files"] = Json::object();
+    for (const auto& [name, made] : files) json["files"][name] = {{"sha256", made.sha256}, {"size", made.size}};
+    return text_of(json);
+}
+
+std::optional<MadeFiles> parse_manifest(const std::string& text) {
+    const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (!json.is_object() || json.value("format", Json()) != kManifestFormat) return {};
+    const Json entries = json.value("files", Json());
+    if (!entries.is_object()) return {};
+    MadeFiles files;
+    for (const auto& [name, entry] : entries.items()) {
+        if (!entry.is_object()) return {};
+        const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
+        if (!digest.is_string() || !size.is_number_unsigned()) return {};
+        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>()};
+    }
+    return files;
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,47 @@
+// Impacts, collisions and the summary of a run as JSON and CSV, with the names scripts rely on; and the text of the
+// manifest. The only place in output/ that knows the JSON library.
+//
+// Keys come in a fixed order, numbers with as many digits as it takes to read the same bits back, undefined
+// values as null (an empty cell in CSV).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/errors.hpp"
+#include "sim/channels.hpp"
+#include "sim/problem.hpp"
+#include "sim/simulate.hpp"
+
+namespace beamcam::output {
+
+std::string impacts_json(const sim::Result& result);  // {"impacts": […], "collisions": […]}
+std::string impacts_csv(const sim::Result& result);   // the impacts alone
+
+// By the name's ending, .json or .csv. Throws UnsupportedOption for another, IoError.
+void write_impacts(const std::filesystem::path& file, const sim::Result& result);
+
+// `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
+// problem.
+std::string summary_json(const sim::Problem& problem, const sim::Result& result,
+                         const std::vector<sim::Channel>& extrema);
+void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
+                   const std::vector<sim::Channel>& extrema);
+
+// What beamcam knows of a file it made.
+struct MadeFile {
+    std::string sha256;
+    std::uintmax_t size = 0;  // [bytes]
+    bool operator==(const MadeFile&) const = default;
+};
+using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory
+
+std::string manifest_json(const MadeFiles& files);
+// Nothing where the text is not a manifest.
+std::optional<MadeFiles> parse_manifest(const std::string& text);
+
+}  // namespace beamcam::output

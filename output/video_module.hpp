@@ -1,0 +1,58 @@
+// The plain C door between the program and the module that links FFmpeg (beamcam_video.so). The module is
+// loaded when a film is really wanted, because linking libav* costs 24 ms of every start.
+//
+// Neither exceptions nor C++ objects pass through it. Every function that can fail returns a status and
+// leaves a message in words in `error`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+
+enum BeamcamVideoStatus {
+    beamcam_video_ok = 0,
+    beamcam_video_missing_codec = 1,
+    beamcam_video_write_failed = 2,  // `error_number` holds errno
+    beamcam_video_failed = 3
+};
+
+struct BeamcamVideoError {
+    int error_number;
+    char text[512];
+};
+
+struct BeamcamVideoSettings {
+    const char* file;     // exists; it is overwritten
+    int width, height;    // [px], even
+    int rate, rate_base;  // frames per second = rate / rate_base
+    int crf;
+    const char* preset;
+    int threads;
+    const char* const* metadata;  // key, value, key, value, …, null
+};
+
+// A picture in 4:2:0, to be filled by the caller. Y, Cb, Cr.
+struct BeamcamVideoFrame {
+    std::uint8_t* plane[3];
+    std::ptrdiff_t stride[3];  // [bytes]
+};
+
+struct BeamcamVideoSession;
+
+struct BeamcamVideoModule {
+    int version;  // kBeamcamVideoModuleVersion of the module
+    BeamcamVideoStatus (*open)(const BeamcamVideoSettings*, BeamcamVideoSession**, BeamcamVideoError*);
+    // A frame of the session's own, freed with it; null when memory is short. Any thread, one at a time.
+    BeamcamVideoFrame* (*make_frame)(BeamcamVideoSession*);
+    // Adds the frame to the film; the caller may change it again as soon as this returns.
+    BeamcamVideoStatus (*encode)(BeamcamVideoSession*, BeamcamVideoFrame*, BeamcamVideoError*);
+    BeamcamVideoStatus (*finish)(BeamcamVideoSession*, BeamcamVideoError*);
+    void (*close)(BeamcamVideoSession*);  // finished or not
+};
+
+// The one symbol of the module.
+const BeamcamVideoModule* beamcam_video_module();
+}
+
+constexpr int kBeamcamVideoModuleVersion = 1;

@@ -1,0 +1,71 @@
+#include "output/yuv.hpp"
+
+#include <stdexcept>
+#include <string>
+
+// The loops below are plain C++ that compilers vectorize; on x86-64 a wider version is chosen when the program
+// starts. Sanitizers cannot instrument that choice, and integers give the same bytes in every version.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define BEAMCAM_WIDEST __attribute__((target_clones("avx2", "sse4.1", "default")))
+#else
+#define BEAMCAM_WIDEST
+#endif
+
+namespace beamcam::output {
+
+namespace {
+
+// Coefficients of the formula in the header, times 255 levels, with 16 fractional bits.
+constexpr double kRed = 0.2126, kBlue = 0.0722;
+constexpr double kOne = 65536.0 / 255;
+constexpr int rounded(double value) { return static_cast<int>(value < 0 ? value - 0.5 : value + 0.5); }
+
+constexpr int kYR = rounded(219 * kOne * kRed);
+constexpr int kYB = rounded(219 * kOne * kBlue);
+constexpr int kYG = rounded(219 * kOne) - kYR - kYB;  // white is exactly 235
+constexpr int kCbR = rounded(224 * kOne * -kRed / (2 * (1 - kBlue)));
+constexpr int kCbB = rounded(224 * kOne * 0.5);
+constexpr int kCbG = -kCbR - kCbB;  // greys are exactly 128
+constexpr int kCrR = rounded(224 * kOne * 0.5);
+constexpr int kCrB = rounded(224 * kOne * -kBlue / (2 * (1 - kRed)));
+constexpr int kCrG = -kCrR - kCrB;
+
+}  // namespace
+
+// Two rows of pixels into two of luma and one of each chroma. `width` is even.
+BEAMCAM_WIDEST void convert_two_rows(const std::uint32_t* __restrict above, const std::uint32_t* __restrict below,
+                                     int width, std::uint8_t* __restrict y_above, std::uint8_t* __restrict y_below,
+                                     std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
+    const auto luma = [](std::uint32_t p) __attribute__((always_inline)) {
+        const int r = p >> 16 & 0xff, g = p >> 8 & 0xff, b = p & 0xff;
+        return static_cast<std::uint8_t>((kYR * r + kYG * g + kYB * b + (16 << 16) + (1 << 15)) >> 16);
+    };
+    for (int x = 0; x < width; ++x) y_above[x] = luma(above[x]);
+    for (int x = 0; x < width; ++x) y_below[x] = luma(below[x]);
+    for (int x = 0; x < width / 2; ++x) {
+        const std::uint32_t p = above[2 * x], q = above[2 * x + 1], s = below[2 * x], t = below[2 * x + 1];
+        // Red and blue are summed side by side, each in 16 bits: four times 255 fits.
+        const std::uint32_t rb = (p & 0xff00ff) + (q & 0xff00ff) + (s & 0xff00ff) + (t & 0xff00ff);
+        const int r = static_cast<int>(rb >> 16), b = static_cast<int>(rb & 0xffff);
+        const int g = static_cast<int>((p >> 8 & 0xff) + (q >> 8 & 0xff) + (s >> 8 & 0xff) + (t >> 8 & 0xff));
+        constexpr int offset = (128 << 18) + (1 << 17);  // 18 bits: the sums are of four pixels
+        cb[x] = static_cast<std::uint8_t>((kCbR * r + kCbG * g + kCbB * b + offset) >> 18);
+        cr[x] = static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 18);
+    }
+}
+
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) {
+    if (image.width % 2 != 0 || image.height % 2 != 0)
+        throw std::logic_error("convert_to_yuv420: odd size " + std::to_string(image.width) + "x" +
+                               std::to_string(image.height));
+    const std::size_t width = static_cast<std::size_t>(image.width);
+    for (int row = 0; row < image.height; row += 2) {
+        const std::uint32_t* pixels = image.pixels.data() + static_cast<std::size_t>(row) * width;
+        convert_two_rows(pixels, pixels + width, image.width, to.plane[0] + row * to.stride[0],
+                         to.plane[0] + (row + 1) * to.stride[0], to.plane[1] + row / 2 * to.stride[1],
+                         to.plane[2] + row / 2 * to.stride[2]);
+    }
+}
+
+}  // namespace beamcam::output

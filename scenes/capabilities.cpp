@@ -1,0 +1,62 @@
+#include "scenes/capabilities.hpp"
+
+#include <fmt/format.h>
+
+namespace beamcam::scenes {
+namespace {
+
+struct Planned {
+    std::string_view where, what;
+    std::string_view instead;
+};
+
+constexpr Planned kPlanned[] = {
+    {"outputs.type", "figure", "write a \"trajectory\" and plot it, or a \"still\""},
+    {"outputs.type", "apng", "write \"frames\" or a \"video\""},
+    {"outputs.type", "gif", "write \"frames\" or a \"video\""},
+    {"outputs", "speed", "remove it: films run in real time"},
+    {"outputs", "layout", "remove it: films have one layout"},
+    {"outputs", "figure", "remove it"},
+    {"outputs", "lang", "remove it: texts are English"},
+    {"outputs.codec", "vp9", "write \"h264\""},
+    {"outputs.codec", "av1", "write \"h264\""},
+    {"outputs.codec", "prores", "write \"h264\""},
+    {"outputs.codec", "ffv1", "write \"h264\", or \"frames\" for exact pixels"},
+    {"file", ".webm", "name an .mp4 file"},
+    {"file", ".gif", "name an .mp4 file"},
+    {"file", ".apng", "name an .mp4 file or a frame sequence"},
+    {"file", ".webp", "name an .mp4 file or a frame sequence"},
+    {"file", ".svg", "name a .png file"},
+    {"file", ".pdf", "name a .png file"},
+    {"command", "figure", "`beamcam simulate` writes the numbers to plot"},
+    {"command", "paper", "`beamcam render` films the paper's scene"},
+    {"command", "modes", "`beamcam check` validates the scene's beam"},
+    {"command", "accuracy", "compare runs with --set solver.rtol=…"},
+    {"command", "stress", "compare runs with --set solver.rtol=…"},
+    {"command", "test", "compare the tables of `beamcam simulate`"},
+    {"command", "hash", "compare files with sha256sum"},
+    {"command", "diff", "compare files with sha256sum"},
+    {"command", "info", "see the file's metadata with ffprobe"},
+    {"command", "concat", "render the film in one run"},
+    {"command", "doctor", "`beamcam --version` tells what was built"},
+    {"command", "cache", "nothing is cached yet"},
+    {"command", "sweep", "run beamcam once for each value with --set"},
+};
+
+}  // namespace
+
+std::optional<std::string> not_available(std::string_view where, std::string_view what) {
+    for (const Planned& planned : kPlanned)
+        if (planned.where == where && planned.what == what)
+            return fmt::format("{} is not available in this version; {}", what, planned.instead);
+    return std::nullopt;
+}
+
+std::vector<std::string> planned_commands() {
+    std::vector<std::string> commands;
+    for (const Planned& planned : kPlanned)
+        if (planned.where == "command") commands.emplace_back(planned.what);
+    return commands;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,130 @@
+// A plan in words and as JSON.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scenes/plan.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+const char* view_name(const render::View& view) { return view.style == render::Style::lit ? "lit" : "flat"; }
+
+const char* kind_name(Pictures::Kind kind) {
+    switch (kind) {
+        case Pictures::Kind::video:
+            return "video";
+        case Pictures::Kind::frames:
+            return "frames";
+        case Pictures::Kind::still:
+            return "still";
+    }
+    return "?";
+}
+
+std::string model_words(const sim::Problem& problem) {
+    std::string words = name(problem.beam.model);
+    const sim::ModelKind model = problem.beam.model;
+    if (model == sim::ModelKind::exact)
+        words += fmt::format(", {} shape functions", problem.beam.modes);
+    else if (model != sim::ModelKind::rigid)
+        words += fmt::format(", {} {} mode{}", problem.beam.modes, name(resolved_basis(problem)),
+                             problem.beam.modes == 1 ? "" : "s");
+    words += problem.cam ? fmt::format(", {} contact", name(problem.contact.model)) : ", no contact";
+    return words;
+}
+
+std::string simulation_words(const Simulation& simulation, const sim::Problem& problem) {
+    const sim::Request& request = simulation.request;
+    std::string words = request.end_time > 0
+                            ? fmt::format("{}; until {:g} s, because of {}", model_words(problem), request.end_time,
+                                          simulation.until_because)
+                            : fmt::format("{}; the initial state only, nothing to integrate", model_words(problem));
+    if (request.horizon) words += "; a second run finds until when it is reproducible";
+    return words;
+}
+
+std::string picture_words(const Pictures& p, std::size_t frames, double first, double last) {
+    std::string words = p.kind == Pictures::Kind::still
+                            ? fmt::format("{}: one picture of {:g} s", p.file, first)
+                            : fmt::format("{}: {} frames of {:g} s to {:g} s at {:g} a second", p.file, frames, first,
+                                          last, p.fps.value());
+    words += fmt::format(", {} × {}, {}", p.size.width, p.size.height, view_name(p.view));
+    if (p.kind == Pictures::Kind::video) words += fmt::format("; H.264, crf {}, {}", p.encoding.crf, p.encoding.preset);
+    return words;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan, const Scene& scene) {
+    std::string text = "to do\n";
+    auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
+    if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
+    for (const Pictures& p : plan.pictures) {
+        const std::vector<double>& times = plan.simulation->request.poses[p.poses].times;
+        line(kind_name(p.kind), picture_words(p, times.size(), times.front(), times.back()));
+    }
+    for (const TableFile& t : plan.tables) {
+        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
+        line("table", fmt::format("{}: {} rows of {} channels", t.file, table.times.size(), table.channels.size()));
+    }
+    for (const ImpactsFile& i : plan.impacts) line("impacts", i.file);
+    for (const SummaryFile& s : plan.summaries) line("summary", s.file);
+    text += "skipped\n";
+    for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
+    return text;
+}
+
+std::string to_json(const Plan& plan, const Scene& scene) {
+    using Json = nlohmann::ordered_json;
+    Json out, stages = Json::array();
+    if (plan.simulation) {
+        const sim::Request& request = plan.simulation->request;
+        stages.push_back({{"stage", "simulate"},
+                          {"model", name(scene.problem.beam.model)},
+                          {"modes", scene.problem.beam.model == sim::ModelKind::rigid ? 0 : scene.problem.beam.modes},
+                          {"until", request.end_time},
+                          {"because", plan.simulation->until_because},
+                          {"horizon", request.horizon}});
+    }
+    for (const Pictures& p : plan.pictures) {
+        const std::vector<double>& times = plan.simulation->request.poses[p.poses].times;
+        Json stage = {{"stage", kind_name(p.kind)},
+                      {"file", p.file},
+                      {"output", p.output},
+                      {"frames", times.size()},
+                      {"from", times.front()},
+                      {"last", times.back()},
+                      {"size", {p.size.width, p.size.height}},
+                      {"style", view_name(p.view)}};
+        if (p.kind != Pictures::Kind::still) stage["fps"] = p.fps.value();
+        if (p.kind == Pictures::Kind::video) {
+            stage["codec"] = "h264";
+            stage["crf"] = p.encoding.crf;
+            stage["preset"] = p.encoding.preset;
+        }
+        stages.push_back(std::move(stage));
+    }
+    for (const TableFile& t : plan.tables) {
+        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
+        Json channels = Json::array();
+        for (const sim::Channel& channel : table.channels) channels.push_back(name(channel));
+        stages.push_back({{"stage", "table"},
+                          {"file", t.file},
+                          {"output", t.output},
+                          {"rows", table.times.size()},
+                          {"channels", channels}});
+    }
+    for (const ImpactsFile& i : plan.impacts)
+        stages.push_back({{"stage", "impacts"}, {"file", i.file}, {"output", i.output}});
+    for (const SummaryFile& s : plan.summaries)
+        stages.push_back({{"stage", "summary"}, {"file", s.file}, {"output", s.output}});
+    out["stages"] = std::move(stages);
+    Json skipped = Json::array();
+    for (const Skipped& s : plan.skipped) skipped.push_back({{"what", s.what}, {"why", s.why}});
+    out["skipped"] = std::move(skipped);
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace beamcam::scenes

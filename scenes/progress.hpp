@@ -1,0 +1,56 @@
+// The progress line on standard error: what is going on, how fast, how long still.
+//
+// One at a time; several threads may report to it. It never speaks on standard output.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace beamcam::scenes {
+
+enum class ProgressStyle {
+    automatic,  // bar on a terminal, plain elsewhere
+    bar,        // one line, rewritten in place
+    plain,      // a line now and then, for logs
+    json,       // an object a line, for programs
+    none
+};
+std::optional<ProgressStyle> progress_style_named(std::string_view name);
+// What `automatic` means here: a bar needs a terminal that can rewrite a line, and no CI.
+ProgressStyle resolve(ProgressStyle style);
+
+class Progress {
+  public:
+    // `resolved` is never `automatic`.
+    explicit Progress(ProgressStyle resolved, std::FILE* out = stderr) : style_(resolved), out_(out) {}
+    ~Progress() { end(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // Begins a stage of `total` units ("frames", "s"); ends the one before.
+    void begin(std::string stage, double total, std::string unit);
+    void reach(double done);  // so much of the stage is done
+    void end();               // leaves the terminal on a clean line
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void show(double done, bool last);
+    void show_bar(double done, double elapsed, bool last);
+    void show_plain(double done, double elapsed);
+    void show_json(double done, double elapsed, bool last);
+
+    ProgressStyle style_;
+    std::FILE* out_;
+    std::mutex mutex_;
+    std::string stage_, unit_;
+    double total_ = 0, done_ = 0;
+    bool open_ = false, line_is_open_ = false;
+    Clock::time_point started_, shown_;
+};
+
+}  // namespace beamcam::scenes

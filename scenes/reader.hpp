@@ -1,0 +1,41 @@
+// From the text of a scene file to a Scene, or to every reason why it is none.
+//
+// The first syntax error, or else all that is wrong with the meaning, each with its place. The
+// format is DESIGN's and, key by key, beamcam-scene.schema.json's; a test keeps the two equal.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "scenes/source.hpp"
+
+namespace beamcam::scenes {
+
+struct Reading {
+    std::vector<Source> sources;    // the file, then the overrides
+    std::vector<Message> messages;  // errors and warnings
+    std::optional<Scene> scene;     // present when no message is fatal
+
+    std::string report() const { return describe(sources, messages); }
+};
+
+// `overrides` are `key.path=value` texts, applied in order.
+Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
+
+// The file cannot be read at all: absent, a directory, no permission, too large.
+struct UnreadableFile : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+// "-" is standard input. Throws UnreadableFile.
+Source load_source(const std::string& path);
+
+// What the command line gives for a size or a frame rate is read like the scene's own.
+std::optional<Size> parse_size(std::string_view text);             // "1280x720"
+std::optional<FrameRate> parse_frame_rate(std::string_view text);  // "60", "29.97", "30000/1001"
+// Why a span has no frames, or too many; empty when it is fine.
+std::string problem_with_span(const FrameSpan& span, double end_time);
+
+}  // namespace beamcam::scenes

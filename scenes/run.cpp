@@ -1,0 +1,379 @@
+#include "scenes/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "output/atomic_file.hpp"
+#include "output/interrupt.hpp"
+#include "output/manifest.hpp"
+#include "output/png.hpp"
+#include "output/records.hpp"
+#include "output/tables.hpp"
+#include "output/video.hpp"
+#include "render/film.hpp"
+#include "scenes/fan_out.hpp"
+#include "scenes/files.hpp"
+#include "scenes/version.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+bool is_stdout(const std::string& file) { return file == "-"; }
+
+void print_data(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
+}
+
+// One significant digit as people write it: 10⁻⁸, 2 × 10⁻⁹.
+std::string power_of_ten(double value) {
+    static constexpr std::string_view kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const std::string text = fmt::format("{:.0e}", value);  // "2e-09"
+    const std::string mantissa = text.substr(0, text.find('e'));
+    std::string out = mantissa == "1" ? "10" : mantissa + " × 10";
+    const int exponent = std::stoi(text.substr(text.find('e') + 1));
+    if (exponent < 0) out += "⁻";
+    for (const char digit : std::to_string(std::abs(exponent))) out += kDigits[digit - '0'];
+    return out;
+}
+
+// Where the time went, for -v.
+struct Times {
+    double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
+};
+
+class Runner {
+  public:
+    Runner(const Plan& plan, const Scene& scene, const RunOptions& options)
+        : plan_(plan),
+          scene_(scene),
+          options_(options),
+          progress_(resolve(options.progress)),
+          manifest_(options.force) {}
+
+    void go() {
+        started_ = Clock::now();
+        require_room();
+        make_directories();
+        require_encoder();
+        simulate();
+        write_tables();
+        write_records();
+        for (const Pictures& p : plan_.pictures) draw(p);
+        manifest_.save();
+        if (options_.verbose) tell_times();
+    }
+
+  private:
+    // ---- files -----------------------------------------------------------------------------
+
+    fs::path path_of(const std::string& file) const {
+        return options_.directory.empty() ? fs::path(file) : fs::path(options_.directory) / file;
+    }
+
+    std::size_t frames_of(const Pictures& p) const { return plan_.simulation->request.poses[p.poses].times.size(); }
+
+    // Every file that will be written.
+    std::vector<fs::path> targets() const {
+        std::vector<fs::path> files;
+        auto add = [&](const std::string& file) {
+            if (!is_stdout(file)) files.push_back(path_of(file));
+        };
+        for (const Pictures& p : plan_.pictures) {
+            if (p.kind != Pictures::Kind::frames)
+                add(p.file);
+            else
+                for (std::size_t k = 0; k < frames_of(p); ++k)
+                    add(numbered_file(p.file, p.first_frame + static_cast<long>(k)));
+        }
+        for (const TableFile& t : plan_.tables) add(t.file);
+        for (const ImpactsFile& i : plan_.impacts) add(i.file);
+        for (const SummaryFile& s : plan_.summaries) add(s.file);
+        return files;
+    }
+
+    // Refuses before any work what would be refused after it.
+    void require_room() {
+        for (const fs::path& file : targets()) {
+            std::error_code ignored;
+            if (fs::is_directory(file, ignored))
+                throw output::IoError(
+                    fmt::format("{} is a directory; choose another name for the output", file.string()));
+            const fs::path folder = file.parent_path();
+            if (options_.directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
+                throw output::IoError(
+                    fmt::format("{}: there is no directory {}; make it first", file.string(), folder.string()));
+            manifest_.require_replaceable(file);
+        }
+    }
+
+    void make_directories() {
+        if (options_.directory.empty()) return;
+        for (const fs::path& file : targets()) output::ensure_directory(file.parent_path());
+    }
+
+    void wrote(const fs::path& file, const std::string& what) {
+        manifest_.record(file);
+        progress_.end();
+        if (!options_.quiet) fmt::print(stderr, "wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
+    }
+
+    std::map<std::string, std::string> metadata() const {
+        const std::string note = accuracy_note();
+        std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
+                                                  {"beamcam-scene", to_json(scene_)},
+                                                  {"beamcam-accuracy", note}};
+        if (!scene_.title.empty()) all["Title"] = scene_.title;
+        return all;
+    }
+
+    // What a film's players show, in the keys that MP4 knows.
+    std::map<std::string, std::string> film_metadata() const {
+        std::map<std::string, std::string> all = {{"comment", fmt::format("made by beamcam {}", kVersion)},
+                                                  {"beamcam-scene", to_json(scene_)},
+                                                  {"beamcam-version", std::string(kVersion)},
+                                                  {"beamcam-accuracy", accuracy_note()}};
+        if (!scene_.title.empty()) all["title"] = scene_.title;
+        return all;
+    }
+
+    // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹"
+    std::string accuracy_note() const {
+        std::string note = fmt::format("rtol {}", power_of_ten(scene_.problem.solver.rtol));
+        if (result_.energy_scale > 0 && result_.energy_residual_max > 0)
+            note +=
+                fmt::format(" · energy closes to {}", power_of_ten(result_.energy_residual_max / result_.energy_scale));
+        return note;
+    }
+
+    // ---- stages ----------------------------------------------------------------------------
+
+    output::VideoOptions video_options(const Pictures& p) const {
+        output::VideoOptions video;
+        video.width = p.size.width;
+        video.height = p.size.height;
+        video.fps = p.fps.value();
+        video.crf = p.encoding.crf;
+        video.preset = p.encoding.preset;
+        video.metadata = film_metadata();
+        return video;
+    }
+
+    // A film is opened and dropped, so that a missing encoder is told before anything is computed.
+    void require_encoder() const {
+        for (const Pictures& p : plan_.pictures)
+            if (p.kind == Pictures::Kind::video) {
+                output::VideoWriter(path_of(p.file), video_options(p));
+                return;
+            }
+    }
+
+    void simulate() {
+        if (!plan_.simulation) return;
+        const sim::Request& request = plan_.simulation->request;
+        progress_.begin("simulate", request.end_time, "s");
+        const auto start = Clock::now();
+        try {
+            result_ = sim::simulate(scene_.problem, request, [&](double t) {
+                progress_.reach(t);
+                return !output::interrupted();
+            });
+        } catch (const sim::SolverError& error) {
+            progress_.end();
+            keep_partial_tables(error.partial);
+            throw;
+        }
+        progress_.end();
+        times_.simulate = seconds_since(start);
+        if (!options_.quiet)
+            for (const std::string& warning : result_.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
+
+    // What a failed run reached is worth looking at, under a name that no script takes for the result.
+    void keep_partial_tables(const sim::Result& partial) {
+        for (const TableFile& t : plan_.tables) {
+            if (is_stdout(t.file) || t.table >= partial.tables.size() || partial.tables[t.table].rows() == 0) continue;
+            fs::path file = path_of(t.file);
+            file.replace_extension(".partial.csv");
+            manifest_.require_replaceable(file);
+            output::write_csv(file, partial.tables[t.table]);
+            wrote(file, "as far as the solver came");
+        }
+    }
+
+    void write_tables() {
+        for (const TableFile& t : plan_.tables) {
+            stop_if_interrupted();
+            const sim::Table& table = result_.tables[t.table];
+            const auto start = Clock::now();
+            if (is_stdout(t.file)) {
+                output::write_csv(std::cout, table);
+                std::cout.flush();
+                if (!std::cout)
+                    throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
+            } else {
+                output::write_table(path_of(t.file), table);
+                wrote(path_of(t.file), fmt::format("{} rows", table.rows()));
+            }
+            times_.write += seconds_since(start);
+        }
+    }
+
+    void write_records() {
+        for (const ImpactsFile& i : plan_.impacts) {
+            if (is_stdout(i.file)) {
+                print_data(output::impacts_json(result_));
+            } else {
+                output::write_impacts(path_of(i.file), result_);
+                wrote(path_of(i.file),
+                      fmt::format("{} impacts in {} collisions", result_.impacts.size(), result_.collisions.size()));
+            }
+        }
+        for (const SummaryFile& s : plan_.summaries) {
+            const std::vector<sim::Channel>& extrema = plan_.simulation->request.extrema;
+            if (is_stdout(s.file)) {
+                print_data(output::summary_json(scene_.problem, result_, extrema));
+            } else {
+                output::write_summary(path_of(s.file), scene_.problem, result_, extrema);
+                wrote(path_of(s.file), "");
+            }
+        }
+    }
+
+    render::Film film_of(const Pictures& p) {
+        render::FilmSetup setup;
+        setup.problem = scene_.problem;
+        setup.title = scene_.title;
+        setup.width = p.size.width;
+        setup.height = p.size.height;
+        setup.view = p.view;
+        setup.poses = std::move(result_.poses[p.poses]);
+        setup.chart = std::move(result_.tables[p.chart]);
+        if (p.trace) setup.trace = std::move(result_.tables[*p.trace]);
+        setup.impacts = result_.impacts;
+        setup.accuracy_note = accuracy_note();
+        return render::Film(std::move(setup));
+    }
+
+    void draw(const Pictures& p) {
+        stop_if_interrupted();
+        render::Film film = film_of(p);
+        std::unique_ptr<output::VideoWriter> video;
+        if (p.kind == Pictures::Kind::video)
+            video = std::make_unique<output::VideoWriter>(path_of(p.file), video_options(p));
+        const long count = film.frames();
+        progress_.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
+        Gate gate;
+        std::mutex mutex;  // of the manifest, the times and the count
+        long done = 0;
+        const std::map<std::string, std::string> meta = video ? std::map<std::string, std::string>() : metadata();
+
+        auto put = [&](long k, const render::Image& image) {
+            if (video) {
+                gate.pass(k, [&] {
+                    video->write(image);
+                    progress_.reach(static_cast<double>(video->statistics().frames));
+                });
+                return;
+            }
+            const fs::path file =
+                path_of(p.kind == Pictures::Kind::still ? p.file : numbered_file(p.file, p.first_frame + k));
+            const auto start = Clock::now();
+            output::write_png(
+                file, image, {std::nullopt, meta},
+                p.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
+            const std::lock_guard lock(mutex);
+            times_.write += seconds_since(start);
+            if (p.kind == Pictures::Kind::frames) manifest_.record(file);
+            progress_.reach(static_cast<double>(++done));
+        };
+        auto make_worker = [&]() -> Worker {
+            auto own = std::make_shared<render::Film>(film.another());
+            auto image = std::make_shared<render::Image>();
+            return [&, own, image](long k) {
+                stop_if_interrupted();
+                const auto start = Clock::now();
+                own->draw(static_cast<int>(k), *image);
+                const double spent = seconds_since(start);
+                {
+                    const std::lock_guard lock(mutex);
+                    times_.draw += spent;
+                }
+                put(k, *image);
+            };
+        };
+        fan_out(count, thread_count(), make_worker, gate);
+        finish(p, video.get(), count);
+    }
+
+    void finish(const Pictures& p, output::VideoWriter* video, long count) {
+        stop_if_interrupted();
+        if (video) {
+            video->finish();
+            progress_.reach(static_cast<double>(count));
+            const output::VideoStatistics spent = video->statistics();
+            times_.convert += spent.convert_seconds;
+            times_.encode += spent.encode_seconds;
+        }
+        if (p.kind != Pictures::Kind::frames)
+            return wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "");
+        progress_.end();
+        if (!options_.quiet)
+            fmt::print(stderr, "wrote {} … {} ({} frames)\n", path_of(numbered_file(p.file, p.first_frame)).string(),
+                       numbered_file(p.file, p.first_frame + count - 1), count);
+    }
+
+    // ---- small things ----------------------------------------------------------------------
+
+    int thread_count() const {
+        if (options_.threads > 0) return options_.threads;
+        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    }
+
+    static void stop_if_interrupted() {
+        if (output::interrupted()) throw Stopped();
+    }
+
+    void tell_times() const {
+        fmt::print(stderr,
+                   "time: {:.2f} s in all; simulation {:.2f} s, drawing {:.2f} s ({} threads), conversion {:.2f} s, "
+                   "encoding {:.2f} s, other files {:.2f} s\n",
+                   seconds_since(started_), times_.simulate, times_.draw, thread_count(), times_.convert, times_.encode,
+                   times_.write);
+        if (plan_.simulation)
+            fmt::print(stderr,
+                       "simulation: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to "
+                       "{:.2e} of {:.3g} J\n",
+                       result_.counters.steps, result_.counters.rhs_evaluations, result_.impacts.size(),
+                       result_.collisions.size(), result_.energy_residual_max, result_.energy_scale);
+    }
+
+    const Plan& plan_;
+    const Scene& scene_;
+    const RunOptions& options_;
+    Progress progress_;
+    output::Manifest manifest_;
+    sim::Result result_;
+    Times times_;
+    Clock::time_point started_;
+};
+
+}  // namespace
+
+void run(const Plan& plan, const Scene& scene, const RunOptions& options) { Runner(plan, scene, options).go(); }
+
+}  // namespace beamcam::scenes

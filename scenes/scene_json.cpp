@@ -1,0 +1,178 @@
+// A resolved scene written back in the scene format.
+#include <nlohmann/json.hpp>
+
+#include "scenes/scene.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json drive(const sim::Drive& any) {
+    struct Write {
+        Json operator()(const sim::FreeDrive&) const { return {{"type", "free"}}; }
+        Json operator()(const sim::ConstantTorque& d) const { return {{"type", "torque"}, {"value", d.value}}; }
+        Json operator()(const sim::HarmonicTorque& d) const {
+            return {{"type", "torque"}, {"amplitude", d.amplitude}, {"frequency", d.frequency}, {"phase", d.phase}};
+        }
+        Json operator()(const sim::TorqueTable& d) const {
+            return {{"type", "torque"}, {"t", d.t}, {"torque", d.torque}};
+        }
+        Json operator()(const sim::ConstantSpeed& d) const {
+            return {{"type", "prescribed"}, {"law", "constant"}, {"speed", d.speed}};
+        }
+        Json operator()(const sim::SpinUp& d) const {
+            return {{"type", "prescribed"}, {"law", "spin-up"}, {"speed", d.speed}, {"duration", d.duration}};
+        }
+        Json operator()(const sim::AngleTable& d) const {
+            return {{"type", "prescribed"}, {"law", "table"}, {"t", d.t}, {"theta", d.theta}};
+        }
+    };
+    return std::visit(Write{}, any);
+}
+
+Json friction(const sim::Friction& any) {
+    struct Write {
+        Json operator()(const sim::NoFriction&) const { return {{"type", "none"}}; }
+        Json operator()(const sim::CoulombFriction& f) const {
+            return {{"type", "coulomb"}, {"coefficient", f.coefficient}, {"slip_speed", f.slip_speed}};
+        }
+        Json operator()(const sim::StickSlipFriction& f) const {
+            Json out = {{"type", "stick-slip"}, {"coefficient", f.coefficient}};
+            if (f.static_coefficient) out["static_coefficient"] = *f.static_coefficient;
+            if (f.stiffness) out["stiffness"] = *f.stiffness;
+            if (f.damping) out["damping"] = *f.damping;
+            return out;
+        }
+    };
+    return std::visit(Write{}, any);
+}
+
+Json beam(const sim::Beam& b) {
+    Json out = {{"length", b.length},
+                {"area", b.area},
+                {"second_moment", b.second_moment},
+                {"density", b.density},
+                {"youngs_modulus", b.youngs_modulus},
+                {"poisson_ratio", b.poisson_ratio},
+                {"depth", b.depth},
+                {"model", name(b.model)},
+                {"basis", name(b.basis)},
+                {"modes", b.modes}};
+    if (b.damping_ratio.size() == 1)
+        out["damping_ratio"] = b.damping_ratio.front();
+    else if (!b.damping_ratio.empty())
+        out["damping_ratio"] = b.damping_ratio;
+    if (b.kelvin_voigt) out["kelvin_voigt"] = *b.kelvin_voigt;
+    return out;
+}
+
+Json cam(const std::optional<sim::Cam>& c) {
+    if (!c) return nullptr;
+    Json out = {{"centre", {c->centre.x, c->centre.y}},
+                {"radius", c->radius},
+                {"eccentricity", c->eccentricity},
+                {"phase", c->phase},
+                {"speed", c->speed},
+                {"poisson_ratio", c->poisson_ratio}};
+    if (c->youngs_modulus) out["youngs_modulus"] = *c->youngs_modulus;
+    return out;
+}
+
+Json contact(const sim::Contact& c) {
+    const bool by_value = c.approach_floor.policy == sim::ApproachFloorPolicy::value;
+    return {{"model", name(c.model)},
+            {"stiffness", c.stiffness ? Json(*c.stiffness) : Json("hertz")},
+            {"exponent", c.exponent},
+            {"damping", name(c.damping)},
+            {"restitution", c.restitution},
+            {"law", name(c.law)},
+            {"friction", friction(c.friction)},
+            {"offset", c.offset ? Json(*c.offset) : Json("half-depth")},
+            {"approach_floor", {{"policy", by_value ? "value" : "first-touch"}, {"value", c.approach_floor.value}}},
+            {"collision_gap", c.collision_gap}};
+}
+
+Json frame_rate(const FrameRate& rate) {
+    if (rate.denominator == 1) return rate.numerator;
+    return std::to_string(rate.numerator) + "/" + std::to_string(rate.denominator);
+}
+
+template <class Film>
+Json film(const char* type, const Film& film) {
+    static constexpr const char* kThemes[] = {"light", "dark", "print"};
+    Json view = {{"style", film.view.style == render::Style::lit ? "lit" : "flat"}};
+    if (film.view.exaggeration) view["exaggeration"] = *film.view.exaggeration;
+    return {{"type", type},
+            {"file", film.file},
+            {"view", view},
+            {"theme", kThemes[static_cast<int>(film.view.theme)]},
+            {"size", {film.size.width, film.size.height}}};
+}
+
+void add_span(Json& out, const FrameSpan& span) {
+    out["fps"] = frame_rate(span.fps);
+    out["from"] = span.from;
+    if (span.to) out["to"] = *span.to;
+}
+
+Json output(const Output& any) {
+    struct Write {
+        Json operator()(const VideoOutput& v) const {
+            Json out = film("video", v);
+            add_span(out, v.span);
+            out["codec"] = "h264";
+            out["crf"] = v.encoding.crf;
+            out["preset"] = v.encoding.preset;
+            return out;
+        }
+        Json operator()(const FramesOutput& f) const {
+            Json out = film("frames", f);
+            add_span(out, f.span);
+            return out;
+        }
+        Json operator()(const StillOutput& s) const {
+            Json out = film("still", s);
+            out["at"] = s.at;
+            return out;
+        }
+        Json operator()(const TrajectoryOutput& t) const {
+            Json out = {{"type", "trajectory"}, {"file", t.file}};
+            for (const sim::Channel& channel : t.channels) out["channels"].push_back(name(channel));
+            if (t.times.empty())
+                out["rate"] = t.rate;
+            else
+                out["times"] = t.times;
+            return out;
+        }
+        Json operator()(const ImpactsOutput& i) const { return {{"type", "impacts"}, {"file", i.file}}; }
+        Json operator()(const SummaryOutput& s) const {
+            return {{"type", "summary"}, {"file", s.file}, {"horizon", s.horizon}};
+        }
+    };
+    return std::visit(Write{}, any);
+}
+
+}  // namespace
+
+std::string to_json(const Scene& scene) {
+    const sim::Problem& p = scene.problem;
+    Json out;
+    if (!scene.title.empty()) out["title"] = scene.title;
+    out["hub"] = {{"radius", p.hub.radius}, {"inertia", p.hub.inertia}, {"drive", drive(p.hub.drive)}};
+    out["beam"] = beam(p.beam);
+    out["cam"] = cam(p.cam);
+    out["contact"] = contact(p.contact);
+    out["gravity"] = p.gravity;
+    out["initial"] = {
+        {"angle", p.initial.angle}, {"angular_velocity", p.initial.angular_velocity}, {"shape", name(p.initial.shape)}};
+    out["solver"] = {{"method", name(p.solver.method)}, {"rtol", p.solver.rtol}, {"atol", p.solver.atol}};
+    out["time"] = {{"end", scene.end_time}};
+    if (!scene.outputs.empty()) {
+        out["outputs"] = Json::array();
+        for (const Output& each : scene.outputs) out["outputs"].push_back(output(each));
+    }
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,48 @@
+// Text that a scene is read from, and messages that point into it.
+//
+// A scene has one file and any number of `--set` overrides; every value remembers which of them it
+// came from, so that a message names the place the user can change.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beamcam::scenes {
+
+// A scene file, or one override of the command line.
+struct Source {
+    std::string name;     // as the user typed it; `--set beam.modes=3` for an override
+    std::string text;     // as it stands in the file
+    bool is_file = true;  // only a file has lines and columns
+};
+
+struct Place {
+    std::size_t source = 0;  // index into the sources; 0 is the file
+    std::size_t offset = 0;  // byte in Source::text
+
+    bool operator==(const Place&) const = default;
+    auto operator<=>(const Place&) const = default;
+};
+
+struct Message {
+    Place place;
+    std::string text;   // what, which value, what to do
+    bool fatal = true;  // false: a warning
+};
+
+struct LineColumn {
+    std::size_t line = 1, column = 1;  // from 1; columns count characters, not bytes
+};
+LineColumn locate(std::string_view text, std::size_t offset);
+
+// `file:line:column: text`, then the line itself with a caret below the place.
+std::string describe(const std::vector<Source>& sources, const Message& message);
+// All messages in the order of their places, one after the other.
+std::string describe(const std::vector<Source>& sources, std::vector<Message> messages);
+
+// A value inside a message: quoted, control characters made visible, long text shortened.
+std::string in_quotes(std::string_view text);
+
+}  // namespace beamcam::scenes

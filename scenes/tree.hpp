@@ -1,0 +1,59 @@
+// A JSON text as a tree that remembers where every key and value stands.
+//
+// nlohmann-json decides what JSON is and what the values are; it keeps no positions, so the text is
+// walked in step with its SAX events, between which only white space, ',' and ':' can occur.
+// `//` and `/* */` comments and trailing commas are blanked out beforehand, byte for byte.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scenes/source.hpp"
+
+namespace beamcam::scenes {
+
+struct Member;
+
+struct Node {
+    enum class Kind { null, boolean, number, string, array, object };
+
+    Kind kind = Kind::null;
+    Place place;  // first byte of the value
+    bool boolean = false;
+    double number = 0;
+    std::string text;             // a string's value; a number as it was written
+    std::vector<Node> items;      // of an array
+    std::vector<Member> members;  // of an object, in the order of the text, keys unique
+
+    const Member* find(std::string_view key) const;
+    Member* find(std::string_view key);
+};
+
+struct Member {
+    std::string key;
+    Place key_place;
+    Node value;
+};
+
+const char* name(Node::Kind kind);  // "a number", "an object", …
+
+struct Parsed {
+    Node root;
+    std::vector<Message> messages;  // one syntax error, or duplicate keys and unusable numbers
+    bool is_json = false;           // false: a syntax error; `root` means nothing
+};
+
+// Largest text and deepest nesting that a scene can need; above them the file is not a scene.
+constexpr std::size_t kLargestScene = 64u << 20;  // [byte]: a drive table of a million points
+constexpr int kDeepestScene = 64;
+
+// `source` is the index that the places will carry.
+Parsed parse(std::string_view text, std::size_t source = 0);
+
+// The text with comments and trailing commas turned into spaces; every other byte stays in place.
+// An unclosed comment is left as it is, for the parser to refuse.
+std::string blank_comments(std::string_view text);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,10 @@
+// Which beamcam this is.
+#pragma once
+
+#include <string_view>
+
+namespace beamcam::scenes {
+
+inline constexpr std::string_view kVersion = BEAMCAM_VERSION;
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,18 @@
+// The state at t = 0: straight, in static equilibrium with the hub held, or resting on the cam.
+#pragma once
+
+#include <vector>
+
+#include "sim/system.hpp"
+
+namespace beamcam::sim {
+
+struct InitialState {
+    std::vector<double> y;  // of the system's `size`
+    Phase phase;
+};
+
+// Throws StepFailure when no equilibrium is found. MODEL.md §11.
+InitialState initial_state(const Problem& problem);
+
+}  // namespace beamcam::sim

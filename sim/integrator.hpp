@@ -1,0 +1,64 @@
+// One-step view of every integrator: a step yields a segment that evaluates itself anywhere inside.
+// Nothing here knows of beams. Steps are never shortened for output; only `stop_at` (an instant where
+// the right-hand side is not smooth) and the caller's events end a segment early.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "sim/problem.hpp"
+
+namespace beamcam::sim {
+
+// y′ = f(t, y). The first `controlled` components take part in error control; the rest (work and
+// impulse integrals) follow along and never change a step.
+struct Ode {
+    virtual ~Ode() = default;
+    virtual void rhs(double t, const double* y, double* dy) = 0;
+    int size = 0;
+    int controlled = 0;
+};
+
+class Segment {
+  public:
+    virtual ~Segment() = default;
+    // All components at t in [t0, t1].
+    virtual void value(double t, double* y) const = 0;
+    double t0 = 0, t1 = 0;
+};
+
+struct StepFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct IntegratorCounters {
+    long steps = 0, rejected = 0, rhs = 0, jacobians = 0;
+};
+
+class Integrator {
+  public:
+    virtual ~Integrator() = default;
+    // Start, or go on after an event, from (t, y).
+    virtual void start(double t, const double* y) = 0;
+    // No step goes beyond this instant until the next call.
+    void stop_at(double t) { stop_ = t; }
+    // One accepted step. The segment lives until the next call. Throws StepFailure.
+    virtual const Segment& step() = 0;
+    // The last step again, ended at t1 inside it; y at its end is as accurate as a step's.
+    virtual const Segment& shorten(double t1) = 0;
+    virtual const double* state() const = 0;  // at the end of the last segment
+
+    IntegratorCounters counters;
+
+  protected:
+    double stop_ = std::numeric_limits<double>::infinity();
+};
+
+// `method` names one; `automatic` is resolved by the caller.
+std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
+// cvode-adams or cvode-bdf.
+std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);
+
+}  // namespace beamcam::sim

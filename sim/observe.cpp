@@ -1,0 +1,466 @@
+#include "sim/observe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "sim/numerics.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kMaxPieces = 24;  // looks a step at most
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Eye::Eye(const Problem& problem) : system_(problem), y_(static_cast<std::size_t>(system_.size)) {}
+
+void Eye::look(double t, const double* y) {
+    t_ = t;
+    std::copy_n(y, y_.size(), y_.begin());
+    books_known_ = contact_known_ = acceleration_known_ = false;
+    system_.place(t, y_.data());
+}
+
+const ContactState& Eye::contact() {
+    if (!contact_known_) {
+        contact_ = system_.contact(t_, y_.data(), !system_.phase().touching);
+        contact_known_ = true;
+    }
+    return contact_;
+}
+
+const System::Books& Eye::books() {
+    if (!books_known_) {
+        books_ = system_.books(t_, y_.data());
+        books_known_ = true;
+    }
+    return books_;
+}
+
+double Eye::value(Channel channel) {
+    const int n = system_.coordinates();
+    const Model& model = system_.model();
+    const bool cam = system_.has_cam();
+    switch (channel.kind) {
+        case ChannelKind::t:
+            return t_;
+        case ChannelKind::theta:
+            return model.hub_angle();
+        case ChannelKind::theta_dot:
+            return model.hub_rate();
+        case ChannelKind::tip_deflection:
+        case ChannelKind::tip_rate: {
+            // Across the tangent at the root, which is the hub's direction (S6).
+            BeamPoint tip, root;
+            model.point(model.length(), tip);
+            model.point(0, root);
+            const Vec2 along = unit(model.hub_angle()), across = perp(along), span = tip.r - root.r;
+            if (channel.kind == ChannelKind::tip_deflection) return dot(span, across);
+            return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
+        }
+        case ChannelKind::contact_force:
+            return cam ? contact().force : kNan;
+        case ChannelKind::friction_force:
+            return cam ? contact().friction : kNan;
+        case ChannelKind::gap:
+            return cam ? contact().gap : kNan;
+        case ChannelKind::contact_x:
+            return cam ? contact().x : kNan;
+        case ChannelKind::contact_s: {
+            if (!cam) return kNan;
+            const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
+            const double full = 2 * std::numbers::pi;
+            return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
+        }
+        case ChannelKind::cam_angle:
+            return cam ? system_.cam(t_).angle : kNan;
+        case ChannelKind::q:
+            return channel.index < n ? y_[static_cast<std::size_t>(channel.index)] : kNan;
+        case ChannelKind::energy_kinetic:
+            return books().energies.kinetic;
+        case ChannelKind::energy_potential:
+            return books().energies.gravity;
+        case ChannelKind::energy_elastic:
+            return books().energies.elastic;
+        case ChannelKind::energy_contact:
+            return cam ? books().contact : kNan;
+        case ChannelKind::loss_structural:
+            return books().loss_structural;
+        case ChannelKind::loss_contact:
+            return cam ? books().loss_contact : kNan;
+        case ChannelKind::loss_friction:
+            return cam ? books().loss_friction : kNan;
+        case ChannelKind::work_cam:
+            return cam ? books().work_cam : kNan;
+        case ChannelKind::work_drive:
+            return books().work_drive;
+        case ChannelKind::energy_residual:
+            return books().total() - start_total_;
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper: {
+            if (!cam) return kNan;
+            const ContactState c = contact();
+            if (!acceleration_known_) {
+                double acc[kMaxSize];
+                system_.acceleration(t_, y_.data(), acc);
+                hub_acceleration_ = 0;
+                for (int i = 0; i < n; ++i) hub_acceleration_ += model.hub_row()[i] * acc[i];
+                acceleration_known_ = true;
+                system_.place(t_, y_.data());
+            }
+            // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
+            BeamPoint p, root;
+            model.point(c.x, p);
+            model.point(0, root);
+            const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
+            const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
+            const double pull =
+                3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
+            return hub_acceleration_ * arm + (channel.kind == ChannelKind::separation ? pull : -pull);
+        }
+    }
+    return kNan;
+}
+
+Pose Eye::pose(int stations) {
+    const Model& model = system_.model();
+    Pose pose;
+    pose.t = t_;
+    pose.theta = pose.root_slope = model.hub_angle();
+    pose.theta_dot = model.hub_rate();
+    pose.centreline.reserve(static_cast<std::size_t>(stations));
+    pose.moment.reserve(static_cast<std::size_t>(stations));
+    for (int i = 0; i < stations; ++i) {
+        const double x = model.length() * i / (stations - 1);
+        BeamPoint p;
+        model.point(x, p);
+        pose.centreline.push_back(p.r);
+        pose.moment.push_back(model.bending_moment(x));
+    }
+    if (!system_.has_cam()) return pose;
+    const Cam& cam = *system_.problem().cam;
+    const CamPose at = system_.cam(t_);
+    const ContactState& c = contact();
+    pose.cam_centre = cam.centre;
+    pose.disc_centre = at.disc;
+    pose.cam_angle = at.angle;
+    Nearest nearest;
+    nearest.x = c.x;
+    nearest.s = value({ChannelKind::contact_s});
+    nearest.point = at.disc + cam.radius * c.normal;
+    nearest.normal = c.normal;
+    nearest.gap = c.gap;
+    nearest.force = c.force;
+    nearest.friction = c.friction;
+    nearest.touching = system_.phase().touching;
+    pose.nearest = nearest;
+    return pose;
+}
+
+// ---- recorder --------------------------------------------------------------------------------
+
+Recorder::Recorder(const Problem& problem, const Request& request, Result& result)
+    : problem_(problem),
+      request_(request),
+      result_(result),
+      eye_(problem),
+      y_(static_cast<std::size_t>(eye_.system().size)) {
+    const auto ordered = [](const std::vector<double>& times) {
+        Cursor cursor;
+        cursor.order.resize(times.size());
+        std::iota(cursor.order.begin(), cursor.order.end(), std::size_t{0});
+        std::stable_sort(cursor.order.begin(), cursor.order.end(),
+                         [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+        return cursor;
+    };
+    for (const TableRequest& table : request.tables) {
+        table_cursors_.push_back(ordered(table.times));
+        Table out;
+        out.channels = table.channels;
+        out.values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
+        result_.tables.push_back(std::move(out));
+    }
+    for (const PoseRequest& poses : request.poses) {
+        pose_cursors_.push_back(ordered(poses.times));
+        result_.poses.emplace_back(poses.times.size());
+    }
+    for (const PointRequest& points : request.points) {
+        point_cursors_.push_back(ordered(points.times));
+        result_.points.emplace_back(points.times.size());
+    }
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
+}
+
+void Recorder::begin(const Phase& phase, const std::vector<double>& y) {
+    eye_.set_phase(phase);
+    eye_.look(0, y.data());
+    start_total_ = eye_.books().total();
+    eye_.set_start_energy(start_total_);
+    const double lever = problem_.hub.radius + 0.5 * problem_.beam.length;
+    result_.energy_scale = std::fabs(problem_.beam.line_density() * problem_.beam.length * problem_.gravity * lever);
+    ledger();
+}
+
+void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
+
+int Recorder::pieces(const Stretch& s) {
+    // Steps of high order span a good part of the fastest period: look a few times a radian.
+    const double radians = (s.to - s.from) * eye_.system().highest_frequency();
+    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, double(kMaxPieces)));
+}
+
+template <class F>
+void Recorder::sweep(const std::vector<double>& times, Cursor& cursor, const Stretch& s, F&& visit) {
+    while (cursor.next < cursor.order.size()) {
+        const std::size_t row = cursor.order[cursor.next];
+        const double t = times[row];
+        if (s.last ? t > s.to : t >= s.to) return;
+        s.segment->value(std::max(t, s.from), y_.data());
+        eye_.look(t, y_.data());
+        visit(row);
+        ++cursor.next;
+    }
+}
+
+void Recorder::sample(const Stretch& s) {
+    for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+        const TableRequest& table = request_.tables[i];
+        sweep(table.times, table_cursors_[i], s, [&](std::size_t row) {
+            for (std::size_t c = 0; c < table.channels.size(); ++c)
+                result_.tables[i].values[c][row] = eye_.value(table.channels[c]);
+        });
+    }
+    for (std::size_t i = 0; i < request_.poses.size(); ++i) {
+        const PoseRequest& poses = request_.poses[i];
+        sweep(poses.times, pose_cursors_[i], s,
+              [&](std::size_t row) { result_.poses[i][row] = eye_.pose(poses.stations); });
+    }
+    for (std::size_t i = 0; i < request_.points.size(); ++i) {
+        const PointRequest& points = request_.points[i];
+        sweep(points.times, point_cursors_[i], s, [&](std::size_t row) {
+            BeamPoint p;
+            eye_.system().model().point(points.x, p);
+            result_.points[i][row] = p.r;
+        });
+    }
+}
+
+void Recorder::turning_points(const Stretch& s) {
+    const auto at = [&](double t, double& theta, double& rate) {
+        s.segment->value(t, y_.data());
+        eye_.system().place(t, y_.data());
+        theta = eye_.system().model().hub_angle();
+        rate = eye_.system().model().hub_rate();
+    };
+    const int count = pieces(s);
+    double t0 = s.from, theta0, rate0, theta1, rate1;
+    at(t0, theta0, rate0);
+    for (int i = 1; i <= count; ++i) {
+        const double t1 = i == count ? s.to : s.from + (s.to - s.from) * i / count;
+        at(t1, theta1, rate1);
+        if (rate0 > 0 && rate1 <= 0) {
+            double theta, rate;
+            const double t = find_root(
+                [&](double x) {
+                    at(x, theta, rate);
+                    return rate;
+                },
+                t0, t1, rate0, rate1);
+            at(t, theta, rate);
+            result_.apexes.push_back({t, theta});
+        }
+        if ((theta0 > 0) != (theta1 > 0) && theta0 != 0) {
+            double theta, rate;
+            const double t = find_root(
+                [&](double x) {
+                    at(x, theta, rate);
+                    return theta;
+                },
+                t0, t1, theta0, theta1);
+            at(t, theta, rate);
+            result_.theta_zero.push_back({t, rate});
+        }
+        t0 = t1;
+        theta0 = theta1;
+        rate0 = rate1;
+    }
+}
+
+void Recorder::contact_peaks(const Stretch& s) {
+    if (!impact_open_) return;
+    Impact& impact = result_.impacts.back();
+    const auto contact_at = [&](double t) -> const ContactState& {
+        s.segment->value(t, y_.data());
+        eye_.look(t, y_.data());
+        return eye_.contact();
+    };
+    const auto force = [&](double t) { return contact_at(t).force; };
+    const auto depth = [&](double t) { return -contact_at(t).gap; };
+    const int count = std::max(4, pieces(s));
+    const auto time = [&](int i) { return i >= count ? s.to : s.from + (s.to - s.from) * i / count; };
+    std::array<double, kMaxPieces + 1> forces, depths;
+    for (int i = 0; i <= count; ++i) {
+        const ContactState& c = contact_at(time(i));
+        forces[static_cast<std::size_t>(i)] = c.force;
+        depths[static_cast<std::size_t>(i)] = -c.gap;
+    }
+    const auto refine = [&](const auto& values, const auto& f, double& best) {
+        for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
+        for (int i = 1; i < count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double left = values[k - 1], here = values[k], right = values[k + 1];
+            // Only what could exceed the best: a parabola through three points rises by less than its fall.
+            if (here < left || here < right || here + std::max(here - left, here - right) <= best) continue;
+            best = std::max(best, find_peak(f, time(i - 1), time(i + 1)).second);
+        }
+    };
+    refine(forces, force, impact.force_peak);
+    refine(depths, depth, impact.penetration_peak);
+}
+
+void Recorder::extrema(const Stretch& s) {
+    if (request_.extrema.empty()) return;
+    const int count = pieces(s);
+    const std::size_t channels = request_.extrema.size();
+    std::vector<std::vector<double>> values(channels, std::vector<double>(static_cast<std::size_t>(count) + 1));
+    const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
+    for (int i = 0; i <= count; ++i) {
+        s.segment->value(time(i), y_.data());
+        eye_.look(time(i), y_.data());
+        for (std::size_t c = 0; c < channels; ++c)
+            values[c][static_cast<std::size_t>(i)] = eye_.value(request_.extrema[c]);
+    }
+    for (std::size_t c = 0; c < channels; ++c) {
+        Extremum& e = result_.extrema[c];
+        const auto offer = [&](double t, double v) {
+            if (v < e.min) {
+                e.min = v;
+                e.t_min = t;
+            }
+            if (v > e.max) {
+                e.max = v;
+                e.t_max = t;
+            }
+        };
+        const auto at = [&](double t) {
+            s.segment->value(t, y_.data());
+            eye_.look(t, y_.data());
+            return eye_.value(request_.extrema[c]);
+        };
+        for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
+        for (int i = 1; i < count; ++i) {
+            const double left = values[c][static_cast<std::size_t>(i - 1)],
+                         here = values[c][static_cast<std::size_t>(i)],
+                         right = values[c][static_cast<std::size_t>(i + 1)];
+            // Refine only what could become the extremum: a parabola rises by at most the larger step.
+            const double rise = std::max(std::fabs(here - left), std::fabs(here - right));
+            if (here >= left && here >= right && here > left + right - here && here + rise > e.max) {
+                const auto [t, v] = find_peak(at, time(i - 1), time(i + 1));
+                offer(t, v);
+            }
+            if (here <= left && here <= right && here < left + right - here && here - rise < e.min) {
+                const auto [t, v] = find_peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
+                offer(t, -v);
+            }
+        }
+    }
+}
+
+void Recorder::ledger() {
+    const System::Books& books = eye_.books();
+    result_.energy_scale = std::max({result_.energy_scale, books.energies.kinetic, books.energies.elastic});
+    result_.energy_residual_max = std::max(result_.energy_residual_max, std::fabs(books.total() - start_total_));
+}
+
+void Recorder::stretch(const Stretch& s) {
+    if (!(s.to > s.from) && !s.last) return;
+    sample(s);
+    if (s.to > s.from) {
+        turning_points(s);
+        contact_peaks(s);
+        extrema(s);
+    }
+    s.segment->value(s.to, y_.data());
+    eye_.look(s.to, y_.data());
+    ledger();
+}
+
+void Recorder::touch(double t, const double* y, const ContactState& c) {
+    const double* ledger = y + eye_.system().controlled;
+    impact_open_ = true;
+    books_at_touch_lost_ = ledger[kNormalWork] + ledger[kFrictionWork];
+    impulse_n_at_touch_ = ledger[kImpulseN];
+    impulse_t_at_touch_ = ledger[kImpulseT];
+    Impact impact;
+    impact.t_start = t;
+    impact.x = c.x;
+    impact.cam_angle = eye_.system().cam(t).angle;
+    impact.v_n_before = c.gap_rate;
+    impact.v_t_before = c.slip;
+    impact.penetration_peak = std::max(0.0, -c.gap);
+    impact.force_peak = c.force;
+    std::vector<Collision>& collisions = result_.collisions;
+    const bool joins = !collisions.empty() && t - collisions.back().t_end.value_or(t) < problem_.contact.collision_gap;
+    if (!joins) {
+        Collision collision;
+        collision.t_start = t;
+        collision.x = c.x;
+        collision.v_n_before = c.gap_rate;
+        collisions.push_back(collision);
+    }
+    Collision& collision = collisions.back();
+    ++collision.count;
+    collision.t_end.reset();
+    collision.v_n_after.reset();
+    collision.restitution.reset();
+    impact.collision = static_cast<int>(collisions.size()) - 1;
+    result_.impacts.push_back(impact);
+}
+
+void Recorder::release(double t, const double* y, const ContactState& c) {
+    Impact& impact = result_.impacts.back();
+    impact.t_end = t;
+    impact.duration = t - impact.t_start;
+    impact.v_n_after = c.gap_rate;
+    impact.v_t_after = c.slip;
+    if (impact.v_n_before < 0) impact.restitution = -c.gap_rate / impact.v_n_before;
+    settle(y);
+    impact_open_ = false;
+    Collision& collision = result_.collisions.back();
+    collision.t_end = t;
+    collision.v_n_after = c.gap_rate;
+    if (collision.v_n_before < 0) collision.restitution = -c.gap_rate / collision.v_n_before;
+}
+
+// Impulses and losses of the open impact up to the state y.
+void Recorder::settle(const double* y) {
+    Impact& impact = result_.impacts.back();
+    Collision& collision = result_.collisions.back();
+    const double* ledger = y + eye_.system().controlled;
+    impact.impulse_n = ledger[kImpulseN] - impulse_n_at_touch_;
+    impact.impulse_t = ledger[kImpulseT] - impulse_t_at_touch_;
+    impact.energy_lost = ledger[kNormalWork] + ledger[kFrictionWork] - books_at_touch_lost_;
+    collision.force_peak = std::max(collision.force_peak, impact.force_peak);
+    collision.energy_lost += impact.energy_lost;
+}
+
+void Recorder::end(double t, const double* y) {
+    if (impact_open_) {
+        eye_.look(t, y);
+        settle(y);
+        result_.impacts.back().energy_lost -= eye_.books().contact;  // what is stored is not lost
+        result_.collisions.back().energy_lost -= eye_.books().contact;
+    }
+    // Channels that are undefined all along have no extrema.
+    for (Extremum& e : result_.extrema)
+        if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
+    result_.end_time = t;
+}
+
+}  // namespace beamcam::sim

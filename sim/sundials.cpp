@@ -1,0 +1,230 @@
+// CVODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton
+// and a dense differenced Jacobian (a handful to eighty unknowns: differencing costs as much as a few
+// steps and serves dozens of them). The only file that sees SUNDIALS.
+//
+// A segment is the Nordsieck polynomial of the step, which is CVODE's own dense output.
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "sim/integrator.hpp"
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define BEAMCAM_NO_COMM SUN_COMM_NULL
+#else
+#define BEAMCAM_NO_COMM nullptr
+#endif
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kMaxOrder = 12;  // of Adams; BDF uses 5
+// Weight of components that error control shall not see, relative to those it sees.
+constexpr double kIgnored = 1e-30;
+
+void check(int flag, const char* call) {
+    if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag));
+}
+
+class Cvode final : public Integrator, private Segment {
+  public:
+    Cvode(Method method, Ode& ode, double rtol, double atol)
+        : ode_(ode),
+          rtol_(rtol),
+          atol_(atol),
+          n_(static_cast<std::size_t>(ode.size)),
+          bdf_(method == Method::cvode_bdf) {
+        if (SUNContext_Create(BEAMCAM_NO_COMM, &context_) != 0) throw StepFailure("the integrator could not be set up");
+        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+        end_.assign(n_, 0);
+        for (auto& d : taylor_) d.assign(n_, 0);
+    }
+    ~Cvode() override {
+        release_solver();
+        N_VDestroy(y_);
+        N_VDestroy(work_);
+        SUNContext_Free(&context_);
+    }
+    Cvode(const Cvode&) = delete;
+    Cvode& operator=(const Cvode&) = delete;
+
+    void start(double t, const double* y) override {
+        std::copy_n(y, n_, N_VGetArrayPointer(y_));
+        std::copy_n(y, n_, end_.begin());
+        t1 = t;
+        collect();
+        if (!memory_) {
+            set_up(t);
+        } else {
+            check(CVodeReInit(memory_, t, y_), "a restart");
+        }
+        check(CVodeSetInitStep(memory_, first_step()), "the first step");
+    }
+
+    const Segment& step() override {
+        t0 = t1;
+        if (std::isfinite(stop_) && stop_ > t0) check(CVodeSetStopTime(memory_, stop_), "the stop time");
+        double reached = t0;
+        const int flag =
+            CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + 1e3, y_, &reached, CV_ONE_STEP);
+        if (flag < 0) {
+            const char* reason = flag == CV_TOO_MUCH_ACC   ? "the tolerance is below rounding"
+                                 : flag == CV_ERR_FAILURE  ? "the error test failed again and again"
+                                 : flag == CV_CONV_FAILURE ? "the nonlinear iteration did not converge"
+                                                           : "the integrator gave up";
+            throw StepFailure(reason);
+        }
+        t1 = reached;
+        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        int order = 1;
+        check(CVodeGetLastOrder(memory_, &order), "the order");
+        order_ = std::min(order, kMaxOrder);
+        base_ = t1;
+        double factorial = 1;
+        for (int k = 0; k <= order_; ++k) {
+            if (k > 0) factorial *= k;
+            check(CVodeGetDky(memory_, t1, k, work_), "dense output");
+            const double* d = N_VGetArrayPointer(work_);
+            for (std::size_t i = 0; i < n_; ++i) taylor_[static_cast<std::size_t>(k)][i] = d[i] / factorial;
+        }
+        collect();
+        return *this;
+    }
+
+    const Segment& shorten(double at) override {
+        // The polynomial is as good as the step; no history to re-take it from.
+        value(at, end_.data());
+        t1 = at;
+        return *this;
+    }
+
+    const double* state() const override { return end_.data(); }
+
+    void value(double t, double* y) const override {
+        const double s = t - base_;
+        for (std::size_t i = 0; i < n_; ++i) {
+            double v = taylor_[static_cast<std::size_t>(order_)][i];
+            for (int k = order_ - 1; k >= 0; --k) v = v * s + taylor_[static_cast<std::size_t>(k)][i];
+            y[i] = v;
+        }
+    }
+
+  private:
+    // Counts of the present CVODE memory are restarted by CVodeReInit: add up the differences.
+    void collect() {
+        if (!memory_) return;
+        long steps = 0, rhs = 0, rejected = 0, jacobians = 0, linear_rhs = 0;
+        CVodeGetNumSteps(memory_, &steps);
+        CVodeGetNumRhsEvals(memory_, &rhs);
+        CVodeGetNumErrTestFails(memory_, &rejected);
+        if (bdf_) {
+            CVodeGetNumJacEvals(memory_, &jacobians);
+            CVodeGetNumLinRhsEvals(memory_, &linear_rhs);
+        }
+        rhs += linear_rhs;
+        const auto add = [](long& total, long now, long& last) {
+            total += now >= last ? now - last : now;
+            last = now;
+        };
+        add(counters.steps, steps, last_.steps);
+        add(counters.rhs, rhs, last_.rhs);
+        add(counters.rejected, rejected, last_.rejected);
+        add(counters.jacobians, jacobians, last_.jacobians);
+    }
+
+    // Moves the state by a hundredth of its tolerance-weighted size; the error test does the rest.
+    double first_step() {
+        double* slope = N_VGetArrayPointer(work_);
+        ode_.rhs(t1, end_.data(), slope);
+        double size = 0, speed = 0;
+        for (int i = 0; i < ode_.controlled; ++i) {
+            const double value = end_[static_cast<std::size_t>(i)], scale = atol_ + rtol_ * std::fabs(value);
+            size += value * value / (scale * scale);
+            speed += slope[i] * slope[i] / (scale * scale);
+        }
+        const double h = size > 0 && speed > 0 ? 0.01 * std::sqrt(size / speed) : 1e-6;
+        return std::isfinite(stop_) && stop_ > t1 ? std::min(h, 0.5 * (stop_ - t1)) : h;
+    }
+
+    static int rhs(double t, N_Vector y, N_Vector dy, void* self) noexcept {
+        auto& ode = static_cast<Cvode*>(self)->ode_;
+        double* out = N_VGetArrayPointer(dy);
+        ode.rhs(t, N_VGetArrayPointer(y), out);
+        for (int i = 0; i < ode.size; ++i)
+            if (!std::isfinite(out[i])) return 1;  // recoverable: try a smaller step
+        return 0;
+    }
+
+    static int weights(N_Vector y, N_Vector w, void* self) noexcept {
+        const auto& me = *static_cast<Cvode*>(self);
+        const double* value = N_VGetArrayPointer(y);
+        double* weight = N_VGetArrayPointer(w);
+        // The norm averages over all components; only the controlled ones shall count.
+        const double share = std::sqrt(static_cast<double>(me.ode_.size) / me.ode_.controlled);
+        for (int i = 0; i < me.ode_.size; ++i)
+            weight[i] = i < me.ode_.controlled ? share / (me.rtol_ * std::fabs(value[i]) + me.atol_) : kIgnored;
+        return 0;
+    }
+
+    void set_up(double t) {
+        memory_ = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
+        if (!memory_) throw StepFailure("the integrator could not be set up");
+        check(CVodeInit(memory_, &Cvode::rhs, t, y_), "the start");
+        check(CVodeSetUserData(memory_, this), "the start");
+        check(CVodeWFtolerances(memory_, &Cvode::weights), "the tolerances");
+        check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
+        // Failures come back as flags and are told once, by us.
+        check(CVodeSetErrHandlerFn(
+                  memory_, [](int, const char*, const char*, char*, void*) {}, nullptr),
+              "the start");
+        if (bdf_) {
+            matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
+            linear_ = SUNLinSol_Dense(y_, matrix_, context_);
+            check(CVodeSetLinearSolver(memory_, linear_, matrix_), "the linear solver");
+        } else {
+            nonlinear_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
+            check(CVodeSetNonlinearSolver(memory_, nonlinear_), "the nonlinear solver");
+        }
+    }
+
+    void release_solver() {
+        if (memory_) CVodeFree(&memory_);
+        if (linear_) SUNLinSolFree(linear_);
+        if (matrix_) SUNMatDestroy(matrix_);
+        if (nonlinear_) SUNNonlinSolFree(nonlinear_);
+    }
+
+    Ode& ode_;
+    double rtol_, atol_;
+    std::size_t n_;
+    bool bdf_;
+    SUNContext context_ = nullptr;
+    void* memory_ = nullptr;
+    SUNMatrix matrix_ = nullptr;
+    SUNLinearSolver linear_ = nullptr;
+    SUNNonlinearSolver nonlinear_ = nullptr;
+    N_Vector y_ = nullptr, work_ = nullptr;
+    std::vector<double> end_;
+    std::array<std::vector<double>, kMaxOrder + 1> taylor_;
+    int order_ = 0;
+    double base_ = 0;
+    IntegratorCounters last_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
+    return std::make_unique<Cvode>(method, ode, rtol, atol);
+}
+
+}  // namespace beamcam::sim

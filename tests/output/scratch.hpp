@@ -1,0 +1,90 @@
+// A directory of a test's own, gone afterwards; and small pictures and tables to write into it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/image.hpp"
+
+namespace beamcam::output {
+
+class Scratch {
+  public:
+    Scratch() {
+        std::string name = (std::filesystem::temp_directory_path() / "beamcam-test-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch directory");
+        directory_ = name;
+    }
+    ~Scratch() {
+        std::error_code error;
+        std::filesystem::permissions(directory_, std::filesystem::perms::owner_all, error);
+        std::filesystem::remove_all(directory_, error);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return directory_ / name; }
+    const std::filesystem::path& path() const { return directory_; }
+
+    // Names of everything in it, hidden files too, sorted.
+    std::vector<std::string> names() const {
+        std::vector<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(directory_))
+            found.push_back(entry.path().filename().string());
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+  private:
+    std::filesystem::path directory_;
+};
+
+inline render::Image flat_image(int width, int height, std::uint32_t pixel) {
+    render::Image image(width, height);
+    std::fill(image.pixels.begin(), image.pixels.end(), pixel);
+    return image;
+}
+
+// What a shell command prints; fails the test when it exits with an error.
+inline std::string output_of(const std::string& command) {
+    std::string text;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
+    std::array<char, 4096> buffer;
+    for (std::size_t got = 0; (got = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        text.append(buffer.data(), got);
+    const int status = pclose(pipe);
+    EXPECT_EQ(status, 0) << command << "\n" << text;
+    return text;
+}
+
+// Runs `body` in a child process and gives its exit code; 256 plus the signal that ended it.
+template <typename Body>
+int exit_code_of(Body body) {
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error("cannot fork");
+    if (child == 0) {
+        int code = 99;
+        try {
+            code = body();
+        } catch (...) {
+        }
+        _exit(code);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 256 + WTERMSIG(status);
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,246 @@
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <cmath>
+
+#include "output/atomic_file.hpp"
+#include "output/sha256.hpp"
+#include "output/video.hpp"
+#include "tests/output/scratch.hpp"
+
+namespace beamcam::output {
+namespace {
+
+VideoOptions small_film() {
+    VideoOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.preset = "ultrafast";
+    return options;
+}
+
+render::Image moving_square(int width, int height, int frame) {
+    render::Image image = flat_image(width, height, 0xfff4f1ea);
+    for (int y = 8; y < 24; ++y)
+        for (int x = 0; x < 16; ++x)
+            image.pixels[static_cast<std::size_t>(y * width + (x + 2 * frame) % width)] = 0xff1f4e8c;
+    return image;
+}
+
+void write_film(const std::filesystem::path& file, const VideoOptions& options, int frames) {
+    VideoWriter film(file, options);
+    for (int i = 0; i < frames; ++i) film.write(moving_square(options.width, options.height, i));
+    film.finish();
+}
+
+std::string probe(const std::filesystem::path& file, const std::string& what) {
+    return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
+}
+
+// R, G, B of the top-left pixel of every frame, as FFmpeg shows them.
+std::string first_pixels(const std::filesystem::path& file) {
+    return output_of("/usr/bin/ffmpeg -v error -i " + file.string() +
+                     " -vf crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 -");
+}
+
+TEST(Film, IsWhatPlayersExpect) {
+    Scratch scratch;
+    VideoOptions options;
+    options.metadata = {{"title", "Fall on a cam, θ₀ = 45°"}, {"beamcam_scene", "{\"hub\":{}}"}};
+    write_film(scratch / "a.mp4", options, 5);
+    const std::string seen = probe(scratch / "a.mp4", "-count_frames -show_streams -show_format");
+    for (const char* expected :
+         {"codec_name=h264", "width=1920", "height=1080", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
+          "color_transfer=bt709", "color_primaries=bt709", "chroma_location=center", "r_frame_rate=60/1",
+          "avg_frame_rate=60/1", "nb_read_frames=5", "nb_frames=5", "sample_aspect_ratio=1:1", "duration=0.083333",
+          "TAG:title=Fall on a cam, θ₀ = 45°", "TAG:beamcam_scene={\"hub\":{}}"})
+        EXPECT_NE(seen.find(expected), std::string::npos) << expected << "\n" << seen;
+}
+
+TEST(Film, HasItsIndexFirst) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 5);
+    const std::string bytes = read_file(scratch / "a.mp4");
+    ASSERT_NE(bytes.find("moov"), std::string::npos);
+    EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+}
+
+TEST(Film, ShowsFlatColoursWithinTwoLevels) {
+    for (const std::uint32_t colour :
+         {0xff000000u, 0xffffffffu, 0xff808080u, 0xffc0392bu, 0xff27ae60u, 0xff2c3e9fu, 0xfff4f1eau}) {
+        Scratch scratch;
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 3; ++i) film.write(flat_image(64, 48, colour));
+        film.finish();
+        const std::string rgb = first_pixels(scratch / "a.mp4");
+        ASSERT_EQ(rgb.size(), 9u);
+        for (std::size_t i = 0; i < 9; ++i) {
+            const int expected = static_cast<int>(colour >> (16 - 8 * (i % 3)) & 0xff);
+            EXPECT_NEAR(static_cast<unsigned char>(rgb[i]), expected, 2) << std::hex << colour << " byte " << i;
+        }
+    }
+}
+
+TEST(Film, KeepsItsFramesInOrder) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    for (unsigned i = 0; i < 20; ++i) film.write(flat_image(64, 48, 0xff000000u | (i * 12) * 0x010101u));
+    film.finish();
+    const std::string rgb = first_pixels(scratch / "a.mp4");
+    ASSERT_EQ(rgb.size(), 60u);
+    for (unsigned i = 0; i < 20; ++i) EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * i]), 12.0 * i, 2) << i;
+}
+
+TEST(Film, ARepeatedPictureIsTheSameAsOneWrittenAgain) {
+    Scratch scratch;
+    write_film(scratch / "written.mp4", small_film(), 1);
+    {
+        VideoWriter written(scratch / "written.mp4", small_film()), repeated(scratch / "repeated.mp4", small_film());
+        for (int i = 0; i < 3; ++i) {
+            written.write(moving_square(64, 48, i));
+            repeated.write(moving_square(64, 48, i));
+            for (int k = 0; k < 20; ++k) {
+                written.write(moving_square(64, 48, i));
+                repeated.repeat();
+            }
+        }
+        written.finish();
+        repeated.finish();
+        EXPECT_EQ(repeated.statistics().frames, 63);
+    }
+    EXPECT_EQ(sha256_of_file(scratch / "written.mp4"), sha256_of_file(scratch / "repeated.mp4"));
+}
+
+TEST(Film, SamePicturesGiveTheSameBytes) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 30);
+    write_film(scratch / "b.mp4", small_film(), 30);
+    EXPECT_EQ(sha256_of_file(scratch / "a.mp4"), sha256_of_file(scratch / "b.mp4"));
+}
+
+TEST(Film, KeepsBroadcastRatesExactly) {
+    Scratch scratch;
+    VideoOptions options = small_film();
+    options.fps = 29.97;
+    write_film(scratch / "a.mp4", options, 3);
+    EXPECT_NE(probe(scratch / "a.mp4", "-show_streams").find("r_frame_rate=30000/1001"), std::string::npos);
+}
+
+TEST(Film, MayLastOneFrame) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 1);
+    EXPECT_NE(probe(scratch / "a.mp4", "-count_frames -show_streams").find("nb_read_frames=1"), std::string::npos);
+}
+
+TEST(Film, AcceptsNamesThatLookLikeAddresses) {
+    Scratch scratch;
+    write_film(scratch / "http:x %d θ.mp4", small_film(), 2);
+    EXPECT_EQ(scratch.names(), std::vector<std::string>{"http:x %d θ.mp4"});
+}
+
+TEST(Film, LeavesNothingWhenItIsNotFinished) {
+    Scratch scratch;
+    {
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 30; ++i) film.write(moving_square(64, 48, i));
+    }
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(Film, WithoutPicturesIsRefused) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    EXPECT_THROW(film.finish(), std::logic_error);
+    EXPECT_THROW(film.repeat(), std::logic_error);
+}
+
+TEST(Film, RefusesAPictureOfAnotherSize) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    EXPECT_THROW(film.write(flat_image(66, 48, 0)), std::logic_error);
+}
+
+// A limit on the file size stands for the full disk.
+TEST(Film, SaysSoAndLeavesNothingWhenTheDiskIsFull) {
+    Scratch scratch;
+    const int code = exit_code_of([&] {
+        install_handlers();
+        const rlimit limit = {20000, 20000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        VideoOptions options = small_film();
+        options.width = 320, options.height = 240, options.crf = 1;
+        try {
+            VideoWriter film(scratch / "a.mp4", options);
+            render::Image noise(320, 240);
+            for (int frame = 0; frame < 60; ++frame) {
+                for (std::size_t i = 0; i < noise.pixels.size(); ++i)
+                    noise.pixels[i] =
+                        0xff000000u | static_cast<std::uint32_t>((i + 1) * 2654435761u * unsigned(frame + 3));
+                film.write(noise);
+            }
+            film.finish();
+        } catch (const IoError& error) {
+            return std::string(error.what()).find("a.mp4: File too large") != std::string::npos ? 0 : 1;
+        }
+        return 2;
+    });
+    EXPECT_EQ(code, 0);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(Film, SecondSignalLeavesNothing) {
+    Scratch scratch;
+    const int code = exit_code_of([&] {
+        install_handlers();
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 10; ++i) film.write(moving_square(64, 48, i));
+        raise(SIGINT);
+        raise(SIGINT);
+        return 1;
+    });
+    EXPECT_EQ(code, 130);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(VideoOptions, DefaultsAreSound) { EXPECT_TRUE(problems({}).empty()); }
+
+TEST(VideoOptions, OddSizesAreRefusedWithTheEvenSize) {
+    VideoOptions options;
+    options.width = 1919, options.height = 1081;
+    ASSERT_EQ(problems(options).size(), 1u);
+    EXPECT_NE(problems(options)[0].find("use 1920x1082"), std::string::npos) << problems(options)[0];
+    Scratch scratch;
+    EXPECT_THROW(VideoWriter(scratch / "a.mp4", options), UnsupportedOption);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(VideoOptions, EveryProblemIsToldAtOnce) {
+    VideoOptions options;
+    options.width = 0, options.fps = -1, options.codec = "mpeg1", options.crf = 99, options.preset = "quick",
+    options.threads = 8;
+    EXPECT_EQ(problems(options).size(), 6u);
+}
+
+TEST(FrameRate, KnowsTheBroadcastRates) {
+    EXPECT_EQ(frame_rate(60), (FrameRate{60, 1}));
+    EXPECT_EQ(frame_rate(23.976), (FrameRate{24000, 1001}));
+    EXPECT_EQ(frame_rate(23.98), (FrameRate{24000, 1001}));
+    EXPECT_EQ(frame_rate(29.97), (FrameRate{30000, 1001}));
+    EXPECT_EQ(frame_rate(30000.0 / 1001), (FrameRate{30000, 1001}));
+    EXPECT_EQ(frame_rate(59.94), (FrameRate{60000, 1001}));
+    EXPECT_EQ(frame_rate(119.88), (FrameRate{120000, 1001}));
+}
+
+TEST(FrameRate, OtherRatesAreTheNearestFraction) {
+    EXPECT_EQ(frame_rate(12.5), (FrameRate{25, 2}));
+    EXPECT_EQ(frame_rate(0.1), (FrameRate{1, 10}));
+    EXPECT_EQ(frame_rate(100.0 / 3), (FrameRate{100, 3}));
+    EXPECT_DOUBLE_EQ(frame_rate(29.5).time_of(59), 2.0);
+}
+
+TEST(FrameRate, RefusesWhatNoFilmHas) {
+    for (double fps : {0.0, -1.0, 1e9, std::nan("")}) EXPECT_THROW(frame_rate(fps), UnsupportedOption) << fps;
+}
+
+}  // namespace
+}  // namespace beamcam::output

@@ -1,0 +1,190 @@
+// The program as scripts see it: exit codes, what goes to standard output, what is left on disk.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::shell;
+using ::testing::StartsWith;
+
+TEST(CommandLine, VersionHelpAndSchemaAreData) {
+    const Folder folder;
+    EXPECT_THAT(shell(folder, "$BEAMCAM --version").out, StartsWith("beamcam "));
+    for (const char* command : {"", "run", "render", "simulate", "check", "plan", "init", "schema"}) {
+        const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
+        EXPECT_EQ(help.code, 0);
+        EXPECT_THAT(help.out, HasSubstr("Usage"));
+        EXPECT_THAT(help.err, IsEmpty());
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM schema").out,
+              testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"));
+}
+
+TEST(CommandLine, WrongUsageIsTwo) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    for (const char* arguments : {"",
+                                  "run",
+                                  "fly s.json",
+                                  "s.json",
+                                  "run s.json --what",
+                                  "render s.json",
+                                  "render s.json -o a.avi",
+                                  "render s.json -o a.png",
+                                  "render s.json -o a.mp4 --at 0.1",
+                                  "render s.json -o a.mp4 --size 641x360",
+                                  "render s.json -o a.mp4 --size big",
+                                  "render s.json -o a.mp4 --from 3",
+                                  "render s.json -o a.png --at -1",
+                                  "render s.json -o a.png --at '5 mm'",
+                                  "simulate s.json --rate 0",
+                                  "simulate s.json --rate 5 --times 1",
+                                  "simulate s.json --channels thetta",
+                                  "simulate s.json --channels theta --summary -",
+                                  "simulate s.json --trajectory a.txt",
+                                  "run s.json -j 0",
+                                  "simulate s.json --summary a.json --impacts a.json",
+                                  "run s.json --progress loud",
+                                  "modes s.json",
+                                  "figure s.json"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
+        EXPECT_EQ(finished.code, 2) << arguments << "\n" << finished.err;
+        EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << arguments;
+        EXPECT_THAT(finished.out, IsEmpty()) << arguments;
+    }
+    EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").err, HasSubstr("not available in this version"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
+}
+
+TEST(CommandLine, ABadSceneIsThreeAndNothingIsWritten) {
+    const Folder folder;
+    folder.write("s.json", "{\"beam\": {\"lenght\": 1}}");
+    for (const char* arguments :
+         {"check s.json", "run s.json -o out", "plan s.json", "simulate s.json", "render s.json -o a.mp4"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
+        EXPECT_EQ(finished.code, 3) << arguments;
+        EXPECT_THAT(finished.err, StartsWith("s.json:1:11: unknown key \"lenght\"")) << arguments;
+        EXPECT_THAT(finished.out, IsEmpty());
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(CommandLine, AnUnreadableSceneIsSix) {
+    const Folder folder;
+    EXPECT_EQ(shell(folder, "$BEAMCAM check absent.json").code, 6);
+    EXPECT_EQ(shell(folder, "$BEAMCAM check .").code, 6);
+}
+
+TEST(CommandLine, CheckTellsOfEveryScene) {
+    const Folder folder;
+    folder.write("good.json", "{}");
+    folder.write("bad.json", "{,}");
+    const Finished finished = shell(folder, "$BEAMCAM check bad.json good.json");
+    EXPECT_EQ(finished.code, 3);
+    EXPECT_THAT(finished.err, HasSubstr("bad.json:1:2: "));
+    EXPECT_THAT(finished.err, HasSubstr("good.json: fine"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM check - < good.json").code, 0);
+}
+
+TEST(CommandLine, PlanPrintsDataAndDoesNothing) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const Finished plan = shell(folder, "$BEAMCAM plan s.json"), dry = shell(folder, "$BEAMCAM run -n s.json");
+    EXPECT_EQ(plan.code, 0);
+    EXPECT_THAT(plan.out, HasSubstr("video     s.mp4: 90 frames"));
+    EXPECT_EQ(plan.out, dry.out);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --json").out, HasSubstr("\"stage\": \"simulate\""));
+    EXPECT_EQ(shell(folder, "$BEAMCAM plan s.json --json | /usr/bin/python3 -m json.tool").code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.mp4"));
+}
+
+TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
+    const Folder folder;
+    EXPECT_EQ(shell(folder, "$BEAMCAM init fall").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM check fall.json").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan fall.json").out, HasSubstr("fall.mp4"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM init fall").code, 6);
+    EXPECT_EQ(shell(folder, "$BEAMCAM init fall --force").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM init -").out, HasSubstr("\"beam\""));
+}
+
+TEST(CommandLine, SimulatePrintsTheSummaryOrTheTableAskedFor) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    const Finished summary = shell(folder, "$BEAMCAM simulate s.json");
+    EXPECT_EQ(summary.code, 0) << summary.err;
+    EXPECT_THAT(summary.out, HasSubstr("\"energy_residual_max\""));
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json | /usr/bin/python3 -m json.tool").code, 0);
+    const Finished table = shell(folder, "$BEAMCAM simulate s.json --channels theta --times '0.1,50 ms,0'");
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_THAT(table.out, StartsWith("t,theta\n"));
+    EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 4);
+    EXPECT_THAT(table.out, HasSubstr("\n0,0.785398163397448"));
+}
+
+TEST(CommandLine, AddingOutputsLeavesTheTableBitIdentical) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json --trajectory a.csv").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json --trajectory b.csv --impacts i.json --summary s2.json").code, 0);
+    EXPECT_EQ(testing::slurp(folder / "a.csv"), testing::slurp(folder / "b.csv"));
+}
+
+TEST(CommandLine, FilesThatBeamcamDidNotMakeAreKept) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory", "file": "t.csv"}]})");
+    folder.write("t.csv", "mine");
+    const Finished refused = shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(refused.code, 6);
+    EXPECT_THAT(refused.err, HasSubstr("t.csv"));
+    EXPECT_EQ(testing::slurp(folder / "t.csv"), "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);  // its own now
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json --trajectory absent/t.csv").code, 6);
+}
+
+TEST(CommandLine, PixelsDoNotDependOnTheNumberOfThreads) {
+    const Folder folder;
+    folder.write(
+        "s.json",
+        R"({"outputs": [{"type": "frames", "file": "f-##.png", "size": [320, 180], "fps": 20, "from": 0.2, "to": 0.5, "view": {"style": "flat"}}]})");
+    for (const char* jobs : {"1", "2", "5"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM run s.json -j ") + jobs + " -o j" + jobs);
+        ASSERT_EQ(finished.code, 0) << finished.err;
+    }
+    for (int k = 4; k < 10; ++k) {
+        const std::string file = "f-0" + std::to_string(k) + ".png";
+        const std::string one = testing::slurp(folder / ("j1/" + file));
+        EXPECT_GT(one.size(), 1000u) << file;
+        EXPECT_EQ(one, testing::slurp(folder / ("j2/" + file))) << file;
+        EXPECT_EQ(one, testing::slurp(folder / ("j5/" + file))) << file;
+    }
+}
+
+TEST(CommandLine, QuietSaysNothing) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory"}]})");
+    const Finished finished = shell(folder, "$BEAMCAM run -q s.json");
+    EXPECT_EQ(finished.code, 0);
+    EXPECT_THAT(finished.err, IsEmpty());
+    EXPECT_THAT(finished.out, IsEmpty());
+}
+
+TEST(CommandLine, ProgressForProgramsIsAnObjectALine) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory"}]})");
+    const Finished finished = shell(folder, "$BEAMCAM run s.json --progress json");
+    EXPECT_THAT(finished.err, HasSubstr("{\"stage\":\"simulate\""));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

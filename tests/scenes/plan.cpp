@@ -1,0 +1,163 @@
+#include "scenes/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::read;
+
+Scene scene_of(const std::string& text) {
+    Reading reading = read(text);
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return *reading.scene;
+}
+
+Plan plan_of(const std::string& outputs, const std::string& physics = "") {
+    return plan(scene_of("{" + physics + "\"outputs\": " + outputs + "}"));
+}
+
+std::string text_of(const std::string& scene_text) {
+    const Scene scene = scene_of(scene_text);
+    return to_text(plan(scene), scene);
+}
+
+TEST(Plan, WithoutOutputsNothingIsDone) {
+    const Plan p = plan_of("[]");
+    EXPECT_FALSE(p.simulation);
+    EXPECT_EQ(p.frames(), 0u);
+    EXPECT_FALSE(p.needs_gl());
+    EXPECT_FALSE(p.needs_encoder());
+}
+
+TEST(Plan, ATableNeedsNeitherPicturesNorEncoderNorOpenGl) {
+    const Plan p = plan_of(R"([{"type": "trajectory", "channels": ["theta"], "times": [0.3, 0.1]}])");
+    EXPECT_TRUE(p.pictures.empty());
+    EXPECT_FALSE(p.needs_gl());
+    EXPECT_FALSE(p.needs_encoder());
+    EXPECT_TRUE(p.simulation->request.poses.empty());
+    EXPECT_TRUE(p.simulation->request.extrema.empty());
+    ASSERT_EQ(p.simulation->request.tables.size(), 1u);
+    EXPECT_THAT(p.simulation->request.tables[0].times, ElementsAre(0.3, 0.1));
+    EXPECT_THAT(p.simulation->request.tables[0].channels,
+                ElementsAre(sim::Channel{sim::ChannelKind::t, 0}, sim::Channel{sim::ChannelKind::theta, 0}));
+}
+
+TEST(Plan, SimulationEndsWhereTheLastOutputLooks) {
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}])").simulation->request.end_time, 0.3);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "trajectory", "times": [0.7]}])")
+                  .simulation->request.end_time,
+              0.7);
+    EXPECT_EQ(plan_of(R"([{"type": "video", "to": 0.5}])").simulation->request.end_time, 0.5);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "impacts"}])").simulation->request.end_time, 1.5);
+    EXPECT_EQ(plan_of(R"([{"type": "trajectory", "times": [2.5]}])").simulation->request.end_time, 2.5);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0}])").simulation->request.end_time, 0);
+}
+
+TEST(Plan, FramesStandAtMultiplesOfTheFramePeriod) {
+    const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
+    EXPECT_EQ(p.pictures[0].first_frame, 2);
+    EXPECT_THAT(p.simulation->request.poses[0].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
+    EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").frames(), 600u);
+    EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").frames(), 300u);
+}
+
+TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
+    const auto rows = [](const char* end) {
+        return plan_of(R"([{"type": "trajectory", "rate": 10}])", std::string("\"time\": {\"end\": ") + end + "},")
+            .simulation->request.tables[0]
+            .times;
+    };
+    EXPECT_THAT(rows("0.3"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.3));
+    EXPECT_THAT(rows("0.25"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.25));
+    EXPECT_THAT(rows("0.05"), ElementsAre(0, 0.05));
+}
+
+TEST(Plan, AFlatViewNeedsNoOpenGl) {
+    EXPECT_FALSE(plan_of(R"([{"type": "video", "view": {"style": "flat"}}])").needs_gl());
+    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").needs_gl());
+    EXPECT_FALSE(plan_of(R"([{"type": "still", "at": 0}])").needs_encoder());
+}
+
+TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
+    EXPECT_FALSE(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0].trace);
+    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").pictures[0].trace);
+}
+
+TEST(Plan, OneSimulationServesEveryOutput) {
+    const Plan p = plan_of(
+        R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
+    EXPECT_EQ(p.simulation->request.poses.size(), 2u);
+    EXPECT_EQ(p.simulation->request.tables.size(), 5u);  // chart and trace of each picture, and the table
+    EXPECT_NE(p.pictures[0].poses, p.pictures[1].poses);
+}
+
+// ---- golden texts ------------------------------------------------------------------------------
+
+TEST(PlanText, AFilm) {
+    EXPECT_EQ(text_of(R"({"time": {"end": 10}, "outputs": [{"type": "video"}]})"), R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 10 s, because of scene.mp4
+  video     scene.mp4: 600 frames of 0 s to 9.98333 s at 60 a second, 1920 × 1080, lit; H.264, crf 18, veryfast
+skipped
+  20 of 24 channels: no output reads them
+  extrema: no output is a summary
+  second run for the reproducible horizon: no summary asks for it
+)");
+}
+
+TEST(PlanText, ATableOfTheRigidBeamWithoutACam) {
+    EXPECT_EQ(
+        text_of(
+            R"({"cam": null, "beam": {"model": "rigid"}, "outputs": [{"type": "trajectory", "channels": ["theta"], "times": [0.37]}]})"),
+        R"(to do
+  simulate  rigid, no contact; until 0.37 s, because of scene.csv
+  table     scene.csv: 1 rows of 2 channels
+skipped
+  simulation from 0.37 s to 1.5 s: no output looks that far
+  contact: the scene has no cam
+  21 of 22 channels: no output reads them
+  pictures, fonts and OpenGL: no output is a picture
+  video encoder: no output is a video
+  extrema: no output is a summary
+  second run for the reproducible horizon: no summary asks for it
+)");
+}
+
+TEST(PlanText, AFlatStillOfTheStart) {
+    EXPECT_EQ(text_of(R"({"outputs": [{"type": "still", "at": 0, "view": {"style": "flat"}, "size": [800, 600]}]})"),
+              R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; the initial state only, nothing to integrate
+  still     scene.png: one picture of 0 s, 800 × 600, flat
+skipped
+  simulation from 0 s to 1.5 s: no output looks that far
+  20 of 24 channels: no output reads them
+  OpenGL: every view is flat
+  video encoder: no output is a video
+  extrema: no output is a summary
+  second run for the reproducible horizon: no summary asks for it
+)");
+}
+
+TEST(PlanText, EveryOutputAtOnce) {
+    EXPECT_EQ(
+        text_of(
+            R"({"beam": {"model": "exact", "modes": 6}, "outputs": [{"type": "frames", "fps": 30, "from": 0.5}, {"type": "trajectory"}, {"type": "impacts"}, {"type": "summary", "horizon": true}]})"),
+        R"(to do
+  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, because of scene-####.png; a second run finds until when it is reproducible
+  frames    scene-####.png: 30 frames of 0.5 s to 1.46667 s at 30 a second, 1920 × 1080, lit
+  table     scene.csv: 1501 rows of 29 channels
+  impacts   scene-impacts.json
+  summary   scene-summary.json
+skipped
+  video encoder: no output is a video
+)");
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
