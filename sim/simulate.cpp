@@ -129,6 +129,7 @@ class Run {
             const Event event = first_event(*segment);
             if (event.kind != EventKind::none && event.t <= end_) {
                 handle(*segment, event);
+                pass_kinks();
                 more = t_ < end_;
                 if (!more) observe_point();
                 if (more) start_segment();
@@ -140,14 +141,19 @@ class Run {
             segment->value(to, y_.data());
             t_ = to;
             if (more && segment->t1 >= next_kink()) {
-                while (!kinks_.empty() && kinks_.front() <= t_) kinks_.erase(kinks_.begin());
-                integrator_->stop_at(next_kink());
+                pass_kinks();
                 start_segment();
             }
         }
     }
 
     double next_kink() const { return kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front(); }
+
+    // An event may fall on a kink, or so near before it that no step fits between.
+    void pass_kinks() {
+        while (!kinks_.empty() && kinks_.front() - t_ <= 1e-14 * std::fabs(t_)) kinks_.erase(kinks_.begin());
+        integrator_->stop_at(next_kink());
+    }
 
     bool start_segment() {
         integrator_->start(t_, y_.data());
@@ -197,10 +203,10 @@ class Run {
         const double h = segment.t1 - segment.t0;
         segment.value(segment.t1, probe_y_.data());
         const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()),
-                     speed1 = scout_.gap_speed_bound(probe_y_.data());
+                     speed1 = scout_.gap_speed_bound(segment.t1, probe_y_.data());
         segment.value(segment.t0, probe_y_.data());
         const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()),
-                     speed0 = scout_.gap_speed_bound(probe_y_.data());
+                     speed0 = scout_.gap_speed_bound(segment.t0, probe_y_.data());
         if (std::min(gap0, gap1) > 2 * h * (std::max(speed0, speed1) + h * problem_.gravity)) return {};
 
         const bool everywhere = problem_.beam.model == ModelKind::exact;
@@ -267,6 +273,7 @@ class Run {
 
     // What is watched while touching, at one instant.
     struct Watch {
+        Vec2 normal;
         Guard release;     // penetration and its rate
         double clamp = 1;  // 1 + D δ̇/δ̇₋: where it changes sign the never-negative force has a kink
         double grip = 1;   // positive while the grip holds (S36)
@@ -274,10 +281,12 @@ class Run {
 
     Watch watch(const Segment& segment, double t) {
         const ContactState c = contact_at(segment, t, false);
-        Watch w{{t, -c.gap, -c.gap_rate}, c.factor, 1};
+        Watch w{c.normal, {t, -c.gap, -c.gap_rate}, c.factor, 1};
         if (!scout_.has_bristle()) return w;
         if (phase_.grip == Grip::stick) {
             w.grip = scout_.static_coefficient() * c.force - std::fabs(c.friction);
+        } else if (scout_.bristle_lags()) {
+            w.grip = scout_.foot_speed(probe_y_.data(), c);
         } else {
             // Sliding: the speed of the bristle's foot along its direction, s v_t − μṄ/k.
             const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
@@ -299,6 +308,10 @@ class Run {
         for (int i = 1; i <= count; ++i) {
             const double t0 = a.release.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
             const Watch b = watch(segment, t1);
+            if (dot(a.normal, b.normal) < 0 && b.release.value > 0) {
+                sunk_ = true;
+                throw StepFailure("the beam passed through the cam");
+            }
             Event best;
             const auto offer = [&](EventKind kind, double t) {
                 if (best.kind == EventKind::none || t < best.t) best = {kind, t};
@@ -434,7 +447,7 @@ class Run {
     }
 
     // Grip at touch: sliding unless the bristle can follow. For n > 1 the normal force starts flat, so
-    // any slip breaks it at once; for n = 1 both grow linearly.
+    // any slip breaks it at once, as it does with a dashpot; for n = 1 both forces grow linearly.
     void set_grip() {
         phase_.grip = Grip::stick;
         if (!scout_.has_bristle()) return;
@@ -443,20 +456,21 @@ class Run {
         const ContactState c = contact_now();
         const double growth =
             problem_.contact.exponent > 1 ? 0 : scout_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
-        if (scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth && c.slip != 0 &&
-            !(c.gap < 0))
-            phase_.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
+        const bool breaks = scout_.bristle_lags() ||
+                            scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth;
+        if (breaks && c.slip != 0 && !(c.gap < 0)) phase_.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
         enter_phase();
     }
 
     void change_grip() {
         const ContactState c = contact_now();
         double& z = y_[static_cast<std::size_t>(2 * scout_.coordinates())];
+        // Without a dashpot the bristle follows the sliding force at once: no state until it sticks again.
         if (phase_.grip == Grip::stick) {
             phase_.grip = c.friction < 0 ? Grip::slide_plus : Grip::slide_minus;
-            z = 0;
+            if (!scout_.bristle_lags()) z = 0;
         } else {
-            z = scout_.sliding_bristle(c);
+            if (!scout_.bristle_lags()) z = scout_.sliding_bristle(c);
             phase_.grip = Grip::stick;
         }
         enter_phase();
@@ -514,6 +528,13 @@ class Run {
                 "use "
                 "\"basis\": \"hub-beam\", fewer modes, or \"model\": \"second-order\"",
                 when, name(problem_.beam.model), problem_.beam.modes, name(resolved_basis(problem_)));
+        if (sunk_)
+            return fmt::format(
+                "{}: the beam was pressed through the centre of the cam; the contact is too soft (stiffness {:g} "
+                "N/m^{:g}), or the drive of the hub leaves no way around the cam: raise contact.stiffness or change "
+                "the "
+                "drive",
+                when, contact_stiffness(problem_), problem_.contact.exponent);
         return fmt::format(
             "{}: {}; contact stiffness {:g} N/m^{:g}, {} modes up to {:.3g} rad/s, rtol {:g}: a softer contact, fewer "
             "modes or a "
@@ -535,6 +556,7 @@ class Run {
     std::optional<double> last_release_;
     long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
+    bool sunk_ = false;
 };
 
 // Until when θ is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.

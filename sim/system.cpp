@@ -137,7 +137,7 @@ ContactState System::contact_placed(double t, const double* y, bool search) {
     ContactState c = contact_geometry(t, search);
     if (phase_.held) {
         double acc[kMaxSize];
-        if (model_->assemble(acc)) {
+        if (assemble(acc)) {
             add_torque(t, acc);
             hold(t, c, acc, true);
         }
@@ -168,12 +168,26 @@ double System::sliding_bristle(const ContactState& c) const {
     return sign * mu_ * c.force / bristle_stiffness_;
 }
 
+// Sliding, spring and dashpot together carry the kinetic friction: k z + c ż = ±μN (S36).
+double System::bristle_rate(const double* y, const ContactState& c) const {
+    if (phase_.grip == Grip::stick) return c.slip;
+    return bristle_lags() ? bristle_stiffness_ / bristle_damping_ * (sliding_bristle(c) - y[2 * n_]) : 0;
+}
+
+double System::foot_speed(const double* y, const ContactState& c) const {
+    const double sign = phase_.grip == Grip::slide_plus ? 1 : -1;
+    return sign * (c.slip - bristle_rate(y, c));
+}
+
+// With the hub's motion prescribed only the beam's own inertia answers, and that is always positive.
+bool System::assemble(double* f) { return model_->assemble(f) || drive_.prescribed(); }
+
 void System::rhs(double t, const double* y, double* dy) {
     place(t, y);
     double* acc = dy + n_;
     std::fill(dy, dy + size, 0.0);
     double* ledger = dy + controlled;
-    if (!model_->assemble(acc)) {
+    if (!assemble(acc)) {
         inertia_lost_ = true;
         std::fill(dy, dy + size, std::numeric_limits<double>::quiet_NaN());
         return;
@@ -191,7 +205,7 @@ void System::rhs(double t, const double* y, double* dy) {
         double jn[kMaxSize], jt[kMaxSize];
         contact_rows(c, jn, jt);
         for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];  // (S28)
-        if (bristle_) dy[2 * n_] = phase_.grip == Grip::stick ? c.slip : 0;
+        if (bristle_) dy[2 * n_] = bristle_rate(y, c);
     }
     if (!phase_.held) ledger[kWorkDrive] += move(t, acc);
     if (phase_.touching) {
@@ -280,7 +294,7 @@ double System::hold(double t, ContactState& c, double* acc, bool pushed) {
 double System::free_gap_acceleration(double t, const double* y) {
     double acc[kMaxSize];
     place(t, y);
-    if (!model_->assemble(acc)) return 0;
+    if (!assemble(acc)) return 0;
     add_torque(t, acc);
     ContactState c = contact_geometry(t, true);
     hold(t, c, acc, false);
@@ -352,7 +366,7 @@ System::Books System::books(double t, const double* y) {
         const ContactState c = contact_placed(t, y, false);
         normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
         if (bristle_) {
-            const double z = phase_.grip == Grip::stick ? y[2 * n_] : sliding_bristle(c);
+            const double z = phase_.grip == Grip::stick || bristle_lags() ? y[2 * n_] : sliding_bristle(c);
             bristle = 0.5 * bristle_stiffness_ * z * z;
         }
     }
@@ -381,9 +395,10 @@ double System::bending_reach(const double* coordinates) const {
                       : 3.0 + 3.0 * std::fabs(problem_.hub.radius) / model_->length());
 }
 
-double System::gap_speed_bound(const double* y) const {
+double System::gap_speed_bound(double t, const double* y) const {
     const Cam& cam = *problem_.cam;
-    return std::fabs(y[n_]) * (std::fabs(problem_.hub.radius) + model_->length()) + bending_reach(y + n_) +
+    const double spin = drive_.prescribed() ? drive_.motion(t).rate : y[n_];
+    return std::fabs(spin) * (std::fabs(problem_.hub.radius) + model_->length()) + bending_reach(y + n_) +
            std::fabs(cam.speed) * cam.eccentricity;
 }
 

@@ -104,13 +104,17 @@ class System final : public Ode {
 
     // Bristle deflection that carries the sliding force: where z is put at slip (S36).
     double sliding_bristle(const ContactState& contact) const;
+    // Speed of the bristle's foot over the cam in the direction of sliding, v_t − ż. A bristle with a
+    // dashpot lags behind its force; only then is z a state while sliding (S36).
+    double foot_speed(const double* y, const ContactState& contact) const;
+    bool bristle_lags() const { return bristle_damping_ > 0; }
     double bristle_stiffness() const { return bristle_stiffness_; }
     double static_coefficient() const { return mu_static_; }
     double kinetic_coefficient() const { return mu_; }
 
     // Cheap bounds for the search of touches: the gap is at least this [m]; |d gap/dt| at most that [m/s].
     double gap_lower_bound(double t, const double* y) const;
-    double gap_speed_bound(const double* y) const;
+    double gap_speed_bound(double t, const double* y) const;
     double highest_frequency() const { return highest_frequency_; }
 
     bool inertia_lost() const { return inertia_lost_; }
@@ -132,6 +136,9 @@ class System final : public Ode {
     double gap_acceleration_at_rest(double t, const ContactState& c) const;
     void respond(double* f) const;
     double hold(double t, ContactState& c, double* acc, bool pushed);
+    double bristle_rate(const double* y, const ContactState& c) const;
+    // Forces and inertia of the model; false when the inertia that must answer is not positive.
+    bool assemble(double* f);
     double bending_reach(const double* coordinates) const;
 
     Problem problem_;

@@ -1,0 +1,152 @@
+// What the tests of the mechanics share: named problems, seeded random ones, differences, and the
+// contents of a model that its interface only implies.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sim/integrator.hpp"
+#include "sim/model.hpp"
+#include "sim/simulate.hpp"
+#include "sim/system.hpp"
+
+namespace beamcam::sim::testing {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+inline constexpr double kQuarterTurn = 0.78539816339744830962;  // π/4
+
+// The paper's beam falling from π/4 at rest, with nothing in its way.
+inline Problem falling_beam(ModelKind model, Basis basis = Basis::automatic, int modes = 2) {
+    Problem p;
+    p.cam.reset();
+    p.beam.model = model;
+    p.beam.basis = basis;
+    p.beam.modes = modes;
+    p.solver.rtol = 1e-12;
+    p.solver.atol = 1e-15;
+    return p;
+}
+
+// The same over a fixed disc.
+inline Problem fixed_cam(ModelKind model, int modes = 2) {
+    Problem p;
+    p.beam.model = model;
+    p.beam.modes = modes;
+    p.cam->speed = 0;
+    return p;
+}
+
+inline Channel channel(const char* text) {
+    const auto found = channel_named(text);
+    if (!found) throw std::invalid_argument(text);
+    return *found;
+}
+
+inline Result run(const Problem& problem, double end) {
+    Request request;
+    request.end_time = end;
+    return simulate(problem, request);
+}
+
+// One channel at given times.
+inline std::vector<double> series(const Problem& problem, const char* name, std::vector<double> times) {
+    Request request;
+    request.tables.push_back({std::move(times), {channel(name)}});
+    return simulate(problem, request).tables.front().values.front();
+}
+
+inline Extremum extremum(const Problem& problem, const char* name, double end) {
+    Request request;
+    request.end_time = end;
+    request.extrema = {channel(name)};
+    return simulate(problem, request).extrema.front();
+}
+
+// Seeded numbers that do not depend on the standard library's distributions.
+class Dice {
+  public:
+    explicit Dice(unsigned seed) : engine_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_()) / 4294967295.0);
+    }
+    double about_zero(double size) { return between(-size, size); }
+    int one_of(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
+
+  private:
+    std::mt19937 engine_;
+};
+
+struct State {
+    Vector xi, rate;
+};
+
+// A state with deflections of `size` metres (radians for `exact`), smaller in higher coordinates.
+inline State random_state(const Model& model, Dice& dice, double size) {
+    State s{Vector(model.size()), Vector(model.size())};
+    s.xi[0] = dice.between(-3, 3);
+    s.rate[0] = dice.about_zero(3);
+    for (int i = 1; i < model.size(); ++i) {
+        s.xi[i] = dice.about_zero(size / (i * i));
+        s.rate[i] = dice.about_zero(20 * size / i);
+    }
+    return s;
+}
+
+inline Vector force(Model& model, const State& s) {
+    Vector f(model.size());
+    model.set(s.xi.data(), s.rate.data());
+    if (!model.assemble(f.data())) throw std::runtime_error("the inertia is not positive");
+    return f;
+}
+
+inline Vector acceleration(Model& model, const State& s) {
+    Vector f = force(model, s);
+    model.solve(f.data());
+    return f;
+}
+
+// ∂²T/∂ξ̇² from the kinetic energy alone; exact, because T is a quadratic form in the rates.
+inline Matrix mass_from_energy(Model& model, const Vector& xi) {
+    const int n = model.size();
+    const auto kinetic = [&](const Vector& rate) {
+        model.set(xi.data(), rate.data());
+        return model.energies().kinetic;
+    };
+    Vector alone(n);
+    for (int i = 0; i < n; ++i) alone[i] = kinetic(Vector::Unit(n, i));
+    Matrix mass(n, n);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            mass(i, j) = i == j ? 2 * alone[i] : kinetic(Vector::Unit(n, i) + Vector::Unit(n, j)) - alone[i] - alone[j];
+    return mass;
+}
+
+// f′(0), error O(h⁶).
+template <class F>
+auto slope_at_zero(F&& f, double h) {
+    return ((45.0 * (f(h) - f(-h)) - 9.0 * (f(2 * h) - f(-2 * h)) + (f(3 * h) - f(-3 * h))) * (1 / (60 * h))).eval();
+}
+template <class F>
+double scalar_slope_at_zero(F&& f, double h) {
+    return (45 * (f(h) - f(-h)) - 9 * (f(2 * h) - f(-2 * h)) + (f(3 * h) - f(-3 * h))) / (60 * h);
+}
+
+inline double relative(double difference, double scale) { return std::fabs(difference) / scale; }
+
+// A printable name of a case for parameterized tests: letters and digits only.
+inline std::string label(const std::string& text) {
+    std::string out;
+    for (char c : text)
+        if (std::isalnum(static_cast<unsigned char>(c))) out += c;
+    return out;
+}
+
+}  // namespace beamcam::sim::testing
