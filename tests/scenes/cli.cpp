@@ -84,7 +84,7 @@ TEST(CommandLine, ModesOfTheRestingAndTheTurningBeam) {
     const double turning = first("--speed " + fmt::format("{:.17g}", 4 * unit));
     EXPECT_GT(turning, 3.89772252 - 1e-8);
     EXPECT_NEAR(turning, 3.89772252, 2e-6);
-    EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").out, HasSubstr("816.9"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").out, HasSubstr("816.896"));
 }
 
 TEST(CommandLine, ABadSceneIsThreeAndNothingIsWritten) {
