@@ -21,7 +21,8 @@ std::string hidden_name(const std::string& file_name, unsigned random) {
     constexpr std::size_t kLongestKept = 200;
     char suffix[24];
     std::snprintf(suffix, sizeof suffix, ".%08x.part", random);
-    return "." + file_name.substr(0, kLongestKept) + suffix;
+    std::string name(1, '.');
+    return name.append(file_name, 0, kLongestKept).append(suffix);
 }
 
 // The file that a chain of symbolic links ends at, whether it exists yet or not.

@@ -1,6 +1,8 @@
 #include "output/records.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <type_traits>
 
 #include "output/atomic_file.hpp"
@@ -107,8 +109,10 @@ std::string impacts_json(const sim::Result& result) {
 
 std::string impacts_csv(const sim::Result& result) {
     std::string text;
-    for_each_field(sim::Impact{},
-                   [&text](const char* name, const auto&) { text += (text.empty() ? "" : ",") + std::string(name); });
+    for_each_field(sim::Impact{}, [&text](const char* name, const auto&) {
+        if (!text.empty()) text += ',';
+        text += name;
+    });
     text += '\n';
     for (const sim::Impact& impact : result.impacts) {
         std::string line;
@@ -154,6 +158,19 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
 void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
                    const std::vector<sim::Channel>& extrema) {
     write_file(file, summary_json(problem, result, extrema));
+}
+
+std::string modes_json(const std::vector<sim::Mode>& modes) {
+    Json all = Json::array();
+    for (const sim::Mode& mode : modes) {
+        Json shape = Json::array();
+        for (const sim::Vec2& at : mode.shape) shape.push_back({at.x, at.y});
+        const bool lost = std::isnan(mode.omega);
+        all.push_back({{"omega", lost ? Json(nullptr) : Json(mode.omega)},
+                       {"hz", lost ? Json(nullptr) : Json(mode.omega / (2 * std::numbers::pi))},
+                       {"shape", std::move(shape)}});
+    }
+    return Json{{"modes", std::move(all)}}.dump(2) + "\n";
 }
 
 std::string manifest_json(const MadeFiles& files) {

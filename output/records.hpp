@@ -14,6 +14,7 @@
 
 #include "output/errors.hpp"
 #include "sim/channels.hpp"
+#include "sim/modes.hpp"
 #include "sim/problem.hpp"
 #include "sim/simulate.hpp"
 
@@ -31,6 +32,9 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema);
 void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
                    const std::vector<sim::Channel>& extrema);
+
+// {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
+std::string modes_json(const std::vector<sim::Mode>& modes);
 
 // What beamcam knows of a file it made.
 struct MadeFile {

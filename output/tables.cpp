@@ -19,7 +19,10 @@ constexpr std::size_t kChunk = 1 << 16;  // [bytes] gathered before they are wri
 
 void csv(const sim::Table& table, const std::function<void(const std::string&)>& write) {
     std::string text;
-    for (std::size_t c = 0; c < table.channels.size(); ++c) text += (c > 0 ? "," : "") + sim::name(table.channels[c]);
+    for (std::size_t c = 0; c < table.channels.size(); ++c) {
+        if (c > 0) text += ',';
+        text += sim::name(table.channels[c]);
+    }
     text += '\n';
     for (std::size_t row = 0; row < table.rows(); ++row) {
         for (std::size_t c = 0; c < table.values.size(); ++c) {

@@ -55,6 +55,16 @@ void add(FcConfig* config, const FontFile& file) {
             fmt::format("font {} cannot be read as a font; reinstall the Debian package {}", path, file.package));
 }
 
+// Pango has fontconfig read the system's files in a thread of its own, needed or not. An empty current configuration
+// spares that: what is set is not read. Once for the process; nothing is ever looked up in it.
+void keep_system_settings_out() {
+    static const bool done = [] {
+        FcConfig* empty = FcConfigCreate();
+        return empty && FcConfigSetCurrent(empty);
+    }();
+    if (!done) throw FontError("fontconfig cannot create a configuration (out of memory)");
+}
+
 }  // namespace
 
 // UTF-8 lead bytes: U+2E80 and above starts with E2 BA; everything from E3 on is beyond it. U+E000…
@@ -71,11 +81,15 @@ bool needs_cjk(std::string_view utf8) {
 Fonts::Handles::~Handles() {
     if (layout) g_object_unref(layout);
     if (context) g_object_unref(context);
-    if (map) g_object_unref(map);
+    if (map) {
+        pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map), nullptr);  // Pango 1.50 does not let go of it by itself
+        g_object_unref(map);
+    }
     if (config) FcConfigDestroy(config);
 }
 
 Fonts::Fonts(bool cjk) : handles_(std::make_unique<Handles>()) {
+    keep_system_settings_out();
     Handles& h = *handles_;
     h.config = FcConfigCreate();  // empty: no system file is read
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");

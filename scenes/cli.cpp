@@ -5,9 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "output/atomic_file.hpp"
 #include "output/errors.hpp"
 #include "output/interrupt.hpp"
+#include "output/records.hpp"
 #include "render/error.hpp"
 #include "scenes/capabilities.hpp"
 #include "scenes/embedded.hpp"
@@ -25,6 +28,7 @@
 #include "scenes/suggest.hpp"
 #include "scenes/units.hpp"
 #include "scenes/version.hpp"
+#include "sim/modes.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -58,6 +62,8 @@ struct Arguments {
     std::optional<std::string> trajectory, impacts, summary, rate;
     std::vector<std::string> times, channels;
     bool horizon = false;
+    // modes
+    std::optional<std::string> speed;
     // init
     std::string name = "scene";
 };
@@ -297,6 +303,31 @@ void simulate_command(const Arguments& args) {
     run(plan(scene), scene, run_options(args.common, ""));
 }
 
+void modes_command(const Arguments& args) {
+    const Scene scene = read_or_refuse(args.scenes.front(), args.common);
+    std::optional<double> speed;
+    if (args.speed) {
+        const QuantityText read = parse_quantity(*args.speed);
+        if (!read.quantity) throw UsageError(fmt::format("--speed {}: {}", *args.speed, read.problem));
+        const bool plain = same(read.quantity->dimension, dimension::kNone);
+        if (!plain && !same(read.quantity->dimension, dimension::kAngularSpeed))
+            throw UsageError(fmt::format("--speed {}: it is measured in rad/s", *args.speed));
+        speed = read.quantity->value;
+    }
+    const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
+    if (args.json) return print_data(output::modes_json(modes));
+    if (modes.empty()) return say(args.common, "a rigid beam has no bending modes");
+    std::string text = fmt::format("{:>4}  {:>20}  {:>20}\n", "mode", "omega [rad/s]", "f [Hz]");
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        if (std::isnan(modes[i].omega))
+            text += fmt::format("{:4}  {:>20}  {:>20}\n", i + 1, "diverges", "-");
+        else
+            text += fmt::format("{:4}  {:20.12g}  {:20.12g}\n", i + 1, modes[i].omega,
+                                modes[i].omega / (2 * std::numbers::pi));
+    }
+    print_data(text);
+}
+
 void init_command(const Arguments& args) {
     std::string text(default_scene_text());
     const std::filesystem::path path(args.name.ends_with(".json") ? args.name : args.name + ".json");
@@ -404,6 +435,16 @@ void add_simulate(CLI::App& app, Arguments& args, Commands& commands) {
 }
 
 void add_small_commands(CLI::App& app, Arguments& args, Commands& commands) {
+    CLI::App* modes = app.add_subcommand("modes", "Natural frequencies of beam and hub, at rest or turning");
+    add_scene(*modes, args);
+    modes
+        ->add_option(
+            "--speed", args.speed,
+            "The beam turns at this speed, clamped to a hub held at it, for example 300rpm; without it the hub is free")
+        ->type_name("RAD_S");
+    modes->add_flag("--json", args.json, "As JSON, with mass-normalized shapes");
+    commands.emplace_back(modes, modes_command);
+
     CLI::App* check_app =
         app.add_subcommand("check", "Validate scenes: every issue at once, with its place and remedy");
     check_app->add_option("SCENE", args.scenes, "Scenes, JSON files; - is standard input")->required()->type_name("");

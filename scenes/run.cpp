@@ -194,7 +194,11 @@ class Runner {
             });
         } catch (const sim::SolverError& error) {
             progress_.end();
-            keep_partial_tables(error.partial);
+            try {
+                keep_partial_tables(error.partial);
+            } catch (const output::IoError& also) {
+                fmt::print(stderr, "beamcam: {}\n", also.what());  // the solver's failure is the one to report
+            }
             throw;
         }
         progress_.end();

@@ -58,7 +58,7 @@ class Integrator {
 
 // `method` names one; `automatic` is resolved by the caller.
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
-// cvode-adams or cvode-bdf.
+// cvode-adams, cvode-bdf or arkode-erk.
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);
 
 }  // namespace beamcam::sim

@@ -1,8 +1,10 @@
-// CVODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton
+// CVODE and ARKODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton
 // and a dense differenced Jacobian (a handful to eighty unknowns: differencing costs as much as a few
 // steps and serves dozens of them). The only file that sees SUNDIALS.
 //
-// A segment is the Nordsieck polynomial of the step, which is CVODE's own dense output.
+// A segment is CVODE's Nordsieck polynomial of the step, or ARKODE's interpolant of degree 5: with
+// Fehlberg's 8(7) pair events are as accurate as that interpolant, not as the step.
+#include <arkode/arkode_arkstep.h>
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
@@ -35,15 +37,67 @@ void check(int flag, const char* call) {
     if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag));
 }
 
+// What both solvers do to the right-hand side and to its norm.
+struct Callbacks {
+    Ode& ode;
+    double rtol, atol;
+
+    static int rhs(double t, N_Vector y, N_Vector dy, void* self) noexcept {
+        Ode& ode = static_cast<Callbacks*>(self)->ode;
+        double* out = N_VGetArrayPointer(dy);
+        ode.rhs(t, N_VGetArrayPointer(y), out);
+        for (int i = 0; i < ode.size; ++i)
+            if (!std::isfinite(out[i])) return 1;  // recoverable: try a smaller step
+        return 0;
+    }
+
+    static int weights(N_Vector y, N_Vector w, void* self) noexcept {
+        const auto& me = *static_cast<Callbacks*>(self);
+        const double* value = N_VGetArrayPointer(y);
+        double* weight = N_VGetArrayPointer(w);
+        // The norm averages over all components; only the controlled ones shall count.
+        const double share = std::sqrt(static_cast<double>(me.ode.size) / me.ode.controlled);
+        for (int i = 0; i < me.ode.size; ++i)
+            weight[i] = i < me.ode.controlled ? share / (me.rtol * std::fabs(value[i]) + me.atol) : kIgnored;
+        return 0;
+    }
+
+    // Moves the state by a hundredth of its tolerance-weighted size; the error test does the rest.
+    double first_step(double t, const std::vector<double>& y, double* slope, double stop) const {
+        ode.rhs(t, y.data(), slope);
+        double size = 0, speed = 0;
+        for (int i = 0; i < ode.controlled; ++i) {
+            const double value = y[static_cast<std::size_t>(i)], scale = atol + rtol * std::fabs(value);
+            size += value * value / (scale * scale);
+            speed += slope[i] * slope[i] / (scale * scale);
+        }
+        const double h = size > 0 && speed > 0 ? 0.01 * std::sqrt(size / speed) : 1e-6;
+        return std::isfinite(stop) && stop > t ? std::min(h, 0.5 * (stop - t)) : h;
+    }
+};
+
+// Adds what a solver's count has grown by; it starts anew with every restart of the solver.
+void grow(long& total, long now, long& last) {
+    total += now >= last ? now - last : now;
+    last = now;
+}
+
+constexpr double kFar = 1e3;  // [s] a target beyond any step, in the direction of time
+
+SUNContext make_context() {
+    SUNContext context = nullptr;
+    if (SUNContext_Create(BEAMCAM_NO_COMM, &context) != 0) throw StepFailure("the integrator could not be set up");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    SUNContext_ClearErrHandlers(context);  // failures come back as flags and are told once, by us
+#endif
+    return context;
+}
+
 class Cvode final : public Integrator, private Segment {
   public:
     Cvode(Method method, Ode& ode, double rtol, double atol)
-        : ode_(ode),
-          rtol_(rtol),
-          atol_(atol),
-          n_(static_cast<std::size_t>(ode.size)),
-          bdf_(method == Method::cvode_bdf) {
-        if (SUNContext_Create(BEAMCAM_NO_COMM, &context_) != 0) throw StepFailure("the integrator could not be set up");
+        : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)), bdf_(method == Method::cvode_bdf) {
+        context_ = make_context();
         y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
         work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
         end_.assign(n_, 0);
@@ -68,7 +122,8 @@ class Cvode final : public Integrator, private Segment {
         } else {
             check(CVodeReInit(memory_, t, y_), "a restart");
         }
-        check(CVodeSetInitStep(memory_, first_step()), "the first step");
+        check(CVodeSetInitStep(memory_, call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)),
+              "the first step");
     }
 
     const Segment& step() override {
@@ -76,7 +131,7 @@ class Cvode final : public Integrator, private Segment {
         if (std::isfinite(stop_) && stop_ > t0) check(CVodeSetStopTime(memory_, stop_), "the stop time");
         double reached = t0;
         const int flag =
-            CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + 1e3, y_, &reached, CV_ONE_STEP);
+            CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + kFar, y_, &reached, CV_ONE_STEP);
         if (flag < 0) {
             const char* reason = flag == CV_TOO_MUCH_ACC   ? "the tolerance is below rounding"
                                  : flag == CV_ERR_FAILURE  ? "the error test failed again and again"
@@ -132,61 +187,23 @@ class Cvode final : public Integrator, private Segment {
             CVodeGetNumLinRhsEvals(memory_, &linear_rhs);
         }
         rhs += linear_rhs;
-        const auto add = [](long& total, long now, long& last) {
-            total += now >= last ? now - last : now;
-            last = now;
-        };
-        add(counters.steps, steps, last_.steps);
-        add(counters.rhs, rhs, last_.rhs);
-        add(counters.rejected, rejected, last_.rejected);
-        add(counters.jacobians, jacobians, last_.jacobians);
-    }
-
-    // Moves the state by a hundredth of its tolerance-weighted size; the error test does the rest.
-    double first_step() {
-        double* slope = N_VGetArrayPointer(work_);
-        ode_.rhs(t1, end_.data(), slope);
-        double size = 0, speed = 0;
-        for (int i = 0; i < ode_.controlled; ++i) {
-            const double value = end_[static_cast<std::size_t>(i)], scale = atol_ + rtol_ * std::fabs(value);
-            size += value * value / (scale * scale);
-            speed += slope[i] * slope[i] / (scale * scale);
-        }
-        const double h = size > 0 && speed > 0 ? 0.01 * std::sqrt(size / speed) : 1e-6;
-        return std::isfinite(stop_) && stop_ > t1 ? std::min(h, 0.5 * (stop_ - t1)) : h;
-    }
-
-    static int rhs(double t, N_Vector y, N_Vector dy, void* self) noexcept {
-        auto& ode = static_cast<Cvode*>(self)->ode_;
-        double* out = N_VGetArrayPointer(dy);
-        ode.rhs(t, N_VGetArrayPointer(y), out);
-        for (int i = 0; i < ode.size; ++i)
-            if (!std::isfinite(out[i])) return 1;  // recoverable: try a smaller step
-        return 0;
-    }
-
-    static int weights(N_Vector y, N_Vector w, void* self) noexcept {
-        const auto& me = *static_cast<Cvode*>(self);
-        const double* value = N_VGetArrayPointer(y);
-        double* weight = N_VGetArrayPointer(w);
-        // The norm averages over all components; only the controlled ones shall count.
-        const double share = std::sqrt(static_cast<double>(me.ode_.size) / me.ode_.controlled);
-        for (int i = 0; i < me.ode_.size; ++i)
-            weight[i] = i < me.ode_.controlled ? share / (me.rtol_ * std::fabs(value[i]) + me.atol_) : kIgnored;
-        return 0;
+        grow(counters.steps, steps, last_.steps);
+        grow(counters.rhs, rhs, last_.rhs);
+        grow(counters.rejected, rejected, last_.rejected);
+        grow(counters.jacobians, jacobians, last_.jacobians);
     }
 
     void set_up(double t) {
         memory_ = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
         if (!memory_) throw StepFailure("the integrator could not be set up");
-        check(CVodeInit(memory_, &Cvode::rhs, t, y_), "the start");
-        check(CVodeSetUserData(memory_, this), "the start");
-        check(CVodeWFtolerances(memory_, &Cvode::weights), "the tolerances");
+        check(CVodeInit(memory_, &Callbacks::rhs, t, y_), "the start");
+        check(CVodeSetUserData(memory_, &call_), "the start");
+        check(CVodeWFtolerances(memory_, &Callbacks::weights), "the tolerances");
         check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
+#if SUNDIALS_VERSION_MAJOR < 7
         // Failures come back as flags and are told once, by us.
-        check(CVodeSetErrHandlerFn(
-                  memory_, [](int, const char*, const char*, char*, void*) {}, nullptr),
-              "the start");
+        check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr), "the start");
+#endif
         if (bdf_) {
             matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
@@ -204,8 +221,7 @@ class Cvode final : public Integrator, private Segment {
         if (nonlinear_) SUNNonlinSolFree(nonlinear_);
     }
 
-    Ode& ode_;
-    double rtol_, atol_;
+    Callbacks call_;
     std::size_t n_;
     bool bdf_;
     SUNContext context_ = nullptr;
@@ -221,9 +237,104 @@ class Cvode final : public Integrator, private Segment {
     IntegratorCounters last_;
 };
 
+class Arkode final : public Integrator, private Segment {
+  public:
+    Arkode(Ode& ode, double rtol, double atol) : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)) {
+        context_ = make_context();
+        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+        end_.assign(n_, 0);
+    }
+    ~Arkode() override {
+        if (memory_) ARKStepFree(&memory_);
+        N_VDestroy(y_);
+        N_VDestroy(work_);
+        SUNContext_Free(&context_);
+    }
+    Arkode(const Arkode&) = delete;
+    Arkode& operator=(const Arkode&) = delete;
+
+    void start(double t, const double* y) override {
+        std::copy_n(y, n_, N_VGetArrayPointer(y_));
+        std::copy_n(y, n_, end_.begin());
+        t1 = t;
+        collect();
+        if (memory_)
+            check(ARKStepReset(memory_, t, y_), "a restart");
+        else
+            set_up(t);
+        check(ARKStepSetInitStep(memory_, call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)),
+              "the first step");
+    }
+
+    const Segment& step() override {
+        t0 = t1;
+        const bool stops = std::isfinite(stop_) && stop_ > t0;
+        if (stops) check(ARKStepSetStopTime(memory_, stop_), "the stop time");
+        double reached = t0;
+        if (ARKStepEvolve(memory_, stops ? stop_ : t0 + kFar, y_, &reached, ARK_ONE_STEP) < 0)
+            throw StepFailure("the integrator gave up");
+        t1 = reached;
+        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        collect();
+        return *this;
+    }
+
+    const Segment& shorten(double at) override {
+        value(at, end_.data());
+        t1 = at;
+        return *this;
+    }
+
+    const double* state() const override { return end_.data(); }
+
+    void value(double t, double* y) const override {
+        if (t == t1) {
+            std::copy(end_.begin(), end_.end(), y);
+            return;
+        }
+        check(ARKStepGetDky(memory_, t, 0, work_), "dense output");
+        std::copy_n(N_VGetArrayPointer(work_), n_, y);
+    }
+
+  private:
+    void collect() {
+        if (!memory_) return;
+        long steps = 0, rhs = 0, implicit = 0, rejected = 0;
+        ARKStepGetNumSteps(memory_, &steps);
+        ARKStepGetNumRhsEvals(memory_, &rhs, &implicit);
+        ARKStepGetNumErrTestFails(memory_, &rejected);
+        grow(counters.steps, steps, last_.steps);
+        grow(counters.rhs, rhs, last_.rhs);
+        grow(counters.rejected, rejected, last_.rejected);
+    }
+
+    void set_up(double t) {
+        memory_ = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
+        if (!memory_) throw StepFailure("the integrator could not be set up");
+        check(ARKStepSetUserData(memory_, &call_), "the start");
+        check(ARKStepWFtolerances(memory_, &Callbacks::weights), "the tolerances");
+        check(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
+        check(ARKStepSetInterpolantDegree(memory_, 5), "dense output");
+        check(ARKStepSetMaxNumSteps(memory_, 1000000), "the start");
+#if SUNDIALS_VERSION_MAJOR < 7
+        check(ARKStepSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr), "the start");
+#endif
+    }
+
+    Callbacks call_;
+    std::size_t n_;
+    SUNContext context_ = nullptr;
+    void* memory_ = nullptr;
+    N_Vector y_ = nullptr, work_ = nullptr;
+    std::vector<double> end_;
+    IntegratorCounters last_;
+};
+
 }  // namespace
 
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
+    if (method == Method::arkode_erk) return std::make_unique<Arkode>(ode, rtol, atol);
     return std::make_unique<Cvode>(method, ode, rtol, atol);
 }
 

@@ -1,0 +1,383 @@
+// The outputs of a scene: files, sizes, spans, channels.
+#include <charconv>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+
+#include "output/video.hpp"
+#include "scenes/files.hpp"
+#include "scenes/reader.hpp"
+#include "scenes/sections.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace dim = dimension;
+
+// Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
+constexpr int kSmallestSide = 16, kLargestSide = 16384;
+constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
+constexpr double kMostFrames = 250'000;                              // over an hour at 60 fps; poses are held in memory
+constexpr double kMostRows = 20'000'000;                             // 160 MB a channel
+
+// Everything that the outputs' readers share.
+struct OutputContext {
+    Findings& findings;
+    const Scene& scene;  // name, physics and end time are read before
+    std::size_t index;
+};
+
+void read_file(Fields& f, std::string& file, std::initializer_list<std::string_view> endings, bool numbered) {
+    const Node* node = f.take("file");
+    if (!node) return;
+    if (node->kind != Node::Kind::string)
+        return f.fail(*node, "file",
+                      fmt::format("{} must be a file name in quotes, not {}", f.path("file"), shown(*node)));
+    if (std::string problem = problem_with_file(node->text); !problem.empty())
+        return f.fail(*node, "file", fmt::format("{} = {}: {}", f.path("file"), in_quotes(node->text), problem));
+    const std::string ending = std::filesystem::path(node->text).extension().string();
+    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+        const auto planned = not_available("file", ending);
+        return f.fail(
+            *node, "file",
+            fmt::format("{} = {}: {}", f.path("file"), in_quotes(node->text),
+                        planned ? *planned : fmt::format("its name must end in {}", fmt::join(endings, " or "))));
+    }
+    const std::string problem = numbered ? problem_with_numbering(node->text) : std::string();
+    if (!problem.empty())
+        return f.fail(*node, "file", fmt::format("{} = {}: {}", f.path("file"), in_quotes(node->text), problem));
+    if (!numbered && node->text.find('#') != std::string::npos)
+        return f.fail(*node, "file",
+                      fmt::format("{} = {}: '#' numbers the files of \"frames\"; choose another name", f.path("file"),
+                                  in_quotes(node->text)));
+    file = node->text;
+}
+
+void read_size(Fields& f, Size& size, bool must_be_even) {
+    const Node* node = f.take("size");
+    if (!node) return;
+    if (node->kind != Node::Kind::array || node->items.size() != 2)
+        return f.fail(*node, "size",
+                      fmt::format("{} must be [width, height] in pixels, not {}", f.path("size"), shown(*node)));
+    Size read;
+    const bool fine = f.whole_value(node->items[0], "size.0", kSmallestSide, kLargestSide, read.width) &
+                      f.whole_value(node->items[1], "size.1", kSmallestSide, kLargestSide, read.height);
+    if (!fine) return;
+    if (must_be_even && (read.width % 2 || read.height % 2))
+        return f.fail(*node, "size",
+                      fmt::format("{} = {} × {}: H.264 films (yuv420p) need even sides; write [{}, {}]", f.path("size"),
+                                  read.width, read.height, read.width + read.width % 2, read.height + read.height % 2));
+    size = read;
+}
+
+void read_view(Findings& findings, Fields& f, render::View& view) {
+    using render::Style, render::Theme;
+    f.choice<Theme>("theme", {{"light", Theme::light}, {"dark", Theme::dark}, {"print", Theme::print}}, view.theme);
+    const Node* node = f.take("view");
+    if (!node) return;
+    Fields v(findings, node, f.path("view"));
+    v.choice<Style>("style", {{"lit", Style::lit}, {"flat", Style::flat}}, view.style);
+    if (const Node* factor = v.take("exaggeration")) {
+        double value = 0;
+        if (factor->kind == Node::Kind::string && factor->text == "auto") {
+            view.exaggeration.reset();
+        } else if (factor->kind != Node::Kind::number) {
+            v.fail(*factor, "exaggeration",
+                   fmt::format("{} must be \"auto\" or a number, not {}", v.path("exaggeration"), shown(*factor)));
+        } else if (v.value(*factor, "exaggeration", dim::kNone, value)) {
+            if (value < 1 || value > 1e6)
+                v.fail(*factor, "exaggeration",
+                       fmt::format("{} = {} is outside 1 (true shape) … 1e6", v.path("exaggeration"), factor->text));
+            else
+                view.exaggeration = value;
+        }
+    }
+    v.finish();
+}
+
+void read_frame_rate(Fields& f, FrameRate& rate) {
+    const Node* node = f.take("fps");
+    if (!node) return;
+    const bool readable = node->kind == Node::Kind::number || node->kind == Node::Kind::string;
+    const auto read = readable ? parse_frame_rate(node->text) : std::nullopt;
+    if (read)
+        rate = *read;
+    else
+        f.fail(
+            *node, "fps",
+            fmt::format("{} = {} is no frame rate; write {} … {} frames a second, or a fraction such as \"30000/1001\"",
+                        f.path("fps"), shown(*node), kSlowestFrameRate, kFastestFrameRate));
+}
+
+// A time >= 0.
+bool read_instant(Fields& f, const Node& node, std::string_view key, double& out) {
+    double t = 0;
+    if (!f.value(node, key, dim::kTime, t)) return false;
+    if (t < 0) {
+        f.fail(node, key, fmt::format("{} = {} is before the start; times begin at 0", f.path(key), shown(node)));
+        return false;
+    }
+    out = t;
+    return true;
+}
+
+void read_span(const OutputContext& context, Fields& f, FrameSpan& span) {
+    read_frame_rate(f, span.fps);
+    bool fine = true;
+    if (const Node* from = f.take("from")) fine = read_instant(f, *from, "from", span.from) && fine;
+    if (const Node* to = f.take("to")) {
+        double t = 0;
+        fine = read_instant(f, *to, "to", t) && fine;
+        if (fine) span.to = t;
+    }
+    if (!fine || !f.node() || context.findings.failed("time")) return;
+    if (std::string problem = problem_with_span(span, context.scene.end_time); !problem.empty())
+        context.findings.error(f.node()->place, f.path("to"), fmt::format("{}: {}", f.what(), problem));
+}
+
+void read_encoding(Fields& f, Encoding& encoding) {
+    if (const Node* codec = f.take("codec")) {
+        const auto planned =
+            codec->kind == Node::Kind::string ? not_available("outputs.codec", codec->text) : std::nullopt;
+        bool is_h264 = true;
+        if (planned)
+            f.fail(*codec, "codec", fmt::format("{}: {}", f.path("codec"), *planned));
+        else
+            f.choice_value<bool>(*codec, "codec", {{"h264", true}}, is_h264);
+    }
+    f.whole("crf", 0, 51, encoding.crf);
+    std::string preset = encoding.preset;
+    using Text = const char*;
+    Text chosen = nullptr;
+    if (f.choice<Text>("preset",
+                       {{"ultrafast", "ultrafast"},
+                        {"superfast", "superfast"},
+                        {"veryfast", "veryfast"},
+                        {"faster", "faster"},
+                        {"fast", "fast"},
+                        {"medium", "medium"},
+                        {"slow", "slow"},
+                        {"slower", "slower"},
+                        {"veryslow", "veryslow"}},
+                       chosen))
+        encoding.preset = chosen;
+}
+
+VideoOutput read_video(const OutputContext& context, Fields& f) {
+    VideoOutput video = default_film(context.scene);
+    read_file(f, video.file, {".mp4"}, false);
+    read_size(f, video.size, true);
+    read_view(context.findings, f, video.view);
+    read_span(context, f, video.span);
+    read_encoding(f, video.encoding);
+    return video;
+}
+
+FramesOutput read_frames(const OutputContext& context, Fields& f) {
+    FramesOutput frames;
+    frames.file = context.scene.name + "-####.png";
+    read_file(f, frames.file, {".png"}, true);
+    read_size(f, frames.size, false);
+    read_view(context.findings, f, frames.view);
+    read_span(context, f, frames.span);
+    return frames;
+}
+
+StillOutput read_still(const OutputContext& context, Fields& f) {
+    StillOutput still;
+    still.file = context.scene.name + ".png";
+    read_file(f, still.file, {".png"}, false);
+    read_size(f, still.size, false);
+    read_view(context.findings, f, still.view);
+    if (const Node* at = f.require("at", "\"370 ms\"")) read_instant(f, *at, "at", still.at);
+    return still;
+}
+
+void read_channels(const OutputContext& context, Fields& f, std::vector<sim::Channel>& out) {
+    const Node* node = f.take("channels");
+    if (!node) return;
+    if (node->kind != Node::Kind::array || node->items.empty())
+        return f.fail(*node, "channels",
+                      fmt::format("{} must be an array of names such as [\"theta\", \"contact_force\"], not {}",
+                                  f.path("channels"), shown(*node)));
+    std::vector<std::string> known;
+    const std::vector<sim::Channel> every = all_channels(context.scene.problem);
+    for (const sim::Channel& channel : every) known.push_back(name(channel));
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+        const Node& item = node->items[i];
+        const std::string key = fmt::format("channels.{}", i);
+        if (item.kind != Node::Kind::string) {
+            f.fail(item, key, fmt::format("{} must be a channel's name in quotes, not {}", f.path(key), shown(item)));
+            continue;
+        }
+        const auto found = std::find(known.begin(), known.end(), item.text);
+        if (found == known.end()) {
+            const auto channel = sim::channel_named(item.text);
+            f.fail(item, key,
+                   channel ? fmt::format("{} = {}: the beam has no such coordinate", f.path(key), in_quotes(item.text))
+                           : fmt::format("{} = {} is not a channel{}", f.path(key), in_quotes(item.text),
+                                         suggestion_or_list(item.text, known)));
+            continue;
+        }
+        const sim::Channel channel = every[static_cast<std::size_t>(found - known.begin())];
+        if (std::find(out.begin(), out.end(), channel) != out.end())
+            f.fail(
+                item, key,
+                fmt::format("{} = {} stands twice; a table has each column once", f.path(key), in_quotes(item.text)));
+        else
+            out.push_back(channel);
+    }
+}
+
+TrajectoryOutput read_trajectory(const OutputContext& context, Fields& f) {
+    TrajectoryOutput table;
+    table.file = context.scene.name + ".csv";
+    read_file(f, table.file, {".csv", ".npz"}, false);
+    read_channels(context, f, table.channels);
+    const Node* rate = f.take("rate");
+    const Node* times = f.take("times");
+    if (rate && times)
+        f.fail(*times, "times", fmt::format("{} has both \"rate\" and \"times\"; keep one of them", f.what()));
+    if (rate && f.value(*rate, "rate", dim::kFrequency, table.rate)) {
+        if (!(table.rate > 0))
+            f.fail(*rate, "rate", fmt::format("{} = {} must be positive", f.path("rate"), shown(*rate)));
+        else if (table.rate * context.scene.end_time > kMostRows)
+            f.fail(*rate, "rate",
+                   fmt::format("{} = {} would make {:.3g} rows, more than {:.3g}; lower it", f.path("rate"),
+                               shown(*rate), table.rate * context.scene.end_time, kMostRows));
+    }
+    if (times && f.list_value(*times, "times", dim::kTime, table.times)) {
+        if (table.times.empty())
+            f.fail(*times, "times", fmt::format("{} is empty; name at least one instant", f.path("times")));
+        for (std::size_t i = 0; i < table.times.size(); ++i) {
+            double ignored = 0;
+            read_instant(f, times->items[i], fmt::format("times.{}", i), ignored);
+        }
+    }
+    return table;
+}
+
+ImpactsOutput read_impacts(const OutputContext& context, Fields& f) {
+    ImpactsOutput impacts;
+    impacts.file = context.scene.name + "-impacts.json";
+    read_file(f, impacts.file, {".json", ".csv"}, false);
+    return impacts;
+}
+
+SummaryOutput read_summary(const OutputContext& context, Fields& f) {
+    SummaryOutput summary;
+    summary.file = context.scene.name + "-summary.json";
+    read_file(f, summary.file, {".json"}, false);
+    f.boolean("horizon", summary.horizon);
+    return summary;
+}
+
+std::optional<Output> read_output(const OutputContext& context, const Node& node) {
+    Fields f(context.findings, &node, fmt::format("outputs.{}", context.index));
+    if (!f.node()) return std::nullopt;
+    const Node* type = f.require("type", "\"video\"");
+    if (!type) return std::nullopt;
+    if (type->kind == Node::Kind::string)
+        if (const auto planned = not_available("outputs.type", type->text)) {
+            f.fail(*type, "type", fmt::format("{}: {}", f.path("type"), *planned));
+            return std::nullopt;
+        }
+    using Read = Output (*)(const OutputContext&, Fields&);
+    Read read = nullptr;
+    if (!f.choice_value<Read>(
+            *type, "type",
+            {{"video", [](const OutputContext& c, Fields& g) -> Output { return read_video(c, g); }},
+             {"frames", [](const OutputContext& c, Fields& g) -> Output { return read_frames(c, g); }},
+             {"still", [](const OutputContext& c, Fields& g) -> Output { return read_still(c, g); }},
+             {"trajectory", [](const OutputContext& c, Fields& g) -> Output { return read_trajectory(c, g); }},
+             {"impacts", [](const OutputContext& c, Fields& g) -> Output { return read_impacts(c, g); }},
+             {"summary", [](const OutputContext& c, Fields& g) -> Output { return read_summary(c, g); }}},
+            read))
+        return std::nullopt;
+    Output output = read(context, f);
+    f.finish("outputs");
+    return output;
+}
+
+// Two outputs must not write one file.
+void refuse_shared_files(Findings& findings, const std::vector<std::pair<const Node*, Output>>& outputs) {
+    for (std::size_t later = 1; later < outputs.size(); ++later)
+        for (std::size_t earlier = 0; earlier < later; ++earlier) {
+            const std::string &a = file_of(outputs[earlier].second), &b = file_of(outputs[later].second);
+            if (!may_collide(a, b)) continue;
+            const Node& object = *outputs[later].first;
+            const Member* file = object.find("file");
+            findings.error(
+                file ? file->value.place : object.place, fmt::format("outputs.{}.file", later),
+                fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
+                            later, in_quotes(b), earlier, in_quotes(a)));
+            break;
+        }
+}
+
+}  // namespace
+
+void read_outputs(Findings& findings, const Node* node, Scene& scene) {
+    if (!node) return;
+    if (node->kind != Node::Kind::array)
+        return findings.error(node->place, "outputs",
+                              fmt::format("outputs must be an array [ … ], not {}", shown(*node)));
+    std::vector<std::pair<const Node*, Output>> outputs;
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+        if (auto output = read_output({findings, scene, i}, node->items[i]))
+            outputs.emplace_back(&node->items[i], std::move(*output));
+    if (outputs.size() == node->items.size()) refuse_shared_files(findings, outputs);
+    for (auto& [place, output] : outputs) scene.outputs.push_back(std::move(output));
+}
+
+std::optional<Size> parse_size(std::string_view text) {
+    Size size;
+    const char* end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, size.width);
+    if (error != std::errc{} || x == end || *x != 'x') return std::nullopt;
+    const auto [last, bad] = std::from_chars(x + 1, end, size.height);
+    if (bad != std::errc{} || last != end) return std::nullopt;
+    const bool fits =
+        std::min(size.width, size.height) >= kSmallestSide && std::max(size.width, size.height) <= kLargestSide;
+    return fits ? std::optional(size) : std::nullopt;
+}
+
+std::optional<FrameRate> parse_frame_rate(std::string_view text) {
+    const char* end = text.data() + text.size();
+    FrameRate rate;
+    if (text.find('/') != std::string_view::npos) {
+        const auto [slash, error] = std::from_chars(text.data(), end, rate.numerator);
+        if (error != std::errc{} || slash == end || *slash != '/') return std::nullopt;
+        const auto [last, bad] = std::from_chars(slash + 1, end, rate.denominator);
+        if (bad != std::errc{} || last != end) return std::nullopt;
+    } else {
+        double value = 0;
+        const auto [last, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc{} || last != end || !(value >= kSlowestFrameRate && value <= kFastestFrameRate))
+            return std::nullopt;
+        const output::FrameRate meant = output::frame_rate(value);  // 29.97 means 30000/1001
+        rate = {meant.rate, meant.base};
+    }
+    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < kSlowestFrameRate ||
+        rate.value() > kFastestFrameRate)
+        return std::nullopt;
+    const int divisor = std::gcd(rate.numerator, rate.denominator);
+    return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
+}
+
+std::string problem_with_span(const FrameSpan& span, double end_time) {
+    const double to = span.to.value_or(end_time), fps = span.fps.value();
+    const double first = std::round(span.from * fps), last = std::round(to * fps);
+    if (!(last > first))
+        return fmt::format(
+            "no frame lies between {:g} s and {:g} s at {:g} frames a second; \"to\" must be later than \"from\"",
+            span.from, to, fps);
+    if (last - first > kMostFrames)
+        return fmt::format(
+            "{:.0f} frames are more than the {:.0f} that one output can have; use \"from\" and \"to\", or fewer frames "
+            "a second",
+            last - first, kMostFrames);
+    return {};
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Keeps the house in order: what stands at the top level, who includes whom, who sees which library, and that every
+equation cited in sim/ is in sim/MODEL.md. Prints each breach as file:line and fails if there is one.
+
+house.py ROOT            checks the tree
+house.py --self-test     checks that the checks can fail
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "README.md",
+             "sim", "render", "output", "scenes", "tests"}
+IGNORED = {"build"}  # made by the build, never committed
+
+# A room may include itself and those before it. Tests may include everything.
+ROOMS = ["sim", "render", "output", "scenes"]
+
+# Which headers only some files may see: the pattern, how many .cpp of which room.
+PRIVATE_LIBRARIES = [
+    ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
+    ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 1}),
+    ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 1}),
+    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 1, "scenes": 1}),
+]
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+EQUATION = re.compile(r"\(S\d+[a-z]?\)")
+
+
+def sources(room):
+    return sorted(p for p in room.rglob("*") if p.suffix in {".hpp", ".cpp", ".h"})
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if match := INCLUDE.match(line):
+            yield number, match.group(1)
+
+
+def top_level(root):
+    """Committed entries where git knows them, so that a film made in the clone is no breach."""
+    if (root / ".git").exists():
+        listed = subprocess.run(["git", "-c", "safe.directory=*", "-C", str(root), "ls-files", "-z"],
+                                capture_output=True, text=True)
+        if listed.returncode == 0:
+            return {name.split("/")[0] for name in listed.stdout.split("\0") if name}
+    return set(os.listdir(root)) - IGNORED
+
+
+def check_top_level(root):
+    for name in sorted(top_level(root) - TOP_LEVEL):
+        if not name.startswith("."):
+            yield f"{name}: nothing but {', '.join(sorted(TOP_LEVEL))} and dot-files stands at the top"
+
+
+def check_one_way(root):
+    for rank, room in enumerate(ROOMS):
+        for path in sources(root / room):
+            for number, header in includes(path):
+                target = header.split("/")[0]
+                if target == "tests" or target in ROOMS[rank + 1:]:
+                    yield f"{path.relative_to(root)}:{number}: {room} may not include {header}"
+                if header.startswith("../") or header.startswith("./"):
+                    yield f'{path.relative_to(root)}:{number}: include from the root, as "{room}/…"'
+
+
+def check_private_libraries(root):
+    for library, pattern, allowed in PRIVATE_LIBRARIES:
+        for room in ROOMS:
+            seeing = {}
+            for path in sources(root / room):
+                for number, header in includes(path):
+                    if pattern.search(header):
+                        seeing.setdefault(path, number)
+            for path, number in seeing.items():
+                if path.suffix != ".cpp":
+                    yield f"{path.relative_to(root)}:{number}: {library} in a header; only a .cpp may see it"
+            if len(seeing) > allowed.get(room, 0):
+                for path, number in seeing.items():
+                    yield (f"{path.relative_to(root)}:{number}: {library} is seen by {len(seeing)} files of {room}; "
+                           f"allowed are {allowed.get(room, 0)}")
+
+
+def check_equations(root):
+    model = root / "sim" / "MODEL.md"
+    known = set(EQUATION.findall(model.read_text(encoding="utf-8"))) if model.exists() else set()
+    for path in sources(root / "sim"):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for cited in EQUATION.findall(line):
+                if cited not in known:
+                    yield f"{path.relative_to(root)}:{number}: equation {cited} is not in sim/MODEL.md"
+
+
+CHECKS = [check_top_level, check_one_way, check_private_libraries, check_equations]
+
+
+def self_test():
+    """Builds one small house per breach and expects exactly the check that is meant to see it to see it."""
+    breaches = [
+        ("notes.txt", "", check_top_level),
+        ("sim/a.cpp", '#include "render/image.hpp"\n', check_one_way),
+        ("render/a.hpp", '#include "output/png.hpp"\n', check_one_way),
+        ("output/a.cpp", '#include "scenes/scene.hpp"\n', check_one_way),
+        ("output/a.cpp", '#include "../sim/pose.hpp"\n', check_one_way),
+        ("sim/a.hpp", "#include <cvode/cvode.h>\n", check_private_libraries),
+        ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
+        ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
+        ("sim/a.cpp", "// θ̈ (S99)\n", check_equations),
+    ]
+    for name, text, guard in breaches:
+        with tempfile.TemporaryDirectory() as directory:
+            root = pathlib.Path(directory)
+            for room in ROOMS:
+                (root / room).mkdir()
+            (root / "sim/MODEL.md").write_text("(S1)", encoding="utf-8")
+            (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
+            if found := [breach for check in CHECKS for breach in check(root)]:
+                sys.exit(f"a sound house is refused: {found}")
+            (root / name).write_text(text, encoding="utf-8")
+            for check in CHECKS:
+                if bool(list(check(root))) != (check is guard):
+                    sys.exit(f"{check.__name__} is wrong about {name}: {text!r}")
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    root = pathlib.Path(sys.argv[1])
+    breaches = [breach for check in CHECKS for breach in check(root)]
+    print("\n".join(breaches) or "the house is in order")
+    sys.exit(1 if breaches else 0)
+
+
+main()
