@@ -20,7 +20,8 @@ TEST(Channels, NamesAndBackAgain) {
 }
 
 TEST(Channels, RefuseNamesThatAreNone) {
-    for (const char* text : {"", "q", "q0", "q01", "q-1", "q1x", "Theta", "theta ", "q99999999999999999999"}) EXPECT_FALSE(channel_named(text)) << text;
+    for (const char* text : {"", "q", "q0", "q01", "q-1", "q1x", "Theta", "theta ", "q99999999999999999999"})
+        EXPECT_FALSE(channel_named(text)) << text;
 }
 
 TEST(Channels, HaveUnits) {
@@ -33,7 +34,8 @@ TEST(Channels, HaveUnits) {
 
 TEST(Channels, OfTheContactAreEmptyWithoutACam) {
     const Problem p = falling_beam(ModelKind::rigid);
-    for (const char* text : {"contact_force", "friction_force", "gap", "contact_x", "contact_s", "cam_angle", "separation", "separation_paper", "work_cam"})
+    for (const char* text : {"contact_force", "friction_force", "gap", "contact_x", "contact_s", "cam_angle",
+                             "separation", "separation_paper", "work_cam"})
         EXPECT_TRUE(std::isnan(series(p, text, {0.1})[0])) << text;
 }
 
@@ -41,7 +43,9 @@ TEST(Channels, OfTheTipAreThoseOfTheRootTangentInBothBases) {
     for (const Basis basis : {Basis::cantilever, Basis::hub_beam}) {
         const Problem p = falling_beam(ModelKind::first_order, basis, 2);
         Request request;
-        request.tables.push_back({{0.2, 0.2 + 1e-6, 0.2 - 1e-6}, {channel("tip_deflection"), channel("tip_rate"), channel("theta"), channel("theta_dot")}});
+        request.tables.push_back(
+            {{0.2, 0.2 + 1e-6, 0.2 - 1e-6},
+             {channel("tip_deflection"), channel("tip_rate"), channel("theta"), channel("theta_dot")}});
         request.poses.push_back({{0.2}, 3});
         const Result r = simulate(p, request);
         const auto& v = r.tables[0].values;
@@ -63,7 +67,8 @@ TEST(Channels, ContactArcRunsCounterClockwiseFromTheMark) {
         request.poses.push_back({{0}, 2});
         const Result r = simulate(p, request);
         const Nearest& nearest = *r.poses[0][0].nearest;
-        const double expected = std::remainder(std::atan2(nearest.normal.y, nearest.normal.x) - phase, 2 * 3.14159265358979323846);
+        const double expected =
+            std::remainder(std::atan2(nearest.normal.y, nearest.normal.x) - phase, 2 * 3.14159265358979323846);
         const double s = r.tables[0].values[0][0] / p.cam->radius;
         EXPECT_NEAR(std::remainder(s - expected, 2 * 3.14159265358979323846), 0, 1e-14);
         EXPECT_GE(s, 0);

@@ -16,10 +16,12 @@ struct Known : Ode {
     }
     void rhs(double t, const double* y, double* dy) override {
         dy[0] = -y[0] * y[0] * std::sin(t);  // 1/(2 − cos t)
-        dy[1] = y[1] * std::cos(t);         // e^{sin t}
+        dy[1] = y[1] * std::cos(t);          // e^{sin t}
         dy[2] = std::log(y[1]);              // 1 − cos t
     }
-    static std::vector<double> exact(double t) { return {1 / (2 - std::cos(t)), std::exp(std::sin(t)), 1 - std::cos(t)}; }
+    static std::vector<double> exact(double t) {
+        return {1 / (2 - std::cos(t)), std::exp(std::sin(t)), 1 - std::cos(t)};
+    }
 };
 
 double error_at(const Segment& s, double t) {
@@ -98,8 +100,7 @@ TEST(Rk8, SaysWhenItCannotGoOn) {
     const auto integrator = make_rk8(ode, 1e-8, 1e-11);
     const double one = 1;
     integrator->start(0, &one);
-    EXPECT_THROW(
-        for (int i = 0; i < 100000; ++i) integrator->step(), StepFailure);
+    EXPECT_THROW(for (int i = 0; i < 100000; ++i) integrator->step(), StepFailure);
 }
 
 double error_over(Integrator& integrator, double end, double* worst_inside = nullptr) {
@@ -108,7 +109,8 @@ double error_over(Integrator& integrator, double end, double* worst_inside = nul
         const Segment& s = integrator.step();
         const double to = std::min(end, s.t1);
         if (worst_inside)
-            for (double share : {0.25, 0.5, 0.75}) *worst_inside = std::max(*worst_inside, error_at(s, s.t0 + share * (to - s.t0)));
+            for (double share : {0.25, 0.5, 0.75})
+                *worst_inside = std::max(*worst_inside, error_at(s, s.t0 + share * (to - s.t0)));
         if (s.t1 >= end) return error_at(s, end);
     }
     return INFINITY;
@@ -123,7 +125,8 @@ TEST(Integrators, AllReachTheSameClosedForm) {
         EXPECT_LT(inside, allowed) << rtol;
         for (const Method method : {Method::cvode_adams, Method::cvode_bdf}) {
             inside = 0;
-            EXPECT_LT(error_over(*make_sundials(method, ode, rtol, rtol), 10, &inside), 10 * allowed) << name(method) << " " << rtol;
+            EXPECT_LT(error_over(*make_sundials(method, ode, rtol, rtol), 10, &inside), 10 * allowed)
+                << name(method) << " " << rtol;
             EXPECT_LT(inside, 10 * allowed) << name(method) << " " << rtol;
         }
     }
@@ -141,7 +144,8 @@ TEST(Integrators, UncontrolledComponentsNeverChangeAStep) {
     } with(true), without(false);
     for (int kind = 0; kind < 3; ++kind) {
         const auto make = [&](Ode& ode) {
-            return kind == 0 ? make_rk8(ode, 1e-8, 1e-10) : make_sundials(kind == 1 ? Method::cvode_adams : Method::cvode_bdf, ode, 1e-8, 1e-10);
+            return kind == 0 ? make_rk8(ode, 1e-8, 1e-10)
+                             : make_sundials(kind == 1 ? Method::cvode_adams : Method::cvode_bdf, ode, 1e-8, 1e-10);
         };
         const auto a = make(with), b = make(without);
         a->start(0, Known::exact(0).data());

@@ -30,14 +30,16 @@ Problem contact_problem(const Case& c) {
     p.contact.stiffness = 1e5;
     p.contact.offset = c.offset;
     if (c.friction == 1) p.contact.friction = CoulombFriction{0.3, 0.1};
-    if (c.friction >= 2) p.contact.friction = StickSlipFriction{0.3, 0.4, 2e4, c.friction == 3 ? std::optional(30.0) : std::nullopt};
+    if (c.friction >= 2)
+        p.contact.friction = StickSlipFriction{0.3, 0.4, 2e4, c.friction == 3 ? std::optional(30.0) : std::nullopt};
     return p;
 }
 
 std::string case_name(const ::testing::TestParamInfo<Case>& info) {
     const Case& c = info.param;
     const char* friction[] = {"Frictionless", "Coulomb", "StickSlip", "DampedStickSlip"};
-    return label(name(c.model)) + label(name(c.basis)) + (c.radius != 0 ? "Radius" : "") + (c.offset > 0 ? "Offset" : "") + friction[c.friction];
+    return label(name(c.model)) + label(name(c.basis)) + (c.radius != 0 ? "Radius" : "") +
+           (c.offset > 0 ? "Offset" : "") + friction[c.friction];
 }
 
 // A state in which the beam is pressed `depth` into the cam near x.
@@ -130,7 +132,8 @@ TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
         for (int i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const Vec2 f = c.force * c.normal + c.friction * c.tangent;
-            power += (jx[k] * f.x + jy[k] * f.y + system.offset() * c.friction * jchi[k]) * y[static_cast<std::size_t>(n + i)];
+            power += (jx[k] * f.x + jy[k] * f.y + system.offset() * c.friction * jchi[k]) *
+                     y[static_cast<std::size_t>(n + i)];
         }
         const double* ledger = dy.data() + system.controlled;
         const double size = c.force * (std::fabs(c.gap_rate) + 1) + std::fabs(c.friction) * (std::fabs(c.slip) + 1);
@@ -167,14 +170,17 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Contact_,
-                         ::testing::Values(Case{ModelKind::rigid, Basis::automatic, 0, 0, 0}, Case{ModelKind::rigid, Basis::automatic, -0.1, 0.02, 1},
-                                           Case{ModelKind::zeroth_order, Basis::hub_beam, 0, 0.02, 1}, Case{ModelKind::first_order, Basis::hub_beam, 0, 0, 0},
+                         ::testing::Values(Case{ModelKind::rigid, Basis::automatic, 0, 0, 0},
+                                           Case{ModelKind::rigid, Basis::automatic, -0.1, 0.02, 1},
+                                           Case{ModelKind::zeroth_order, Basis::hub_beam, 0, 0.02, 1},
+                                           Case{ModelKind::first_order, Basis::hub_beam, 0, 0, 0},
                                            Case{ModelKind::first_order, Basis::hub_beam, 0.05, 0.0184, 1},
                                            Case{ModelKind::first_order, Basis::cantilever, 0, 0.0184, 2},
                                            Case{ModelKind::first_order, Basis::hub_beam, -0.1, 0.0184, 3},
                                            Case{ModelKind::second_order, Basis::hub_beam, 0.05, 0.0184, 1},
                                            Case{ModelKind::second_order, Basis::cantilever, -0.1, 0.01, 2},
-                                           Case{ModelKind::exact, Basis::automatic, 0, 0, 0}, Case{ModelKind::exact, Basis::automatic, 0.05, 0.0184, 1},
+                                           Case{ModelKind::exact, Basis::automatic, 0, 0, 0},
+                                           Case{ModelKind::exact, Basis::automatic, 0.05, 0.0184, 1},
                                            Case{ModelKind::exact, Basis::automatic, -0.05, 0.0184, 3}),
                          case_name);
 
@@ -242,7 +248,8 @@ TEST(ContactGeometry, BoundOfTheGapIsABound) {
             y[0] = dice.between(-3, 3);
             for (int i = 1; i < system.coordinates(); ++i) y[static_cast<std::size_t>(i)] = dice.about_zero(0.01 / i);
             const double t = dice.between(0, 9);
-            EXPECT_LE(system.gap_lower_bound(t, y.data()), system.contact(t, y.data(), true).gap + 2e-3) << name(kind);  // foreshortening
+            EXPECT_LE(system.gap_lower_bound(t, y.data()), system.contact(t, y.data(), true).gap + 2e-3)
+                << name(kind);  // foreshortening
         }
     }
 }
