@@ -38,12 +38,13 @@ TEST(FallingRod, WithDoubledTorqueTakesThePapersTime) {
 TEST(FallingBeam, ReachesTheHorizontalAtThePublishedTimes) {
     Problem p = falling_beam(ModelKind::first_order, Basis::cantilever, 1);
     EXPECT_NEAR(run(p, 0.4).theta_zero.at(0).t, 0.369995468, 1e-9);
-    EXPECT_NEAR(extremum(p, "tip_deflection", 0.369995468).max, 6.778986e-05, 1e-11);
+    // The published largest deflections are those of samples: at most 3e-5 below the crest between them.
+    EXPECT_NEAR(extremum(p, "tip_deflection", 0.369995468).max, 6.778986e-05, 3e-5 * 6.778986e-05);
     p.beam.modes = 2;
     const Result r = run(p, 0.4);
     EXPECT_NEAR(r.theta_zero.at(0).t, 0.369993889, 1e-9);
     EXPECT_NEAR(r.theta_zero.at(0).theta_dot, -4.5753468, 1e-7);
-    EXPECT_NEAR(extremum(p, "tip_deflection", 0.369993889).max, 7.474911e-05, 1e-11);
+    EXPECT_NEAR(extremum(p, "tip_deflection", 0.369993889).max, 7.474911e-05, 3e-5 * 7.474911e-05);
 }
 
 TEST(FallingBeam, VibratesAboutThePublishedMeanDeflection) {
@@ -629,6 +630,21 @@ TEST(Runs, RefuseImpossibleProblemsBeforeAnyWork) {
     Problem p;
     p.initial.angle = 0.1;
     EXPECT_THROW(run(p, 1), std::invalid_argument);
+}
+
+TEST(FirstRebound, ConvergesToTheSameApexInBothBases) {
+    // 0.7228 rad with many modes (MODEL.md §16); six modes of either basis are within 5e-4 of it.
+    for (const Basis basis : {Basis::hub_beam, Basis::cantilever}) {
+        Problem p = fixed_cam(ModelKind::first_order, 6);
+        p.beam.basis = basis;
+        p.solver.rtol = 1e-7;
+        p.solver.atol = 1e-10;
+        const Result r = run(p, 0.62);
+        double apex = 0;
+        for (const Apex& a : r.apexes)
+            if (a.t > 0.35) apex = std::max(apex, a.theta);
+        EXPECT_NEAR(apex, 0.7228, 5e-4) << name(basis);
+    }
 }
 
 TEST(Inertia, LostByManyCantileverModesIsToldWithItsRemedy) {
