@@ -15,6 +15,32 @@ namespace {
 constexpr int kMaxPieces = 24;  // looks a step at most
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// Calls offer(t, f(t)) at the maxima of f between samples values[i] = f(time(i)), i = 0…count, that could
+// exceed `best`. A parabola rises above its highest sample by at most an eighth of the second difference;
+// twice that is looked into. At the ends of a stretch, which bracket nothing, a look a little inside
+// tells whether f rises there.
+template <class F, class Time, class Offer>
+void each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, Offer&& offer) {
+    const auto look = [&](double a, double b) {
+        const auto [t, value] = find_peak(f, a, b);
+        offer(t, value);
+    };
+    for (int i = 0; i <= count; ++i) {
+        const double here = values[i];
+        const int middle = std::clamp(i, 1, count - 1);
+        const double bend = std::fabs(values[middle - 1] - 2 * values[middle] + values[middle + 1]);
+        if (!(here + 0.25 * bend > best) || bend == 0) continue;
+        if (i > 0 && i < count) {
+            if (here >= values[i - 1] && here >= values[i + 1]) look(time(i - 1), time(i + 1));
+            continue;
+        }
+        const int other = i == 0 ? 1 : count - 1;
+        if (!(here >= values[other])) continue;
+        const double inside = time(i) + 1e-3 * (time(other) - time(i));
+        if (f(inside) > here) look(std::min(time(i), time(other)), std::max(time(i), time(other)));
+    }
+}
+
 }  // namespace
 
 Eye::Eye(const Problem& problem) : system_(problem), y_(static_cast<std::size_t>(system_.size)) {}
@@ -223,6 +249,7 @@ void Recorder::sweep(const std::vector<double>& times, Cursor& cursor, const Str
         if (s.last ? t > s.to : t >= s.to) return;
         s.segment->value(std::max(t, s.from), y_.data());
         eye_.look(t, y_.data());
+        eye_.system().search_again();
         visit(row);
         ++cursor.next;
     }
@@ -312,13 +339,7 @@ void Recorder::contact_peaks(const Stretch& s) {
     }
     const auto refine = [&](const auto& values, const auto& f, double& best) {
         for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
-        for (int i = 1; i < count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            const double left = values[k - 1], here = values[k], right = values[k + 1];
-            // Only what could exceed the best: a parabola through three points rises by less than its fall.
-            if (here < left || here < right || here + std::max(here - left, here - right) <= best) continue;
-            best = std::max(best, find_peak(f, time(i - 1), time(i + 1)).second);
-        }
+        each_maximum(f, time, values.data(), count, best, [&](double, double value) { best = std::max(best, value); });
     };
     refine(forces, force, impact.force_peak);
     refine(depths, depth, impact.penetration_peak);
@@ -354,21 +375,11 @@ void Recorder::extrema(const Stretch& s) {
             return eye_.value(request_.extrema[c]);
         };
         for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
-        for (int i = 1; i < count; ++i) {
-            const double left = values[c][static_cast<std::size_t>(i - 1)],
-                         here = values[c][static_cast<std::size_t>(i)],
-                         right = values[c][static_cast<std::size_t>(i + 1)];
-            // Refine only what could become the extremum: a parabola rises by at most the larger step.
-            const double rise = std::max(std::fabs(here - left), std::fabs(here - right));
-            if (here >= left && here >= right && here > left + right - here && here + rise > e.max) {
-                const auto [t, v] = find_peak(at, time(i - 1), time(i + 1));
-                offer(t, v);
-            }
-            if (here <= left && here <= right && here < left + right - here && here - rise < e.min) {
-                const auto [t, v] = find_peak([&](double x) { return -at(x); }, time(i - 1), time(i + 1));
-                offer(t, -v);
-            }
-        }
+        each_maximum(at, time, values[c].data(), count, e.max, offer);
+        for (double& value : values[c]) value = -value;
+        const double floor = -e.min;
+        each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, floor,
+                     [&](double t, double value) { offer(t, -value); });
     }
 }
 
@@ -380,12 +391,17 @@ void Recorder::ledger() {
 
 void Recorder::stretch(const Stretch& s) {
     if (!(s.to > s.from) && !s.last) return;
+    // Each observer starts its search of the contact afresh, so that none sees what another looked at:
+    // the last bits of a foot point depend on where its iteration began.
     sample(s);
     if (s.to > s.from) {
         turning_points(s);
+        eye_.system().search_again();
         contact_peaks(s);
+        eye_.system().search_again();
         extrema(s);
     }
+    eye_.system().search_again();
     s.segment->value(s.to, y_.data());
     eye_.look(s.to, y_.data());
     ledger();

@@ -68,6 +68,7 @@ class System final : public Ode {
         phase_ = phase;
         search_next_ = true;
     }
+    void search_again() { search_next_ = true; }
     const Phase& phase() const { return phase_; }
     void rhs(double t, const double* y, double* dy) override;
 
