@@ -261,11 +261,13 @@ ChartContent Film::Prepared::force_content() const {
         for (std::size_t i = 0; i < setup->chart.rows(); ++i)
             if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
     for (const TraceSample& s : samples) rows.push_back({s.t, s.force});
+    // Only impacts that fall between the samples: a longer contact shows its own peak.
+    const double spacing = t && t->size() > 1 ? (t->back() - t->front()) / static_cast<double>(t->size() - 1) : 0;
     for (const sim::Impact& i : setup->impacts) {
-        const double end = i.t_end.value_or(i.t_start);
+        if (!i.t_end || *i.t_end - i.t_start > 4 * spacing) continue;
         rows.push_back({i.t_start, 0});
-        rows.push_back({(i.t_start + end) / 2, i.force_peak});
-        if (i.t_end) rows.push_back({end, 0});
+        rows.push_back({(i.t_start + *i.t_end) / 2, i.force_peak});
+        rows.push_back({*i.t_end, 0});
     }
     std::erase_if(rows, [&](const auto& r) { return r[0] / time.unit < c.time.low || r[0] / time.unit > c.time.high; });
     std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });

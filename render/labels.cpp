@@ -71,6 +71,15 @@ TimeFormat time_format(const std::vector<double>& times) {
         for (const auto& u : kUnits)
             if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
     }
+    if (times.back() == times.front()) {
+        // A still says its instant as it was asked for, to a millionth of the unit.
+        const double t = times.front() / out.unit;
+        for (out.decimals = 1; out.decimals < 6; ++out.decimals) {
+            const double scaled = t * std::pow(10.0, out.decimals);
+            if (std::abs(scaled - std::round(scaled)) < 1e-6) break;
+        }
+        return out;
+    }
     double step = times.back() > times.front() ? times.back() - times.front() : out.unit;
     for (std::size_t i = 1; i < times.size(); ++i)
         if (times[i] > times[i - 1]) step = std::min(step, times[i] - times[i - 1]);

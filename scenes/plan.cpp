@@ -13,9 +13,9 @@ namespace {
 using sim::ChannelKind;
 
 // Strip charts show steps down to a quarter of a millisecond, and never more points than a screen
-// of ten thousand columns could tell apart twice.
+// of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
 constexpr double kChartRate = 4000;  // [Hz]
-constexpr double kMostChartPoints = 20000;
+constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
 
 const std::vector<sim::Channel> kChartChannels = {
     {ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::contact_force, 0}};
@@ -34,7 +34,10 @@ std::vector<double> rows(double from, double to, double rate) {
     return times;
 }
 
-double chart_rate(double duration) { return std::min(kChartRate, kMostChartPoints / std::max(duration, 1e-3)); }
+double chart_rate(double duration) {
+    const double seconds = std::max(duration, 1e-12);
+    return std::clamp(kChartRate, kFewestChartPoints / seconds, kMostChartPoints / seconds);
+}
 
 std::vector<double> frame_times(const FrameSpan& span, double end_time, long& first) {
     const double fps = span.fps.value();
