@@ -69,6 +69,10 @@ struct Plan {
 
 Plan plan(const Scene& scene);
 
+// Words of the plan: "lit", "video".
+const char* view_name(const render::View& view);
+const char* kind_name(Pictures::Kind kind);
+
 // For people, and for programs.
 std::string to_text(const Plan& plan, const Scene& scene);
 std::string to_json(const Plan& plan, const Scene& scene);

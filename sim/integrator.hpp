@@ -44,6 +44,8 @@ class Integrator {
     virtual void start(double t, const double* y) = 0;
     // No step goes beyond this instant until the next call.
     void stop_at(double t) { stop_ = t; }
+    // The first step after the next `start` is at most this long [s].
+    void limit_first_step(double h) { first_limit_ = h; }
     // One accepted step. The segment lives until the next call. Throws StepFailure.
     virtual const Segment& step() = 0;
     // The last step again, ended at t1 inside it; y at its end is as accurate as a step's.
@@ -53,6 +55,13 @@ class Integrator {
     IntegratorCounters counters;
 
   protected:
+    // Takes the limit: it serves one start.
+    double limited(double h) {
+        const double limit = first_limit_;
+        first_limit_ = std::numeric_limits<double>::infinity();
+        return limit < h ? limit : h;
+    }
+    double first_limit_ = std::numeric_limits<double>::infinity();
     double stop_ = std::numeric_limits<double>::infinity();
 };
 

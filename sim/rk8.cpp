@@ -180,7 +180,7 @@ class Rk8 final : public Integrator, private Segment {
         std::copy_n(y, n_, end_.begin());
         t1 = t;
         evaluate(t, end_.data(), k_[12].data());
-        next_ = initial_step();
+        next_ = limited(initial_step());
     }
 
     const Segment& step() override {

@@ -122,7 +122,7 @@ class Cvode final : public Integrator, private Segment {
         } else {
             check(CVodeReInit(memory_, t, y_), "a restart");
         }
-        check(CVodeSetInitStep(memory_, call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)),
+        check(CVodeSetInitStep(memory_, limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_))),
               "the first step");
     }
 
@@ -263,7 +263,7 @@ class Arkode final : public Integrator, private Segment {
             check(ARKStepReset(memory_, t, y_), "a restart");
         else
             set_up(t);
-        check(ARKStepSetInitStep(memory_, call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)),
+        check(ARKStepSetInitStep(memory_, limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_))),
               "the first step");
     }
 

@@ -319,6 +319,13 @@ Compliance System::compliance(double t, const double* y, const ContactState& c) 
     return out;
 }
 
+// δ_max/v with δ_max = [(n+1)v²/(2 a_nn K)]^{1/(n+1)} of an impact against the mass 1/a_nn.
+double System::touch_time(double t, const double* y, const ContactState& c, double approach) {
+    const double n = law_.exponent, answer = compliance(t, y, c).nn;
+    if (!(approach > 0) || !(answer > 0)) return std::numeric_limits<double>::infinity();
+    return std::pow(0.5 * (n + 1) * approach * approach / (answer * law_.stiffness), 1 / (n + 1)) / approach;
+}
+
 void System::strike(double t, double* y, const ContactState& c, const ImpactResult& impact) {
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], jump[kMaxSize];
     place(t, y);

@@ -122,6 +122,9 @@ class System final : public Ode {
     // Impulsive contact: how the contact point answers, and the jump of ξ̇ and of the ledger in y.
     Compliance compliance(double t, const double* y, const ContactState& c);
     void strike(double t, double* y, const ContactState& c, const ImpactResult& impact);
+    // How long a touch at this approach speed takes to reach its deepest point, at least [s]: Hertz impact of
+    // the contact point's own compliance.
+    double touch_time(double t, const double* y, const ContactState& c, double approach);
     // Rate of the gap's rate if nothing pushed: < 0 presses on the cam [m/s²].
     double free_gap_acceleration(double t, const double* y);
 

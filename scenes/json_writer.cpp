@@ -1,6 +1,7 @@
-// A resolved scene written back in the scene format.
+// JSON that scenes/ writes: a resolved scene in its own format, and a plan.
 #include <nlohmann/json.hpp>
 
+#include "scenes/plan.hpp"
 #include "scenes/scene.hpp"
 
 namespace beamcam::scenes {
@@ -172,6 +173,56 @@ std::string to_json(const Scene& scene) {
         out["outputs"] = Json::array();
         for (const Output& each : scene.outputs) out["outputs"].push_back(output(each));
     }
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_json(const Plan& plan, const Scene& scene) {
+    Json out, stages = Json::array();
+    if (plan.simulation) {
+        const sim::Request& request = plan.simulation->request;
+        stages.push_back({{"stage", "simulate"},
+                          {"model", name(scene.problem.beam.model)},
+                          {"modes", scene.problem.beam.model == sim::ModelKind::rigid ? 0 : scene.problem.beam.modes},
+                          {"until", request.end_time},
+                          {"because", plan.simulation->until_because},
+                          {"horizon", request.horizon}});
+    }
+    for (const Pictures& p : plan.pictures) {
+        const std::vector<double>& times = plan.simulation->request.poses[p.poses].times;
+        Json stage = {{"stage", kind_name(p.kind)},
+                      {"file", p.file},
+                      {"output", p.output},
+                      {"frames", times.size()},
+                      {"from", times.front()},
+                      {"last", times.back()},
+                      {"size", {p.size.width, p.size.height}},
+                      {"style", view_name(p.view)}};
+        if (p.kind != Pictures::Kind::still) stage["fps"] = p.fps.value();
+        if (p.kind == Pictures::Kind::video) {
+            stage["codec"] = "h264";
+            stage["crf"] = p.encoding.crf;
+            stage["preset"] = p.encoding.preset;
+        }
+        stages.push_back(std::move(stage));
+    }
+    for (const TableFile& t : plan.tables) {
+        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
+        Json channels = Json::array();
+        for (const sim::Channel& channel : table.channels) channels.push_back(name(channel));
+        stages.push_back({{"stage", "table"},
+                          {"file", t.file},
+                          {"output", t.output},
+                          {"rows", table.times.size()},
+                          {"channels", channels}});
+    }
+    for (const ImpactsFile& i : plan.impacts)
+        stages.push_back({{"stage", "impacts"}, {"file", i.file}, {"output", i.output}});
+    for (const SummaryFile& s : plan.summaries)
+        stages.push_back({{"stage", "summary"}, {"file", s.file}, {"output", s.output}});
+    out["stages"] = std::move(stages);
+    Json skipped = Json::array();
+    for (const Skipped& s : plan.skipped) skipped.push_back({{"what", s.what}, {"why", s.why}});
+    out["skipped"] = std::move(skipped);
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
