@@ -131,7 +131,7 @@ TEST(SpinUp, OfTheZerothOrderModelIsBoundedBelowTheFirstBendingFrequencyAndDiver
 
 TEST(SpinUp, WorkOfTheDriveBecomesEnergy) {
     for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
-        Problem p = spin_up(4, 3);
+        Problem p = spin_up(4, 2);
         p.beam.model = kind;
         Request request;
         request.tables.push_back({{16}, {channel("work_drive"), channel("energy_kinetic"), channel("energy_elastic")}});
