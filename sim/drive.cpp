@@ -71,32 +71,33 @@ double DriveLaw::torque(double t) const {
 }
 
 HubMotion DriveLaw::motion(double t) const {
-    return std::visit(Overloaded{[&](const ConstantSpeed& law) {
-                                     return HubMotion{start_ + law.speed * t, law.speed, 0};
-                                 },
-                                 [&](const SpinUp& law) {
-                                     // θ̇ = (Ω/T)(t − sin(kt)/k), k = 2π/T (S22)
-                                     const double T = law.duration, k = 2 * std::numbers::pi / T, slope = law.speed / T;
-                                     if (t >= T) return HubMotion{start_ + law.speed * (t - 0.5 * T), law.speed, 0};
-                                     return HubMotion{start_ + slope * (0.5 * t * t - (1 - std::cos(k * t)) / (k * k)),
-                                                      slope * (t - std::sin(k * t) / k), slope * (1 - std::cos(k * t))};
-                                 },
-                                 [&](const AngleTable& law) {
-                                     if (t < law.t.front()) return HubMotion{law.theta.front(), 0, 0};
-                                     if (t > law.t.back()) return HubMotion{law.theta.back(), 0, 0};
-                                     const std::size_t i = interval(law.t, t);
-                                     const double h = law.t[i + 1] - law.t[i], b = (t - law.t[i]) / h, a = 1 - b;
-                                     const double ma = spline_[i], mb = spline_[i + 1];
-                                     HubMotion m;
-                                     m.angle = a * law.theta[i] + b * law.theta[i + 1] +
-                                               ((a * a * a - a) * ma + (b * b * b - b) * mb) * h * h / 6;
-                                     m.rate = (law.theta[i + 1] - law.theta[i]) / h +
-                                              ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6;
-                                     m.acceleration = a * ma + b * mb;
-                                     return m;
-                                 },
-                                 [](const auto&) { return HubMotion{}; }},
-                      drive_);
+    return std::visit(
+        Overloaded{
+            [&](const ConstantSpeed& law) {
+                return HubMotion{start_ + law.speed * t, law.speed, 0};
+            },
+            [&](const SpinUp& law) {
+                // θ̇ = (Ω/T)(t − sin(kt)/k), k = 2π/T (S22)
+                const double T = law.duration, k = 2 * std::numbers::pi / T, slope = law.speed / T;
+                if (t >= T) return HubMotion{start_ + law.speed * (t - 0.5 * T), law.speed, 0};
+                return HubMotion{start_ + slope * (0.5 * t * t - (1 - std::cos(k * t)) / (k * k)),
+                                 slope * (t - std::sin(k * t) / k), slope * (1 - std::cos(k * t))};
+            },
+            [&](const AngleTable& law) {
+                const double at = std::clamp(t, law.t.front(), law.t.back());
+                const std::size_t i = interval(law.t, at);
+                const double h = law.t[i + 1] - law.t[i], b = (at - law.t[i]) / h, a = 1 - b;
+                const double ma = spline_[i], mb = spline_[i + 1];
+                HubMotion m;
+                m.angle =
+                    a * law.theta[i] + b * law.theta[i + 1] + ((a * a * a - a) * ma + (b * b * b - b) * mb) * h * h / 6;
+                m.rate = (law.theta[i + 1] - law.theta[i]) / h + ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6;
+                m.acceleration = a * ma + b * mb;
+                m.angle += m.rate * (t - at);  // on at the speed of the end, where the natural spline is straight
+                return m;
+            },
+            [](const auto&) { return HubMotion{}; }},
+        drive_);
 }
 
 }  // namespace beamcam::sim

@@ -51,6 +51,7 @@ class Recorder {
     void touch(double t, const double* y, const ContactState& contact);
     void release(double t, const double* y, const ContactState& contact);
     void end(double t, const double* y);
+    double largest_elastic() const { return largest_elastic_; }  // bending energy [J]
 
   private:
     struct Cursor {
@@ -73,7 +74,7 @@ class Recorder {
     Eye eye_;
     std::vector<double> y_;
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
-    double start_total_ = 0;
+    double start_total_ = 0, largest_elastic_ = 0;
     bool impact_open_ = false;
     double books_at_touch_lost_ = 0, impulse_n_at_touch_ = 0, impulse_t_at_touch_ = 0;
 };

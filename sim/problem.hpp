@@ -36,7 +36,7 @@ struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, t
     double speed = 0;     // Ω [rad/s]
     double duration = 1;  // T [s], > 0
 };
-struct AngleTable {             // C²: natural cubic spline through the points; at rest outside them
+struct AngleTable {  // natural cubic spline through the points (C²), outside them straight on at the end speeds
     std::vector<double> t;      // [s], strictly increasing, at least two
     std::vector<double> theta;  // [rad]
 };

@@ -61,9 +61,10 @@ enum class EventKind { none, touch, release, clamp, grip, lift };
 // sustained contact. A bouncing point then rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
 constexpr double kChatterShare = 1e-3;
 
-constexpr int kMaxLooks = 16;         // into one step, for events
-constexpr double kMostPieces = 1e5;   // of one step, for touches
-constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
+constexpr int kMaxLooks = 16;          // into one step, for events
+constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+constexpr double kMostPieces = 1e5;    // of one step, for touches
+constexpr double kRestSpeed = 1e-12;   // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -514,6 +515,7 @@ class Run {
         result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
         tell_chatter();
         tell_ledger();
+        tell_slopes();
         if (floored_ > 0)
             result_.warnings.push_back(
                 fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
@@ -530,6 +532,18 @@ class Run {
                         "tighten solver.rtol{}",
                         result_.energy_residual_max, result_.energy_scale, problem_.solver.rtol,
                         problem_.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
+    }
+
+    // ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape.
+    void tell_slopes() {
+        const Beam& beam = problem_.beam;
+        if (beam.model == ModelKind::exact || beam.model == ModelKind::rigid) return;
+        const double slope = std::sqrt(2 * recorder_.largest_elastic() * beam.length / beam.bending_stiffness());
+        if (slope > kLargestSlope)
+            result_.warnings.push_back(
+                fmt::format("the beam bends through angles up to about {:.2g} rad; {} holds for small ones: use "
+                            "\"model\": \"exact\"",
+                            slope, name(beam.model)));
     }
 
     void tell_chatter() {

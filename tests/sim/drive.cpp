@@ -49,8 +49,15 @@ TEST(Drive, AngleTablePassesThroughItsPointsSmoothly) {
         EXPECT_NEAR(before.rate, after.rate, 1e-9);
         EXPECT_NEAR(before.acceleration, after.acceleration, 1e-8);
     }
-    EXPECT_EQ(law.motion(5).angle, 0.4);
-    EXPECT_EQ(law.motion(5).rate, 0);
+    // Outside it goes straight on: no jump of angle, speed or acceleration at the ends.
+    for (double t : {0.0, 2.0}) {
+        const HubMotion before = law.motion(t - 1e-12), after = law.motion(t + 1e-12);
+        EXPECT_NEAR(before.rate, after.rate, 1e-9);
+        EXPECT_NEAR(before.acceleration, after.acceleration, 1e-8);
+    }
+    EXPECT_NEAR(law.motion(5).angle, 0.4 + 3 * law.motion(2).rate, 1e-14);
+    EXPECT_EQ(law.motion(5).rate, law.motion(2).rate);
+    EXPECT_NEAR(law.motion(5).acceleration, 0, 1e-14);
 }
 
 TEST(Drive, AngleTableOfAStraightLineIsAConstantSpeed) {
