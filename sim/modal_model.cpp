@@ -269,7 +269,7 @@ Vec2 ModalModel::convective(double x) const {
     const Vec2 relative = p.v - spin * perp(p.r);
     double bend = 0;
     if (tables_->foreshortening) {
-        double h_rate[kMaxModes];
+        double h_rate[kMaxModes] = {};
         antiderivative(*tables_, x, here.y, here.y1, here.y2, here.y3, rate_ + 1, h_rate);
         for (int j = 0; j < modes_; ++j)
             for (int i = 0; i < modes_; ++i) h_rate[i] -= tables_->root(i, j) * rate_[1 + j];
