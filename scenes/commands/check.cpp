@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "scenes/cli.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/reader.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::vector<std::string> scenes;
+};
+
+int act(const Arguments& args) {
+    bool fine = true;
+    for (const std::string& path : args.scenes) {
+        const Reading reading = read_scene(load_source(path), args.common.overrides);
+        fmt::print(stderr, "{}", reading.report());
+        if (reading.scene)
+            say(args.common, fmt::format("{}: fine", path));
+        else
+            fine = false;
+    }
+    return fine ? kDone : kBadScene;
+}
+
+}  // namespace
+
+void add_check(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app =
+        grammar.app.add_subcommand("check", "Validate scenes: every issue at once, with its place and remedy");
+    app->add_option("SCENE", args->scenes, "Scenes, JSON files; - is standard input")->required()->type_name("");
+    add_set(*app, args->common);
+    add_quiet(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,86 @@
+// What the commands share: their common options, how scenes are read for them, and how they refuse.
+// Each command is one file of this folder: `add_NAME` puts its grammar into the program and binds its action.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenes/run.hpp"
+#include "scenes/scene.hpp"
+#include "scenes/units.hpp"
+
+namespace beamcam::scenes {
+
+// Exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+// Exit code 3. The report has one message or more, positioned and complete.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// The program's subcommands, and what each does once it is parsed: the action returns the exit code.
+struct Grammar {
+    CLI::App& app;
+    std::vector<std::pair<CLI::App*, std::function<int()>>> commands;
+
+    // A new subcommand. `arguments` lives as long as the grammar; `act` takes it.
+    template <class Arguments>
+    void bind(CLI::App* command, std::shared_ptr<Arguments> arguments, int (*act)(const Arguments&)) {
+        commands.emplace_back(command, [arguments, act] { return act(*arguments); });
+    }
+};
+
+void add_run(Grammar& grammar);
+void add_render(Grammar& grammar);
+void add_simulate(Grammar& grammar);
+void add_modes(Grammar& grammar);
+void add_check(Grammar& grammar);
+void add_plan(Grammar& grammar);
+void add_init(Grammar& grammar);
+void add_schema(Grammar& grammar);
+
+// ---- options that several commands share --------------------------------------------------------
+
+struct Common {
+    std::vector<std::string> overrides;
+    int threads = 0;
+    bool quiet = false, verbose = false, force = false, no_cache = false;
+    std::string progress = "auto";
+    bool dry_run = false, json = false;
+};
+
+void add_set(CLI::App& app, Common& common);                        // --set
+void add_quiet(CLI::App& app, Common& common);                      // -q
+void add_scene(CLI::App& app, std::string& scene, Common& common);  // SCENE, --set, -q
+void add_work(CLI::App& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
+
+// ---- what they do alike -------------------------------------------------------------------------
+
+// A message on standard error, unless -q.
+void say(const Common& common, const std::string& text);
+// Data on standard output; throws output::IoError.
+void print_data(std::string_view text);
+// Throws SceneError with every issue of the scene; warnings go to standard error.
+Scene read_or_refuse(const std::string& path, const Common& common);
+// The scene with the film that one without outputs yields.
+Scene with_default_output(Scene scene);
+void show_plan(const Scene& scene, bool json);
+RunOptions run_options(const Common& common, std::string directory);
+
+// The value of an option with a unit or without; throws UsageError. Not negative.
+double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
+double seconds_argument(const char* option, const std::string& text);
+std::string ending_of(const std::string& file);  // ".png"
+// Throws UsageError unless `file` is "-" or ends in one of these.
+void need_ending(const char* option, const std::string& file, std::initializer_list<std::string_view> endings);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "output/errors.hpp"
+#include "scenes/capabilities.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/files.hpp"
+#include "scenes/plan.hpp"
+#include "scenes/reader.hpp"
+
+namespace beamcam::scenes {
+
+void add_set(CLI::App& app, Common& common) {
+    app.add_option("--set", common.overrides,
+                   "Change the scene: key.path=value, a JSON value or a plain word (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+void add_quiet(CLI::App& app, Common& common) { app.add_flag("-q,--quiet", common.quiet, "No messages but errors"); }
+
+void add_scene(CLI::App& app, std::string& scene, Common& common) {
+    app.add_option("SCENE", scene, "The scene, a JSON file; - is standard input")->required()->type_name("");
+    add_set(app, common);
+    add_quiet(app, common);
+}
+
+void add_work(CLI::App& app, Common& common) {
+    app.add_flag("-v,--verbose", common.verbose, "Tell where the time went");
+    app.add_option("-j,--jobs", common.threads, "Threads that draw (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    app.add_option("--progress", common.progress, "Progress on standard error: auto, bar, plain, json or none")
+        ->type_name("STYLE");
+    app.add_flag("--force", common.force, "Replace files that beamcam did not make");
+    app.add_flag("--no-cache", common.no_cache, "Neither read nor keep cached results (this version keeps none)");
+    app.add_flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
+    app.add_flag("--json", common.json, "With -n: the plan as JSON");
+}
+
+void say(const Common& common, const std::string& text) {
+    if (!common.quiet) fmt::print(stderr, "{}\n", text);
+}
+
+void print_data(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
+}
+
+Scene read_or_refuse(const std::string& path, const Common& common) {
+    Reading reading = read_scene(load_source(path), common.overrides);
+    if (!reading.scene) throw SceneError(reading.report());
+    if (!common.quiet && !reading.messages.empty()) fmt::print(stderr, "{}", reading.report());
+    return std::move(*reading.scene);
+}
+
+void show_plan(const Scene& scene, bool json) {
+    const Plan made = plan(scene);
+    print_data(json ? to_json(made, scene) : to_text(made, scene));
+}
+
+Scene with_default_output(Scene scene) {
+    if (scene.outputs.empty()) scene.outputs.push_back(default_film(scene));
+    return scene;
+}
+
+RunOptions run_options(const Common& common, std::string directory) {
+    RunOptions options;
+    options.directory = std::move(directory);
+    options.threads = common.threads;
+    options.force = common.force;
+    options.quiet = common.quiet;
+    options.verbose = common.verbose;
+    const auto style = progress_style_named(common.progress);
+    if (!style) throw UsageError(fmt::format("--progress {}: choose auto, bar, plain, json or none", common.progress));
+    options.progress = common.quiet ? ProgressStyle::none : resolve(*style);
+    return options;
+}
+
+double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity) throw UsageError(fmt::format("{} {}: {}", option, text, read.problem));
+    const bool plain = same(read.quantity->dimension, dimension::kNone) && text.find('%') == std::string::npos;
+    if (!plain && !same(read.quantity->dimension, dimension))
+        throw UsageError(fmt::format("{} {}: it is measured in {}", option, text, si_unit(dimension)));
+    if (!(read.quantity->value >= 0)) throw UsageError(fmt::format("{} {}: must not be negative", option, text));
+    return read.quantity->value;
+}
+
+double seconds_argument(const char* option, const std::string& text) {
+    return quantity_argument(option, text, dimension::kTime);
+}
+
+std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+
+void need_ending(const char* option, const std::string& file, std::initializer_list<std::string_view> endings) {
+    if (file == "-" || std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) return;
+    if (const auto planned = not_available("file", ending_of(file)))
+        throw UsageError(fmt::format("{} {}: {}", option, file, *planned));
+    throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "output/atomic_file.hpp"
+#include "output/errors.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/embedded.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::string name = "scene";
+};
+
+int act(const Arguments& args) {
+    std::string text(default_scene_text());
+    const std::filesystem::path path(args.name.ends_with(".json") ? args.name : args.name + ".json");
+    if (args.name == "-") {
+        print_data(text);
+        return 0;
+    }
+    const std::string film = "\"default.mp4\"", title = path.stem().string();
+    if (const std::size_t at = text.find(film); at != std::string::npos)
+        text.replace(at, film.size(), fmt::format("\"{}.mp4\"", title));
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)) && !args.common.force)
+        throw output::WouldOverwrite(
+            fmt::format("{} exists; choose another name, or replace it with --force", path.string()));
+    output::write_file(path, text);
+    say(args.common, fmt::format("wrote {}; `beamcam run {}` films it, `beamcam schema > beamcam-scene.schema.json` "
+                                 "lets an editor complete its keys",
+                                 path.string(), path.string()));
+    return 0;
+}
+
+struct Nothing {};
+
+int print_schema(const Nothing&) {
+    print_data(schema_text());
+    return 0;
+}
+
+}  // namespace
+
+void add_init(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand("init", "Write a commented scene to start from");
+    app->add_option("NAME", args->name, "Its name (default: scene); - is standard output")->type_name("");
+    app->add_flag("--force", args->common.force, "Replace an existing file");
+    add_quiet(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+void add_schema(Grammar& grammar) {
+    CLI::App* app = grammar.app.add_subcommand("schema", "Print the JSON Schema of scenes, for editors");
+    grammar.bind(app, std::make_shared<Nothing>(), print_schema);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/files.hpp"
+#include "scenes/plan.hpp"
+#include "scenes/run.hpp"
+#include "scenes/source.hpp"
+#include "scenes/suggest.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::string scene;
+    std::optional<std::string> trajectory, impacts, summary, rate;
+    std::vector<std::string> times, channels;
+    bool horizon = false;
+};
+
+TrajectoryOutput trajectory_output(const Arguments& args, const Scene& scene) {
+    TrajectoryOutput table;
+    table.file = args.trajectory.value_or("-");
+    need_ending("--trajectory", table.file, {".csv", ".npz"});
+    if (args.rate && !args.times.empty()) throw UsageError("--rate and --times exclude each other; keep one");
+    if (args.rate) {
+        table.rate = quantity_argument("--rate", *args.rate, dimension::kFrequency);
+        if (!(table.rate > 0)) throw UsageError("--rate must be positive");
+        if (table.rate * scene.end_time > 2e7)
+            throw UsageError(fmt::format("--rate {}: more than 2e7 rows; lower it", *args.rate));
+    }
+    for (const std::string& text : args.times) table.times.push_back(seconds_argument("--times", text));
+    std::vector<std::string> known;
+    const std::vector<sim::Channel> every = all_channels(scene.problem);
+    for (const sim::Channel& channel : every) known.push_back(name(channel));
+    for (const std::string& text : args.channels) {
+        const auto found = std::find(known.begin(), known.end(), text);
+        if (found == known.end())
+            throw UsageError(fmt::format("--channels: {} is not a channel of this scene{}", in_quotes(text),
+                                         suggestion_or_list(text, known)));
+        const sim::Channel channel = every[static_cast<std::size_t>(found - known.begin())];
+        if (std::find(table.channels.begin(), table.channels.end(), channel) != table.channels.end())
+            throw UsageError(fmt::format("--channels: {} stands twice", text));
+        table.channels.push_back(channel);
+    }
+    return table;
+}
+
+// With no file named, the table goes to standard output if its options were given, else the summary.
+std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) {
+    std::vector<Output> outputs;
+    const bool wants_table = args.trajectory || args.rate || !args.times.empty() || !args.channels.empty();
+    if (wants_table) outputs.push_back(trajectory_output(args, scene));
+    if (args.impacts) {
+        need_ending("--impacts", *args.impacts, {".json", ".csv"});
+        outputs.push_back(ImpactsOutput{*args.impacts});
+    }
+    if (args.summary || outputs.empty() || args.horizon) {
+        const std::string file = args.summary.value_or("-");
+        need_ending("--summary", file, {".json"});
+        outputs.push_back(SummaryOutput{file, args.horizon});
+    }
+    const auto to_stdout =
+        std::count_if(outputs.begin(), outputs.end(), [](const Output& o) { return file_of(o) == "-"; });
+    if (to_stdout > 1) throw UsageError("more than one output would go to standard output; name files for the others");
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (may_collide(file_of(outputs[i]), file_of(outputs[k])))
+                throw UsageError(
+                    fmt::format("{} is named twice; give each output a file of its own", file_of(outputs[i])));
+    return outputs;
+}
+
+int act(const Arguments& args) {
+    Scene scene = read_or_refuse(args.scene, args.common);
+    scene.outputs = simulate_outputs(args, scene);
+    if (args.common.dry_run)
+        show_plan(scene, args.common.json);
+    else
+        run(plan(scene), scene, run_options(args.common, ""));
+    return 0;
+}
+
+}  // namespace
+
+void add_simulate(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app =
+        grammar.app.add_subcommand("simulate", "Compute without pictures; with no option, print the summary");
+    add_scene(*app, args->scene, args->common);
+    app->add_option("--trajectory", args->trajectory, "Table of channels, .csv or .npz; - is standard output (CSV)")
+        ->type_name("FILE");
+    app->add_option("--rate", args->rate, "Rows a second (default: 1000)")->type_name("HZ");
+    app->add_option("--times", args->times, "Exactly these rows, in this order")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("T,T,...");
+    app->add_option("--channels", args->channels, "Columns besides the time (default: all)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B,...");
+    app->add_option("--impacts", args->impacts, "Impacts and collisions, .json or .csv; - is standard output (JSON)")
+        ->type_name("FILE");
+    app->add_option("--summary", args->summary, "Counts, extremes, energy balance, .json; - is standard output")
+        ->type_name("FILE");
+    app->add_flag("--horizon", args->horizon,
+                  "Tell in the summary until when the motion is reproducible (a second run)");
+    add_work(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes
