@@ -215,6 +215,14 @@ void Canvas::smooth_edges(bool on) {
     cairo_set_antialias(handles_->cr, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
 }
 
+void Canvas::clip(const Box& b, const std::function<void()>& draw) {
+    cairo_save(handles_->cr);
+    cairo_rectangle(handles_->cr, b.x, b.y, b.w, b.h);
+    cairo_clip(handles_->cr);
+    draw();
+    cairo_restore(handles_->cr);
+}
+
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
     PangoLayout* layout = fonts_.handles().layout;
     prepare(layout, markup, style);

@@ -4,6 +4,7 @@
 // check that labels keep to their boxes and apart from each other.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -68,8 +69,11 @@ class Canvas {
     void image_part(const Image& source, int x, int y, const Box& part);
     void image_until(const Image& source, int x, int y, int end);
     void smooth_edges(bool on);
+    // What `draw` draws shows within the box only.
+    void clip(const Box& box, const std::function<void()>& draw);
 
     Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
+    const Fonts& fonts() const { return fonts_; }
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
 
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes

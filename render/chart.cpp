@@ -1,14 +1,19 @@
 #include "render/chart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace beamcam::render {
+namespace {
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAhead = 0.25;  // share of a moving window that shows what is to come
+}  // namespace
 
 std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
                            const std::function<Vec2(double, double)>& to_pixels) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec2> out;
     const std::size_t n = std::min(t.size(), v.size());
     for (std::size_t i = 0; i < n;) {
@@ -34,28 +39,116 @@ std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
     return out;
 }
 
+// ---- the value axis ----------------------------------------------------------------------------
+
+AxisScale axis_scale(double low, double high, const std::string& unit) {
+    AxisScale out;
+    const double span = high - low, most = std::max(std::abs(low), std::abs(high));
+    if (!(span > 0) || !std::isfinite(span)) return out;
+    // Values that agree in their first four digits are told from a round number among them.
+    if (span < 1e-4 * most) {
+        const double digit = std::pow(10.0, std::ceil(std::log10(span)) + 1);
+        out.offset = std::round((low + high) / 2 / digit) * digit;
+    }
+    const double largest = out.offset != 0 ? std::max(std::abs(low - out.offset), std::abs(high - out.offset)) : most;
+    if (!unit.empty() && unit != "rad" && unit != "rad/s") {
+        out.scale = prefix_for(largest).factor;
+    } else if (largest < 1e-2 || largest >= 1e5) {
+        out.scale = std::pow(10.0, 3 * std::floor(std::log10(largest * 1.0000001) / 3));
+    }
+    return out;
+}
+
+std::string AxisScale::name(const std::string& symbol, const std::string& unit) const {
+    std::string text = symbol;
+    if (offset != 0) {
+        const std::string value = fmt::format("{:.6g}", std::abs(offset));
+        text += (offset > 0 ? " − " : " + ") + value;
+        if (!unit.empty()) text = "(" + symbol + (offset > 0 ? " − " : " + ") + value + "\u2009" + unit + ")";
+    }
+    if (scale == 1) return unit.empty() ? text : text + " / " + unit;
+    if (!unit.empty() && unit != "rad" && unit != "rad/s") return text + " / " + prefix_for(scale).symbol + unit;
+    const std::string power = fmt::format("10<sup>{}{}</sup>", scale < 1 ? "−" : "",
+                                          static_cast<int>(std::lround(std::abs(std::log10(scale)))));
+    return text + " / " + power + (unit.empty() ? "" : "\u2009" + unit);
+}
+
 Chart::Chart(ChartContent content, Box box, Box plot, double unit)
     : c_(std::move(content)), box_(box), plot_(plot), unit_(unit) {
+    scale_ = axis_scale(c_.value.low, c_.value.high, c_.unit);
+    const double low = (c_.value.low - scale_.offset) / scale_.scale,
+                 high = (c_.value.high - scale_.offset) / scale_.scale;
     // Round ends first, then a mark at every multiple of the same step: the outermost lines carry labels.
     const int marks = std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5);
-    const double step = ticks(c_.value.low, c_.value.high, marks).step;
-    c_.value = round_range(c_.value.low, c_.value.high, marks);
-    value_ticks_ =
-        ticks(c_.value.low, c_.value.high, static_cast<int>(std::lround((c_.value.high - c_.value.low) / step)) + 1);
-    time_ticks_ = ticks(c_.time.low, c_.time.high, std::clamp(static_cast<int>(plot.w / (75 * unit)), 2, 7));
+    const double step = ticks(low, high, marks).step;
+    shown_ = round_range(low, high, marks);
+    value_ticks_ = ticks(shown_.low, shown_.high, static_cast<int>(std::lround((shown_.high - shown_.low) / step)) + 1);
+    digits_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 6);
 }
 
-Vec2 Chart::to_pixels(double t, double v) const {
-    return {plot_.x + plot_.w * (t - c_.time.low) / (c_.time.high - c_.time.low),
-            plot_.bottom() - plot_.h * (v - c_.value.low) / (c_.value.high - c_.value.low)};
+double Chart::y(double v) const {
+    const double scaled = (v - scale_.offset) / scale_.scale;
+    return plot_.bottom() - plot_.h * (scaled - shown_.low) / (shown_.high - shown_.low);
 }
 
+// ---- the time axis -----------------------------------------------------------------------------
+
+struct Chart::View {
+    double from = 0, to = 1;  // at the plot's sides [s]
+    double now = 0;           // [s]
+    double x(const Box& plot, double t) const { return plot.x + plot.w * (t - from) / (to - from); }
+};
+
+Chart::View Chart::whole() const { return {c_.time.low, c_.time.high, c_.time.high}; }
+Chart::View Chart::around(double t) const { return {t - (1 - kAhead) * *c_.window, t + kAhead * *c_.window, t}; }
+
+Vec2 Chart::to_pixels(double t, double v) const { return {whole().x(plot_, t), y(v)}; }
 Box Chart::past_box() const { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
-int Chart::cursor_column(double t) const { return static_cast<int>(std::lround(to_pixels(t, c_.value.low).x)); }
-
-std::vector<Vec2> Chart::curve() const {
-    return decimate(c_.t, c_.v, [&](double t, double v) { return to_pixels(t, v); });
+int Chart::cursor_column(double t) const {
+    const View view = windowed() ? around(t) : whole();
+    return static_cast<int>(std::lround(view.x(plot_, t)));
 }
+
+void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) const {
+    const double u = unit_, axis = plot_.bottom() + 0.5;
+    const Ticks marks =
+        ticks(view.from / c_.time_unit, view.to / c_.time_unit, std::clamp(static_cast<int>(plot_.w / (75 * u)), 2, 7));
+    const Box unit = canvas.measure(c_.time_label, {.size = 17 * u});
+    for (double at : marks.values) {
+        if (windowed() && at < c_.time.low / c_.time_unit - 1e-9) continue;  // nothing was before the film
+        double x = view.x(plot_, at * c_.time_unit);
+        if (!windowed()) x = std::round(x) + 0.5;
+        canvas.move_to({x, axis});
+        canvas.line_to({x, axis + 6 * u});
+        canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+        const std::string text = fixed(at, marks.decimals);
+        const double half = canvas.measure(text, {.size = 17 * u}).w / 2;
+        if (x + half < plot_.right() + 8 * u - unit.w - 10 * u &&  // the axis' name stands at the end of this line
+            (!windowed() || x - half > plot_.x - 20 * u))
+            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = Align::centre});
+    }
+    canvas.text({plot_.right() + 8 * u, axis + 26 * u}, c_.time_label,
+                {.size = 17 * u, .color = p.muted, .align = Align::right});
+}
+
+void Chart::draw_value_axis(Canvas& canvas, const Palette& p) const {
+    const double u = unit_;
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const std::string symbol = scale_.name(c_.symbol, c_.unit);
+    const double room = plot_.w - (c_.curves.size() > 1 ? 84 * u * static_cast<double>(c_.curves.size()) : 84 * u);
+    const bool fits = canvas.measure(c_.words + symbol, heading).w <= room;  // the reading stands beside
+    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + symbol : symbol, heading);
+    const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
+    for (double v : value_ticks_.values) {
+        const double at = std::round(y(v * scale_.scale + scale_.offset)) + 0.5;
+        canvas.move_to({plot_.x, at});
+        canvas.line_to({plot_.right(), at});
+        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
+        canvas.text({plot_.x - 12 * u, at + 6 * u}, fixed(v, value_ticks_.decimals), label);
+    }
+}
+
+// ---- curves ------------------------------------------------------------------------------------
 
 namespace {
 
@@ -76,85 +169,140 @@ void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Col
     canvas.fill(color);
 }
 
+// The rows of increasing times that a view from `from` to `to` needs: one more on each side.
+std::pair<std::size_t, std::size_t> rows_within(const std::vector<double>& t, double from, double to) {
+    auto first = std::ranges::lower_bound(t, from), last = std::ranges::upper_bound(t, to);
+    if (first != t.begin()) --first;
+    if (last != t.end()) ++last;
+    return {static_cast<std::size_t>(first - t.begin()), static_cast<std::size_t>(last - t.begin())};
+}
+
 }  // namespace
 
-void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
-    const double u = unit_;
-    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
-    const bool fits = canvas.measure(c_.words + c_.symbol, heading).w <= plot_.w - 84 * u;  // the reading stands beside
-    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + c_.symbol : c_.symbol, heading);
-    const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
-    for (double v : value_ticks_.values) {
-        const double y = std::round(to_pixels(c_.time.low, v).y) + 0.5;
-        canvas.move_to({plot_.x, y});
-        canvas.line_to({plot_.right(), y});
-        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
-        canvas.text({plot_.x - 12 * u, y + 6 * u}, fixed(v, value_ticks_.decimals), label);
+void Chart::draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const {
+    const auto [first, last] = rows_within(c_.band_times, view.from, view.to);
+    const std::span t = std::span(c_.band_times).subspan(first, last - first);
+    for (const Band& band : c_.bands) {
+        const auto place = [&](double at, double v) { return Vec2{view.x(plot_, at), y(v)} + shift; };
+        std::vector<Vec2> edge = decimate(t, std::span(band.high).subspan(first, last - first), place);
+        std::vector<Vec2> low = decimate(t, std::span(band.low).subspan(first, last - first), place);
+        if (edge.size() < 2 || low.size() < 2) continue;
+        edge.insert(edge.end(), low.rbegin(), low.rend());
+        canvas.polyline(edge);
+        canvas.close();
+        canvas.fill(past ? band.color : band.color.faded(0.28));
     }
-    const double axis = plot_.bottom() + 0.5;
-    const Box unit = canvas.measure(c_.time_label, {.size = 17 * u});
-    for (double t : time_ticks_.values) {
-        const double x = std::round(to_pixels(t, 0).x) + 0.5;
-        canvas.move_to({x, axis});
-        canvas.line_to({x, axis + 6 * u});
-        canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
-        const std::string text = fixed(t, time_ticks_.decimals);
-        const double half = canvas.measure(text, {.size = 17 * u}).w / 2;
-        if (x + half < plot_.right() + 8 * u - unit.w - 10 * u)  // the axis' name stands at the end of this line
-            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = Align::centre});
+}
+
+void Chart::draw_curves(Canvas& canvas, const Palette& p, const View& view, bool past, Vec2 shift) const {
+    draw_bands(canvas, view, past, shift);
+    bool first_curve = true;
+    for (const Curve& curve : c_.curves) {
+        const auto [first, last] = rows_within(curve.t, view.from, view.to);
+        const std::vector<Vec2> points =
+            decimate(std::span(curve.t).subspan(first, last - first), std::span(curve.v).subspan(first, last - first),
+                     [&](double t, double v) {
+                         return Vec2{view.x(plot_, t), y(v)} + shift;
+                     });
+        if (c_.filled && first_curve)
+            fill_under(canvas, points, plot_.bottom() + shift.y,
+                       past ? curve.color.faded(0.20) : curve.faint.faded(0.35));
+        first_curve = false;
+        std::vector<double> dash = curve.dash;
+        for (double& d : dash) d *= unit_;
+        canvas.polyline(points);
+        canvas.stroke(
+            {past ? curve.color : curve.faint, (past ? 2.2 : 2) * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
     }
-    canvas.text({plot_.right() + 8 * u, axis + 26 * u}, c_.time_label, label);
-    const std::vector<Vec2> points = curve();
-    if (c_.filled) {
-        fill_under(canvas, points, plot_.bottom(), c_.faint.faded(0.35));
-    }
-    canvas.polyline(points);
-    canvas.stroke({c_.faint, 2 * u});
     for (const ChartDot& d : c_.dots) {
-        canvas.circle(to_pixels(d.t, d.value), 2.2 * u);
-        canvas.fill(c_.faint);
+        if (d.t < view.from || d.t > view.to) continue;
+        canvas.circle(Vec2{view.x(plot_, d.t), y(d.value)} + shift, (past ? 2.6 : 2.2) * unit_);
+        canvas.fill(past ? d.color : mix(p.paper, p.contact_faint, 0.9));
+    }
+    if (!past) return;
+    for (double t : c_.marks) {
+        if (t < view.from || t > view.to) continue;
+        const Vec2 at = Vec2{view.x(plot_, t), plot_.bottom()} + shift;
+        canvas.move_to({at.x, at.y - 1});
+        canvas.line_to({at.x, at.y - 11 * unit_});
+        canvas.stroke({p.contact, 1.8 * unit_, {}, Cap::butt});
+    }
+}
+
+void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
+    const double axis = plot_.bottom() + 0.5;
+    draw_value_axis(canvas, p);
+    if (!windowed()) {
+        draw_time_axis(canvas, p, whole());
+        draw_curves(canvas, p, whole(), false, {});
     }
     canvas.move_to({plot_.x, axis});
     canvas.line_to({plot_.right(), axis});
-    canvas.stroke({p.muted, std::max(1.0, 1.3 * u), {}, Cap::butt});
+    canvas.stroke({p.muted, std::max(1.0, 1.3 * unit_), {}, Cap::butt});
 }
 
 Image Chart::past(const Fonts& fonts, const Palette& p) const {
+    if (windowed()) return {};
     const Box box = past_box();
     Image image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(image, fonts);
-    const Vec2 shift{-box.x, -box.y};
-    std::vector<Vec2> points = curve();
-    for (Vec2& q : points) q += shift;
-    if (c_.filled) fill_under(canvas, points, plot_.bottom() + shift.y, c_.color.faded(0.20));
-    canvas.polyline(points);
-    canvas.stroke({c_.color, 2.2 * unit_});
-    for (const ChartDot& d : c_.dots) {
-        canvas.circle(to_pixels(d.t, d.value) + shift, 2.6 * unit_);
-        canvas.fill(d.color);
-    }
-    for (const ChartMark& m : c_.marks) {
-        const double x = to_pixels(m.t, 0).x + shift.x, y = plot_.bottom() + shift.y;
-        canvas.move_to({x, y - 1});
-        canvas.line_to({x, y - 11 * unit_});
-        canvas.stroke({p.contact, 1.8 * unit_, {}, Cap::butt});
-    }
+    draw_curves(canvas, p, whole(), true, {-box.x, -box.y});
     return image;
 }
 
-void Chart::draw_cursor(Canvas& canvas, const Palette& p, double t, double v, const std::string& value) const {
-    const double u = unit_, x = cursor_column(t) + 0.5;
+// At the right end of the heading's line, the first curve's outermost.
+void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Reading> readings) const {
+    const double u = unit_;
+    const std::string symbol = scale_.name(c_.symbol, c_.unit);
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const double left = plot_.x + canvas.measure(symbol, heading).w + 16 * u;
+    double right = plot_.right() + 8 * u;
+    for (std::size_t i = readings.size(); i-- > 0;) {
+        const double v = readings[i].value;
+        const std::string& label = i < c_.curves.size() ? c_.curves[i].label : std::string();
+        std::string text =
+            std::isnan(v) ? (label.empty() ? "" : "–") : fixed((v - scale_.offset) / scale_.scale, digits_);
+        if (text.empty()) continue;
+        const TextStyle style{.size = 21 * u,
+                              .color = i < c_.curves.size() ? c_.curves[i].color : p.contact,
+                              .weight = Weight::medium,
+                              .align = Align::right};
+        // Room for the widest value keeps the readings from dancing.
+        const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
+                                       canvas.measure(fixed(shown_.low, digits_), style).w);
+        const std::string named = label.empty() ? text : label + "\u2002" + text;
+        const double named_width = label.empty() ? widest : canvas.measure(label + "\u2002", style).w + widest;
+        const bool with_name = right - named_width >= left;
+        if (!with_name && right - widest < left && readings.size() > 1) break;
+        canvas.text({right, box_.y + 26 * u}, with_name ? named : text, style);
+        right -= (with_name ? named_width : widest) + 18 * u;
+    }
+}
+
+void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<const Reading> readings) const {
+    const double u = unit_;
+    if (windowed()) {
+        View view = around(t);
+        draw_time_axis(canvas, p, view);
+        // Past and future meet at the cursor: each is drawn within its own part of the plot.
+        const double cut = cursor_column(t) + 1;
+        canvas.clip({cut, plot_.y - 8, plot_.right() - cut, plot_.h + 9},
+                    [&] { draw_curves(canvas, p, view, false, {}); });
+        canvas.clip({plot_.x, plot_.y - 8, cut - plot_.x, plot_.h + 9},
+                    [&] { draw_curves(canvas, p, view, true, {}); });
+    }
+    const double x = cursor_column(t) + 0.5;
     canvas.move_to({x, plot_.y - 6 * u});
     canvas.line_to({x, plot_.bottom()});
     canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
-    if (!std::isnan(v)) {
-        canvas.circle({x, to_pixels(t, v).y}, 5.5 * u);
-        canvas.fill_keeping_path(c_.color);
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const double at = y(readings[i].value);
+        if (std::isnan(at)) continue;
+        canvas.circle({x, std::clamp(at, plot_.y - 4 * u, plot_.bottom() + 4 * u)}, 5.5 * u);
+        canvas.fill_keeping_path(i < c_.curves.size() ? c_.curves[i].color : p.contact);
         canvas.stroke({p.paper, 1.6 * u});
     }
-    if (!value.empty())
-        canvas.text({plot_.right() + 8 * u, box_.y + 26 * u}, value,
-                    {.size = 21 * u, .color = c_.color, .weight = Weight::medium, .align = Align::right});
+    draw_readings(canvas, p, readings);
 }
 
 }  // namespace beamcam::render

@@ -1,11 +1,13 @@
-// A strip chart over the film's time: axes, a faint curve of what is to come, the curve so far, a cursor.
+// A strip chart: axes, faint curves of what is to come, the curves so far, a cursor. Over the whole film's time, or
+// over a window of time that moves with the instant.
 //
 // Curves are reduced to what the pixels can show (first, least, most, last of each column), so drawing costs the
-// same for any number of rows. What lies before the cursor is a kept layer shown up to the cursor's column: no stroke
-// grows, and any frame in any order gives the same pixels.
+// same for any number of rows. Over the whole film, what lies before the cursor is a kept layer shown up to the
+// cursor's column: no stroke grows, and any frame in any order gives the same pixels.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,45 +22,86 @@ namespace beamcam::render {
 std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
                            const std::function<Vec2(double, double)>& to_pixels);
 
+// How values are written along an axis: (value − offset)/scale with so many decimals. Small, large and nearly equal
+// values all get short labels; the heading says what was done to them.
+struct AxisScale {
+    double offset = 0, scale = 1;
+    std::string name(const std::string& symbol, const std::string& unit) const;  // markup: "θ − 0.785 / 10⁻⁶ rad"
+};
+// For values from low to high [SI units]. `unit` "" or "rad" gets powers of ten, others get SI prefixes.
+AxisScale axis_scale(double low, double high, const std::string& unit);
+
+struct Curve {
+    std::vector<double> t, v;  // [s], SI units; may be empty
+    Color color, faint;
+    std::string label = {};  // markup; told beside the reading
+    std::vector<double> dash = {};
+};
 struct ChartDot {
     double t = 0, value = 0;
     Color color;
 };
-struct ChartMark {  // an impact
-    double t = 0;
+// Areas between two curves of the same instants, one upon the other.
+struct Band {
+    std::vector<double> low, high;
+    Color color;
+    std::string label;
 };
 
 struct ChartContent {
-    std::string words;   // before the symbol, left out where there is no room: "Hub angle "
-    std::string symbol;  // markup with unit, "θ / rad"
-    Range value;  // to be shown, in axis units; the axis is widened to round ends               // of the vertical
-                  // axis, in axis units
-    Range time;   // in axis units
-    std::string time_label;    // markup, "t / s"
-    std::vector<double> t, v;  // curve, in axis units; may be empty
-    bool filled = false;       // area down to zero
+    std::string words;             // before the symbol, left out where there is no room: "Hub angle "
+    std::string symbol;            // markup: θ; may be empty
+    std::string unit;              // "rad", "N", "" for none
+    Range value;                   // to be shown; the axis is widened to round ends
+    Range time;                    // of the film [s]
+    std::optional<double> window;  // [s]
+    double time_unit = 1;          // [s]
+    std::string time_label;        // markup, "t / s"
+    std::vector<Curve> curves;
+    std::vector<double> band_times;  // [s]
+    std::vector<Band> bands;
+    bool filled = false;  // area under the first curve down to zero
     std::vector<ChartDot> dots;
-    std::vector<ChartMark> marks;  // ticks at the time axis
-    Color color, faint;
+    std::vector<double> marks;  // instants of impacts: ticks at the time axis [s]
+};
+
+// The value of one curve where the cursor stands; NaN: none.
+struct Reading {
+    double value = 0;
 };
 
 class Chart {
   public:
     Chart(ChartContent content, Box box, Box plot, double unit);
 
-    Vec2 to_pixels(double t, double v) const;
+    Vec2 to_pixels(double t, double v) const;                        // of the whole film's axes
     void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
-    Image past(const Fonts& fonts, const Palette& palette) const;    // as large as `past_box`
+    // All that has been, to be shown up to the cursor; as large as `past_box`. Empty with a window.
+    Image past(const Fonts& fonts, const Palette& palette) const;
     Box past_box() const;
-    void draw_cursor(Canvas& canvas, const Palette& palette, double t, double v, const std::string& value) const;
+    // What moves: with a window the curves too.
+    void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
     int cursor_column(double t) const;  // the first column after the cursor
+    bool windowed() const { return c_.window.has_value(); }
 
   private:
-    std::vector<Vec2> curve() const;
+    struct View;  // the time axis as it stands at an instant
+    View whole() const;
+    View around(double t) const;
+    void draw_time_axis(Canvas& canvas, const Palette& palette, const View& view) const;
+    void draw_value_axis(Canvas& canvas, const Palette& palette) const;
+    void draw_curves(Canvas& canvas, const Palette& palette, const View& view, bool past, Vec2 shift) const;
+    void draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
+    void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
+    double y(double v) const;
     ChartContent c_;
     Box box_, plot_;
     double unit_;
-    Ticks value_ticks_, time_ticks_;
+    AxisScale scale_;
+    Ticks value_ticks_;  // scaled
+    Range shown_;        // scaled
+    int digits_ = 0;     // decimals of the reading
+    double heading_width_ = 0;
 };
 
 }  // namespace beamcam::render

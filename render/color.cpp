@@ -74,6 +74,12 @@ const Palette& palette(Theme theme) {
     return kLight;
 }
 
+Color series_color(const Palette& p, std::size_t i) {
+    // Okabe and Ito's palette without its vermilion; told apart with every common colour deficiency.
+    static constexpr std::array kOthers{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5)};
+    return i == 0 ? p.motion : kOthers[(i - 1) % kOthers.size()];
+}
+
 Color moment_color(const Palette& p, double share) { return along(p.moment, 0.5 + 0.5 * share); }
 Color force_color(const Palette& p, double share) { return along(p.force, share); }
 

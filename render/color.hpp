@@ -35,6 +35,8 @@ struct Palette {
 };
 const Palette& palette(Theme theme);
 
+// Colours of curves and motions that stand beside each other; the first is `motion`, none is `contact`.
+Color series_color(const Palette& palette, std::size_t index);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
 

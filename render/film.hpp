@@ -1,8 +1,10 @@
 // A film: everything that a sequence of frames shares is prepared once, then any frame can be drawn in any order
-// with the same pixels. Nothing grows with the number of frames drawn, and nothing is kept from one to the next.
+// with the same pixels. Nothing grows with the number of frames drawn; what a drawing thread keeps from one frame to
+// the next only saves time.
 //
-// The mechanism is drawn lit through OpenGL (lit.hpp) or flat with Cairo alone; titles, charts and labels are
-// Cairo's in both. Drawing never changes what was simulated and never simulates.
+// A frame is a grid of panels (panel.hpp) that share one instant, on a ground that never changes. The mechanism is
+// drawn lit through OpenGL (lit.hpp) or flat with Cairo alone; titles, charts and labels are Cairo's in both. Drawing
+// never changes what was simulated and never simulates.
 #pragma once
 
 #include <memory>
@@ -22,28 +24,52 @@
 
 namespace beamcam::render {
 
-class Canvas;
-struct MechanismShape;
-
 enum class Style { lit, flat };
 
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
     std::optional<double> exaggeration;  // of deflection, >= 1; absent: a round factor that shows it
+    bool transparent = false;            // no paper: the pictures have an alpha channel
 };
 
-struct FilmSetup {
+// One run of one mechanism as a film shows it.
+struct Motion {
     sim::Problem problem;
+    std::string label;             // plain text; told where several motions stand beside each other
+    std::vector<sim::Pose> poses;  // one a frame, true geometry, times not decreasing, at least one
+    sim::Table chart;              // t and the channels that the panels show, times increasing; any number of rows
+    sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
+    std::vector<sim::Impact> impacts;
+};
+
+// Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.
+enum class Comparison { panels, ghosts };
+
+// Words at the contact while these frames are shown.
+struct Callout {
+    int first = 0, last = 0;  // frames
+    std::string text;         // plain
+};
+
+struct FilmSetup : Motion {
     std::string title;                // plain text; cut with an ellipsis when too long
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
-    std::vector<sim::Pose> poses;  // one a frame, true geometry, times not decreasing, at least one
-    sim::Table chart;              // t, theta, contact_force … over the whole film; any number of rows
-    sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
-    std::vector<sim::Impact> impacts;
+    std::optional<LayoutNode> layout;  // absent: the standard arrangement
+    std::vector<Motion> others;        // to compare with, poses at the same instants
+    Comparison comparison = Comparison::panels;
+    std::vector<double> speeds;  // of time at each frame, 1: as it is; empty: always 1
+    std::vector<Callout> callouts;
     std::string accuracy_note;  // plain text in the corner; may be empty
 };
+
+// The panels of the standard arrangement beside the mechanism, and what their charts need.
+std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion);
+// Channels that these panels read from Motion::chart, t first.
+std::vector<sim::Channel> chart_channels(const std::vector<PanelSpec>& panels);
+// The panels of a grid in reading order.
+std::vector<PanelSpec> panels_of(const LayoutNode& grid);
 
 // What a frame shows, for tests and for programs that compose frames.
 struct FrameGeometry {
@@ -75,7 +101,6 @@ class Film {
     struct Prepared;
     struct Tools;
     explicit Film(std::shared_ptr<const Prepared> prepared);
-    void draw_lit(const MechanismShape& shape, Canvas& canvas);
     void paint(int frame, Style style, Image& out, std::vector<Box>* texts);
     std::shared_ptr<const Prepared> prepared_;
     std::unique_ptr<Tools> tools_;

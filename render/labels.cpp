@@ -58,8 +58,36 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
     if (problem.cam) {
         out.push_back(contact_piece(problem));
         out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));
+        if (const double offset = sim::contact_offset(problem); offset > 0)
+            out.push_back("face offset " + quantity(offset, "m"));
     }
     return out;
+}
+
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems) {
+    std::vector<std::string> out = parameter_pieces(*problems.front());
+    for (const sim::Problem* other : problems) {
+        const std::vector<std::string> its = parameter_pieces(*other);
+        std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
+    }
+    return out;
+}
+
+std::string speed_text(double speed) {
+    if (speed == 0) return "frozen";
+    if (std::abs(speed - 1) < 0.05) return {};
+    if (speed > 1) return fmt::format("{:.2g}× speed", speed);
+    double slower = 1 / speed;
+    // Told exactly where it is a whole number, else to the next round one.
+    if (std::abs(slower - std::round(slower)) > 1e-6 * slower) slower = slower < 2 ? 1.5 : round_down_125(slower);
+    return slower == 1.5 ? "2/3 speed" : fmt::format("1/{:.7g} speed", slower);
+}
+
+std::string widest_speed_text(const std::vector<double>& speeds) {
+    std::string widest;
+    for (double speed : speeds)
+        if (std::string text = speed_text(speed); text.size() > widest.size()) widest = std::move(text);
+    return widest;
 }
 
 TimeFormat time_format(const std::vector<double>& times) {

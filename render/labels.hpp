@@ -10,6 +10,14 @@ namespace beamcam::render {
 
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
 std::vector<std::string> parameter_pieces(const sim::Problem& problem);
+// Those that several problems have in common.
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems);
+
+// "1/50 speed", "2× speed", "frozen"; empty at the true speed. Speeds on the way from one to another are told by
+// a round fraction.
+std::string speed_text(double speed);
+// The longest of them, which a film keeps room for.
+std::string widest_speed_text(const std::vector<double>& speeds);
 
 // How instants are written: the unit and the decimals that tell neighbouring frames apart.
 struct TimeFormat {

@@ -1,5 +1,6 @@
 #include "render/layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace beamcam::render {
@@ -12,93 +13,168 @@ Box whole(const Box& b) {
     return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
 }
 
-ChartSlot chart_slot(ChartKind kind, const Box& box, double u) {
-    return {kind, box, whole({box.x + 70 * u, box.y + 46 * u, box.w - 78 * u, box.h - 46 * u - 44 * u})};
-}
-
-// Stacks the charts into `area`, as many as keep a readable height.
-void stack(Layout& out, const std::vector<ChartKind>& kinds, const Box& area) {
+// Stacks the panels into `area`, as many as keep a readable height.
+void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     const double u = out.unit, gap = 14 * u;
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.h + gap) / (215 * u + gap)));
-    const std::size_t n = std::min(kinds.size(), room);
+    const std::size_t n = std::min(specs.size(), room);
     for (std::size_t i = 0; i < n; ++i) {
         const double h = std::min(440 * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
-        out.charts.push_back(chart_slot(kinds[i], {area.x, area.y + (h + gap) * static_cast<double>(i), area.w, h}, u));
+        out.panels.push_back({specs[i], {area.x, area.y + (h + gap) * static_cast<double>(i), area.w, h}});
     }
 }
 
 // Side by side, as many as keep a readable width.
-void spread(Layout& out, const std::vector<ChartKind>& kinds, const Box& area) {
+void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     const double u = out.unit, gap = 30 * u;
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.w + gap) / (400 * u + gap)));
-    const std::size_t n = std::min(kinds.size(), room);
+    const std::size_t n = std::min(specs.size(), room);
     for (std::size_t i = 0; i < n; ++i) {
         const double w = (area.w - gap * static_cast<double>(n - 1)) / static_cast<double>(n);
-        out.charts.push_back(chart_slot(kinds[i], {area.x + (w + gap) * static_cast<double>(i), area.y, w, area.h}, u));
+        out.panels.push_back({specs[i], {area.x + (w + gap) * static_cast<double>(i), area.y, w, area.h}});
     }
 }
 
-}  // namespace
-
-Layout layout(int width, int height, const std::vector<ChartKind>& charts) {
+// What stands around the panels, and the room that is left for them.
+struct Frame {
     Layout out;
-    const bool wide = width >= 1.4 * height;
-    out.unit = std::max(kSmallest, wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
+    double margin = 0, top = 0, bottom = 0, right = 0;
+    bool wide = true;
+};
+
+Frame frame(int width, int height) {
+    Frame f;
+    Layout& out = f.out;
+    f.wide = width >= 1.4 * height;
+    out.unit =
+        std::max(kSmallest, f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
     const double u = out.unit, w = width, h = height;
-    const double margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
-    double top = margin * 0.8, bottom = h - margin * 0.7, right = w - margin;
+    const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
+    f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
     const bool has_title = w >= 320 * u && h >= 300 * u, has_parameters = w >= 560 * u && h >= 480 * u;
     const bool has_clock = w >= 230 * u && h >= 190 * u, has_scales = w >= 1150 * u && h >= 600 * u;
     if (has_title) {
-        out.title = Box{margin, top, w - 2 * margin, 54 * u};
-        top += 54 * u;
+        out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
+        f.top += 54 * u;
     }
     if (has_parameters) {
-        out.parameters = Box{margin, top, w - 2 * margin, 36 * u};
-        top += 36 * u;
+        out.parameters = Box{margin, f.top, w - 2 * margin, 36 * u};
+        f.top += 36 * u;
     }
     if (has_scales) {
-        out.note = Box{margin, bottom - 26 * u, w - 2 * margin, 26 * u};
-        bottom -= 34 * u;
+        out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
+        f.bottom -= 34 * u;
     }
     if (has_clock) {
-        out.clock = Box{margin, bottom - 56 * u, w - 2 * margin, 56 * u};
-        bottom -= 56 * u;
+        out.clock = Box{margin, f.bottom - 56 * u, w - 2 * margin, 56 * u};
+        f.bottom -= 56 * u;
     }
     if (has_scales) {
         out.scales = Box{w - margin - 600 * u, out.clock->y, 600 * u, 56 * u};
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
-    if (has_title) top += 10 * u;
-    if (has_clock) bottom -= 10 * u;
+    if (has_title) f.top += 10 * u;
+    if (has_clock) f.bottom -= 10 * u;
+    return f;
+}
 
-    if (wide && w >= 1150 * u && h >= 480 * u) {
+void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
+    if (node.kind == LayoutNode::Kind::panel) {
+        const Vec2 least = smallest(node.panel.kind);
+        if (box.w >= least.x * out.unit && box.h >= least.y * out.unit) out.panels.push_back({node.panel, whole(box)});
+        return;
+    }
+    const bool rows = node.kind == LayoutNode::Kind::rows;
+    const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(node.children.size());
+    const double room = (rows ? box.h : box.w) - gap * (n - 1);
+    if (!(room > 0)) return;
+    double shares = 0, at = rows ? box.y : box.x;
+    for (const LayoutNode& child : node.children) shares += child.share;
+    for (const LayoutNode& child : node.children) {
+        const double size = room * child.share / shares;
+        place_grid(out, child, rows ? Box{box.x, at, box.w, size} : Box{at, box.y, size, box.h});
+        at += size + gap;
+    }
+}
+
+// One mechanism for each motion, in the direction that leaves each the better shape.
+void place_mechanisms(Layout& out, const Box& box, int members) {
+    LayoutNode grid{.kind = box.w > 1.5 * box.h ? LayoutNode::Kind::columns : LayoutNode::Kind::rows};
+    for (int i = 0; i < members; ++i) grid.children.push_back({.panel = {.kind = PanelKind::mechanism, .member = i}});
+    Layout parts;
+    parts.unit = out.unit;
+    if (members == 1)
+        parts.panels.push_back({grid.children.front().panel, whole(box)});
+    else
+        place_grid(parts, grid, box);
+    out.panels.insert(out.panels.begin(), parts.panels.begin(), parts.panels.end());
+}
+
+}  // namespace
+
+const PanelSlot* Layout::first(PanelKind kind) const {
+    const auto at = std::ranges::find_if(panels, [&](const PanelSlot& s) { return s.spec.kind == kind; });
+    return at == panels.end() ? nullptr : &*at;
+}
+
+Box plot_area(const Box& box, double u) {
+    return whole({box.x + 70 * u, box.y + 46 * u, box.w - 78 * u, box.h - 46 * u - 44 * u});
+}
+
+Vec2 smallest(PanelKind kind) {
+    switch (kind) {
+        case PanelKind::mechanism:
+            return {16, 16};
+        case PanelKind::strip:
+        case PanelKind::energy:
+            return {300, 170};
+        case PanelKind::phase:
+        case PanelKind::close_up:
+        case PanelKind::traces:
+            return {240, 190};
+    }
+    return {};
+}
+
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members) {
+    Frame f = frame(width, height);
+    Layout& out = f.out;
+    const double u = out.unit, w = width, h = height, margin = f.margin;
+    double top = f.top, bottom = f.bottom, right = f.right;
+    if (f.wide && w >= 1150 * u && h >= 480 * u && members < 3) {
         const double column = 540 * u, first = margin * 0.8;
-        stack(out, charts, {right - column, first, column, bottom - first - 6 * u});
-        if (!out.charts.empty()) {
+        stack(out, side, {right - column, first, column, bottom - first - 6 * u});
+        if (!out.panels.empty()) {
             right -= column + 40 * u;
             if (out.title) out.title->w = right - out.title->x;
             if (out.parameters) out.parameters->w = right - out.parameters->x;
         }
-    } else if (!wide && w >= 420 * u && bottom - top >= 620 * u) {
+    } else if ((!f.wide || members >= 3) && w >= 420 * u && bottom - top >= 620 * u) {
         const double share = std::min(0.62 * (bottom - top), 3 * 330 * u);
         if (h > 1.35 * w) {
             const Box area{margin, bottom - share, right - margin, share};
-            stack(out, charts, area);
-            if (!out.charts.empty()) bottom -= share - (area.bottom() - out.charts.back().box.bottom()) + 20 * u;
-            const double spare = area.bottom() - (out.charts.empty() ? area.bottom() : out.charts.back().box.bottom());
-            for (ChartSlot& slot : out.charts) {
-                slot.box.y += spare, slot.plot.y = std::round(slot.plot.y + spare);
-            }
+            stack(out, side, area);
+            if (!out.panels.empty()) bottom -= share - (area.bottom() - out.panels.back().box.bottom()) + 20 * u;
+            const double spare = area.bottom() - (out.panels.empty() ? area.bottom() : out.panels.back().box.bottom());
+            for (PanelSlot& slot : out.panels) slot.box.y += spare;
         } else {
-            spread(out, charts, {margin, bottom - 300 * u, right - margin, 300 * u});
-            if (!out.charts.empty()) bottom -= 320 * u;
+            spread(out, side, {margin, bottom - 300 * u, right - margin, 300 * u});
+            if (!out.panels.empty()) bottom -= 320 * u;
         }
     }
-    out.mechanism = whole({margin, top, right - margin, bottom - top});
-    if (out.mechanism.w < 8 || out.mechanism.h < 8) out.mechanism = {0, 0, w, h};
-    return out;
+    Box room{margin, top, right - margin, bottom - top};
+    if (room.w < 8 || room.h < 8) room = {0, 0, w, h};
+    place_mechanisms(out, room, members);
+    return std::move(f.out);
+}
+
+Layout layout(int width, int height, const LayoutNode& grid) {
+    Frame f = frame(width, height);
+    place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
+    // A picture too small for its grid shows what it can: the mechanism.
+    if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});
+    return std::move(f.out);
 }
 
 }  // namespace beamcam::render

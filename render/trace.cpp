@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace beamcam::render {
 namespace {
@@ -32,9 +33,50 @@ std::vector<TraceSample> contact_samples(const sim::Table& table) {
     return out;
 }
 
+namespace {
+
+// Arc on the disc where a nearly straight beam touches at arc position x: its direction makes cos φ = (x + r)/|OB|
+// with the ray O→B. A slope of 1e-3 displaces it by a thousandth of the radius.
+double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
+    const sim::Cam& cam = *problem.cam;
+    const sim::Vec2 b = cam.centre + sim::unit(impact.cam_angle) * cam.eccentricity;
+    const double share = std::clamp((impact.x + problem.hub.radius) / norm(b), -1.0, 1.0);
+    const double to_disc = std::atan2(b.y, b.x);
+    const double side = std::remainder(problem.initial.angle - to_disc, 2 * std::numbers::pi) >= 0 ? 1 : -1;
+    const double normal = to_disc + side * std::acos(share) + side * std::numbers::pi / 2;
+    const double turns = (normal - impact.cam_angle) / (2 * std::numbers::pi);
+    return (turns - std::floor(turns)) * 2 * std::numbers::pi * cam.radius;
+}
+
+}  // namespace
+
+std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
+                                         std::span<const sim::Impact> impacts) {
+    std::vector<TraceSample> out = contact_samples(table);
+    if (!problem.cam) return out;
+    const auto* t = column(table, sim::ChannelKind::t);
+    if (!t || t->empty()) return out;
+    const double last = *std::ranges::max_element(*t);
+    const std::size_t known = out.size();
+    for (const sim::Impact& impact : impacts) {
+        if (!impact.t_end || !(impact.force_peak > 0) || *impact.t_end > last) continue;
+        const std::span sampled(out.data(), known);
+        const auto first = std::ranges::lower_bound(sampled, impact.t_start, {}, &TraceSample::t);
+        if (first != sampled.end() && first->t <= *impact.t_end) continue;
+        out.push_back({impact.t_start, impact.x, touched_arc(problem, impact), impact.force_peak});
+    }
+    std::ranges::stable_sort(out, {}, &TraceSample::t);
+    return out;
+}
+
 Trace::Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
              std::size_t beam_places)
-    : samples_(samples), circumference_(circumference), length_(length), rim_(rim_places), beam_(beam_places) {}
+    : samples_(samples),
+      circumference_(circumference),
+      length_(length),
+      rim_(rim_places),
+      beam_(beam_places),
+      rim_times_(rim_places) {}
 
 void Trace::show_until(double t) {
     const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
@@ -47,7 +89,9 @@ void Trace::show_until(double t) {
     for (; shown_ < until; ++shown_) {
         const TraceSample& sample = samples_[shown_];
         const double turns = sample.s / circumference_;
-        float& on_rim = rim_[place(turns - std::floor(turns), rim_.size())];
+        const std::size_t rim_place = place(turns - std::floor(turns), rim_.size());
+        float& on_rim = rim_[rim_place];
+        rim_times_[rim_place] = sample.t;
         float& on_beam = beam_[place(sample.x / length_, beam_.size())];
         on_rim = std::max(on_rim, static_cast<float>(sample.force));
         on_beam = std::max(on_beam, static_cast<float>(sample.force));

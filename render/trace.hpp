@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "sim/channels.hpp"
+#include "sim/problem.hpp"
+#include "sim/simulate.hpp"
 
 namespace beamcam::render {
 
@@ -17,6 +19,10 @@ struct TraceSample {
 };
 // The rows of the table in contact (force > 0, places known), by time. Missing columns give no samples.
 std::vector<TraceSample> contact_samples(const sim::Table& table);
+// And one for each impact that is shorter than the table's spacing and fell between its rows: its place at touch, its
+// largest force.
+std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
+                                         std::span<const sim::Impact> impacts);
 
 class Trace {
   public:
@@ -26,11 +32,13 @@ class Trace {
     void show_until(double t);                              // includes samples at t
     const std::vector<float>& rim() const { return rim_; }  // 0: never touched
     const std::vector<float>& beam() const { return beam_; }
+    const std::vector<double>& rim_times() const { return rim_times_; }  // of the last touch of each place [s]
 
   private:
     std::span<const TraceSample> samples_;
     double circumference_, length_;
     std::vector<float> rim_, beam_;
+    std::vector<double> rim_times_;
     std::size_t shown_ = 0;
 };
 

@@ -17,8 +17,6 @@ using sim::ChannelKind;
 constexpr double kChartRate = 4000;  // [Hz]
 constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
 
-const std::vector<sim::Channel> kChartChannels = {
-    {ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::contact_force, 0}};
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
@@ -81,7 +79,8 @@ class Planner {
         look_until(std::max(last, chart_to), pictures.file);
         pictures.poses = simulation_.request.poses.size();
         simulation_.request.poses.push_back({std::move(times)});
-        pictures.chart = add_table(rows(chart_from, chart_to, chart_rate(chart_to - chart_from)), kChartChannels);
+        pictures.chart = add_table(rows(chart_from, chart_to, chart_rate(chart_to - chart_from)),
+                                   render::chart_channels(render::standard_panels(scene_.problem, false)));
         // The trace keeps what happened before the film began.
         if (scene_.problem.cam) pictures.trace = add_table(rows(0, chart_to, chart_rate(chart_to)), kTraceChannels);
         plan_.pictures.push_back(std::move(pictures));

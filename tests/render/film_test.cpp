@@ -137,7 +137,7 @@ TEST(Film, BeamStaysInTheMechanismsBoxAtEveryFrame) {
         for (std::size_t i = 0; i < g.beam.line.size(); ++i)
             for (Vec2 p : {g.beam.face(i), g.beam.back(i)}) {
                 const Vec2 px = g.camera.to_pixels(p);
-                EXPECT_TRUE(g.layout.mechanism.contains({px.x, px.y, 0, 0})) << k;
+                EXPECT_TRUE(g.layout.first(PanelKind::mechanism)->box.contains({px.x, px.y, 0, 0})) << k;
             }
     }
 }
@@ -172,7 +172,7 @@ TEST(Film, WithoutACamThereIsNothingOfIt) {
     Film film(small_film(Style::flat, {.duration = 0.5, .cam = false}));
     const FrameGeometry g = film.geometry(10);
     EXPECT_FALSE(g.beam.contact);
-    EXPECT_EQ(g.layout.charts.size(), 1U);
+    EXPECT_EQ(g.layout.panels.size(), 2U);
 }
 
 TEST(Film, OddAndTinySizesAreDrawn) {

@@ -18,15 +18,17 @@ struct Size {
 };
 void PrintTo(Size s, std::ostream* out) { *out << s.w << "x" << s.h; }
 
-const std::vector<ChartKind> kAll{ChartKind::angle, ChartKind::force, ChartKind::position};
+const PanelSpec kAngle{.kind = PanelKind::strip, .channels = {{sim::ChannelKind::theta, 0}}},
+    kForce{.kind = PanelKind::strip, .channels = {{sim::ChannelKind::contact_force, 0}}};
+const std::vector<PanelSpec> kAll{kAngle, kForce, {.kind = PanelKind::close_up}};
 
 class AnySize : public testing::TestWithParam<Size> {};
 
 std::vector<Box> parts(const Layout& l) {
-    std::vector<Box> out{l.mechanism};
+    std::vector<Box> out;
     for (const auto& part : {l.title, l.parameters, l.clock, l.scales, l.note})
         if (part) out.push_back(*part);
-    for (const ChartSlot& c : l.charts) out.push_back(c.box);
+    for (const PanelSlot& p : l.panels) out.push_back(p.box);
     return out;
 }
 
@@ -45,10 +47,13 @@ TEST_P(AnySize, PartsStandWithinThePictureAndApart) {
 }
 
 TEST_P(AnySize, PlotsStandWithinTheirSlots) {
-    for (const ChartSlot& c : layout(GetParam().w, GetParam().h, kAll).charts) {
-        EXPECT_TRUE(c.box.contains(c.plot, 1));
-        EXPECT_GT(c.plot.h, 40);
-        EXPECT_GT(c.plot.w, 100);
+    const Layout l = layout(GetParam().w, GetParam().h, kAll);
+    for (const PanelSlot& c : l.panels) {
+        if (c.spec.kind == PanelKind::mechanism) continue;
+        const Box plot = plot_area(c.box, l.unit);
+        EXPECT_TRUE(c.box.contains(plot, 1));
+        EXPECT_GT(plot.h, 40);
+        EXPECT_GT(plot.w, 100);
     }
 }
 
@@ -78,16 +83,16 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
 
 TEST(Layout, FullSizeShowsEverything) {
     const Layout l = layout(1920, 1080, kAll);
-    EXPECT_EQ(l.charts.size(), 3U);
+    EXPECT_EQ(l.panels.size(), 4U);
     EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.note);
     EXPECT_DOUBLE_EQ(l.unit, 1);
 }
 
 TEST(Layout, TinyPicturesKeepTheMechanism) {
     const Layout l = layout(16, 16, kAll);
-    EXPECT_TRUE(l.charts.empty());
+    ASSERT_EQ(l.panels.size(), 1U);
     EXPECT_FALSE(l.title);
-    EXPECT_GT(l.mechanism.w, 4);
+    EXPECT_GT(l.panels.front().box.w, 4);
 }
 
 TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {

@@ -1,0 +1,33 @@
+// A path that grows with time, on a kept layer: each piece is drawn once, however many frames show it.
+//
+// Pieces are drawn one by one in their order, so the layer's pixels depend only on how many there are, not on which
+// frames were drawn before; going back in time starts anew.
+#pragma once
+
+#include <vector>
+
+#include "render/canvas.hpp"
+#include "render/geometry.hpp"
+#include "render/panel.hpp"
+
+namespace beamcam::render {
+
+struct GrowingPath {
+    std::vector<double> times;  // increasing [s]
+    std::vector<Vec2> points;   // [px of the layer]; NaN breaks the path
+};
+// Points nearer than `least` pixels to the one before are left out, the last one excepted.
+GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least);
+
+class GrowingLayer final : public Panel::State {
+  public:
+    GrowingLayer(int width, int height) : image_(width, height) {}
+    // The pieces that end at or before t.
+    const Image& until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen);
+
+  private:
+    Image image_;
+    std::size_t drawn_ = 0;  // points passed
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,460 @@
+#include "render/mechanism_panel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::Pose;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPi = std::numbers::pi;
+constexpr int kFlashFrames = 24;  // an impact's ring fades within this many frames (0.4 s at 60 fps)
+constexpr int kTrailFrames = 72;  // length of the tip's trail
+
+// A box with room for shadows around it, in whole pixels, cut to the mechanism's.
+Box covered(const Box& shapes, const Box& within, double unit) {
+    const Box wide = shapes.inset(-26 * unit - 4);
+    const double x0 = std::clamp(std::floor(wide.x), within.x, within.right() - 1),
+                 y0 = std::clamp(std::floor(wide.y), within.y, within.bottom() - 1);
+    const double x1 = std::clamp(std::ceil(wide.right()), x0 + 1, within.right()),
+                 y1 = std::clamp(std::ceil(wide.bottom()), y0 + 1, within.bottom());
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
+LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const Palette& palette, Vec2 origin) {
+    LitScene scene;
+    scene.unit = look.unit;
+    scene.shadow = palette.shadow;
+    const double u = look.unit;
+    if (shape.disc) {
+        const DiscShape& d = *shape.disc;
+        scene.behind.push_back({d.centre - origin, d.radius, d.axis - origin, d.bore,
+                                std::min(4.5 * u, 0.06 * d.radius), palette.steel, Finish::turned, true});
+        scene.behind.push_back(
+            {d.mark - origin, d.mark_radius, {}, 0, 0, mix(palette.steel, rgb(0), 0.25), Finish::dimple, false});
+    }
+    for (std::size_t i = 0; i < shape.face.size(); ++i) {
+        scene.strip.face.push_back(shape.face[i] - origin);
+        scene.strip.back.push_back(shape.back[i] - origin);
+    }
+    scene.strip.colors = shape.colors;
+    scene.strip.chamfer = std::min(6 * u, 0.2 * norm(shape.back[0] - shape.face[0]));
+    scene.front.push_back(
+        {shape.hinge - origin, shape.hub, {}, 0, 4 * u, mix(palette.steel, rgb(0xFFFFFF), 0.15), Finish::turned, true});
+    scene.front.push_back({shape.hinge - origin, shape.pin, {}, 0, 0, palette.pin, Finish::dome, false});
+    return scene;
+}
+
+// What the scene can touch, shadows included: beyond it the lit picture is transparent.
+Box lit_bounds(const LitScene& scene) {
+    Bounds all;
+    for (const auto* rounds : {&scene.behind, &scene.front})
+        for (const LitRound& r : *rounds) all.add(r.centre, r.radius);
+    for (Vec2 p : scene.strip.face) all.add(p);
+    for (Vec2 p : scene.strip.back) all.add(p);
+    const double around = 26 * scene.unit + 4;
+    return {all.x0 - around, all.y0 - around, all.x1 - all.x0 + 2 * around, all.y1 - all.y0 + 2 * around};
+}
+
+}  // namespace
+
+// ---- prepared once for a film ----------------------------------------------------------------
+
+struct MechanismPanel::Threads final : Panel::State {
+    Threads(const FilmFacts& facts, int member, double scale)
+        : trace(facts.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
+        const sim::Problem& problem = facts.motion(member).problem;
+        const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
+        const auto places = [](double px) { return static_cast<std::size_t>(std::clamp(px, 1.0, 65536.0)); };
+        trace = Trace(facts.samples[static_cast<std::size_t>(member)], 2 * kPi * r, places(2 * kPi * r * scale), l,
+                      places(l * scale));
+    }
+    Trace trace;
+    std::unique_ptr<LitRenderer> lit;  // made when first needed
+    Image lit_image;
+};
+
+MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
+    : facts_(facts),
+      palette_(*facts.palette),
+      box_(slot.box),
+      member_(std::min(slot.spec.member, facts.members() - 1)),
+      ghosts_(facts.members() > 1 && facts.setup->comparison == Comparison::ghosts),
+      u_(facts.unit),
+      small_(slot.box.w < 420 * facts.unit || slot.box.h < 300 * facts.unit) {
+    // Mechanisms beside each other share one camera's scale, so that they can be compared.
+    for (int m = 0; m < facts.members(); ++m) shown_.push_back(m);
+    look_.unit = u_;
+    look_.factor = facts.factor;
+    look_.moment_scale = facts.moment_scale;
+    place_camera();
+    note_extent();
+    find_flashes();
+}
+
+std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
+    return std::make_unique<Threads>(facts_, member_, look_.camera.scale);
+}
+
+DrawnBeam MechanismPanel::beam_of(int member, int frame) const {
+    const Motion& one = facts_.motion(member);
+    const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : look_.factor;
+    return drawn_beam(one.problem, facts_.pose(member, frame), factor, look_.depth);
+}
+
+// The box of all drawn beams [m].
+Bounds MechanismPanel::beams_reach() const {
+    Bounds all;
+    for (int m : shown_)
+        for (int k = 0; k < facts_.frames(); ++k) {
+            const DrawnBeam b = beam_of(m, k);
+            for (std::size_t i = 0; i < b.line.size(); i += (i + 5 < b.line.size() ? 4 : 1))
+                all.add(b.face(i)), all.add(b.back(i));
+        }
+    return all;
+}
+
+// The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
+void MechanismPanel::place_camera() {
+    const double u = u_;
+    const Box room = box_.inset(std::min(26 * u, 0.08 * std::min(box_.w, box_.h)));
+    look_.depth = problem().beam.depth;
+    Bounds beams;
+    for (int pass = 0; pass < 4; ++pass) {  // sizes fixed in pixels make the fit implicit; it settles at once
+        if (pass < 2) beams = beams_reach();
+        Bounds all = beams;
+        const double pixel = pass == 0 ? 0 : 1 / look_.camera.scale;  // [m]
+        for (int m : shown_) {
+            const sim::Problem& p = facts_.motion(m).problem;
+            if (p.cam) {
+                const double swept = p.cam->radius + p.cam->eccentricity;
+                all.add(facts_.pose(m, 0).cam_centre, swept + (p.cam->speed != 0 ? 34 * u * pixel : 0));
+            }
+            const double hub = pass == 0 ? std::max(p.hub.radius, 0.0) : hub_radius(p, look_.camera, u) * pixel;
+            all.add({0, 0}, hub + 12 * u * pixel);
+            all.add({0, -support_reach(hub / std::max(pixel, 1e-300), u) * pixel});
+        }
+        look_.camera = fit(all, room);
+        // A beam thinner than a line gets the weight of one; it grows away from the cam.
+        look_.depth = std::max(problem().beam.depth, 7 * u / look_.camera.scale);
+    }
+}
+
+void MechanismPanel::note_extent() {
+    Bounds seen;
+    for (int k = 0; k < facts_.frames(); ++k) {
+        const MechanismShape shape = mechanism_shape(problem(), facts_.pose(member_, k), beam(k), look_, palette_);
+        tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
+        seen.add(shape.hinge, shape.hub);
+        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
+    }
+    lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
+}
+
+void MechanismPanel::find_flashes() {
+    const std::vector<Pose>& poses = motion().poses;
+    for (const sim::Impact& impact : motion().impacts) {
+        const auto at = std::ranges::lower_bound(poses, impact.t_start, {}, &Pose::t);
+        if (at == poses.end() || (at == poses.begin() && at->t > impact.t_start)) continue;
+        const int frame = static_cast<int>(at - poses.begin());
+        const DrawnBeam b = beam(frame);
+        if (!b.contact) continue;
+        flashes_.push_back({frame, std::atan2(b.contact->normal.y, b.contact->normal.x) - at->cam_angle});
+    }
+}
+
+// ---- the ground ------------------------------------------------------------------------------
+
+void MechanismPanel::draw_ground(Canvas& canvas) const {
+    const Vec2 o = px({0, 0});
+    canvas.move_to({box_.x, o.y});
+    canvas.line_to({box_.right(), o.y});
+    canvas.stroke({palette_.faint, 1.5 * u_, {10 * u_, 8 * u_}, Cap::butt});
+    draw_support(canvas, o, hub_radius(problem(), look_.camera, u_), u_, palette_);
+    scale_bar(canvas);
+    label(canvas);
+}
+
+// A round length near a seventh of the view, at the bottom right of the mechanism.
+void MechanismPanel::scale_bar(Canvas& canvas) const {
+    if (box_.w < 300 * u_ || box_.h < 220 * u_ || !facts_.places.clock) return;
+    const double length = round_down_125(0.17 * box_.w / look_.camera.scale), w = length * look_.camera.scale;
+    const double y = box_.bottom() - 8 * u_, x = box_.right() - w - 4 * u_;
+    canvas.move_to({x, y - 5 * u_});
+    canvas.line_to({x, y});
+    canvas.line_to({x + w, y});
+    canvas.line_to({x + w, y - 5 * u_});
+    canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
+    canvas.text({x + w / 2, y - 9 * u_}, quantity(length, "m"),
+                {.size = 17 * u_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+}
+
+// Which motion this is, where there are several; with ghosts, all of them.
+void MechanismPanel::label(Canvas& canvas) const {
+    if (facts_.members() == 1 || box_.w < 160 * u_) return;
+    double y = box_.y + 28 * u_;
+    for (int m = 0; m < facts_.members(); ++m) {
+        if (!ghosts_ && m != member_) continue;
+        const double x = box_.x + 6 * u_;
+        canvas.move_to({x, y - 8 * u_});
+        canvas.line_to({x + 30 * u_, y - 8 * u_});
+        canvas.stroke({facts_.member_color(m), 6 * u_, {}, Cap::butt});
+        canvas.text({x + 42 * u_, y}, escape(facts_.motion(m).label),
+                    {.size = 24 * u_,
+                     .color = palette_.ink,
+                     .weight = Weight::semibold,
+                     .max_width = box_.w - 50 * u_,
+                     .halo = palette_.paper});
+        y += 34 * u_;
+    }
+}
+
+// ---- what moves ------------------------------------------------------------------------------
+
+void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
+    auto& threads = *static_cast<Threads*>(state);
+    const Pose& pose = facts_.pose(member_, frame);
+    const DrawnBeam drawn = beam(frame);
+    const MechanismShape shape = mechanism_shape(problem(), pose, drawn, look_, palette_);
+    threads.trace.show_until(pose.t);
+    const Scene s{canvas, frame, pose, drawn, shape};
+    trail(s);
+    angle_arc(s);
+    base_line(s);
+    turning_arrow(s);
+    switch (style) {
+        case Style::lit:
+            draw_lit(shape, canvas, threads);
+            break;
+        case Style::flat:
+            draw_flat(canvas, shape, look_, palette_);
+            break;
+    }
+    disc_marks(s, threads.trace);
+    beam_trace(s, threads.trace);
+    if (ghosts_) ghosts(s);
+    flash(s);
+    force_arrow(s);
+    callout(s);
+}
+
+void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const {
+    if (!threads.lit) threads.lit = make_lit_renderer(static_cast<int>(lit_box_.w), static_cast<int>(lit_box_.h));
+    const LitScene scene = lit_scene(shape, look_, palette_, {lit_box_.x, lit_box_.y});
+    threads.lit->draw(scene, threads.lit_image);
+    canvas.image_part(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y), lit_bounds(scene));
+}
+
+// The other motions: outlines of their beams, and of their discs where those stand elsewhere.
+void MechanismPanel::ghosts(const Scene& s) const {
+    for (int m : shown_) {
+        if (m == member_) continue;
+        const DrawnBeam other = beam_of(m, s.frame);
+        const Color color = facts_.member_color(m);
+        const Pose& pose = facts_.pose(m, s.frame);
+        const std::optional<sim::Cam>& cam = facts_.motion(m).problem.cam;
+        if (cam && (!s.shape.disc || norm(px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
+            s.canvas.circle(px(pose.disc_centre), cam->radius * look_.camera.scale);
+            s.canvas.stroke({color.faded(0.8), 2 * u_, {8 * u_, 6 * u_}, Cap::butt});
+        }
+        for (std::size_t i = 0; i < other.line.size(); ++i)
+            i == 0 ? s.canvas.move_to(px(other.face(i))) : s.canvas.line_to(px(other.face(i)));
+        for (std::size_t i = other.line.size(); i-- > 0;) s.canvas.line_to(px(other.back(i)));
+        s.canvas.close();
+        s.canvas.fill_keeping_path(color.faded(0.16));
+        s.canvas.stroke({color, 2.2 * u_});
+    }
+}
+
+// The tip's path over the last frames, fading.
+void MechanismPanel::trail(const Scene& s) const {
+    const int first = std::max(0, s.frame - kTrailFrames);
+    for (int k = first; k < s.frame; ++k) {
+        const double age = double(s.frame - k) / kTrailFrames;
+        s.canvas.move_to(tips_[static_cast<std::size_t>(k)]);
+        s.canvas.line_to(tips_[static_cast<std::size_t>(k + 1)]);
+        s.canvas.stroke({palette_.motion.faded(0.55 * (1 - age)), 2 * u_, {}, Cap::butt});
+    }
+}
+
+void MechanismPanel::angle_arc(const Scene& s) const {
+    if (small_) return;
+    double radius = 92 * u_;
+    if (problem().cam) {
+        const double free = norm(s.pose.cam_centre) - problem().cam->radius - problem().cam->eccentricity;
+        radius = std::min(radius, 0.86 * free * look_.camera.scale);
+    }
+    const double hub = hub_radius(problem(), look_.camera, u_);
+    const double angle = std::remainder(s.pose.theta, 2 * kPi);
+    if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
+    s.canvas.arc(px({0, 0}), radius, 0, angle);
+    s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
+    const double room = std::clamp((std::abs(angle) * radius - 30 * u_) / (12 * u_), 0.0, 1.0);
+    if (room > 0 && radius > hub + 38 * u_)
+        s.canvas.text(px({0, 0}) + down(angle / 2) * (radius - 17 * u_) + Vec2{0, 6 * u_}, math("θ"),
+                      {.size = 21 * u_,
+                       .color = palette_.muted.faded(room),
+                       .align = Align::centre,
+                       .halo = palette_.paper.faded(room)});
+}
+
+// Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
+void MechanismPanel::turning_arrow(const Scene& s) const {
+    if (!problem().cam || small_) return;
+    const sim::Cam& cam = *problem().cam;
+    const Vec2 axis = px(s.pose.cam_centre);
+    const double swept = (cam.radius + cam.eccentricity) * look_.camera.scale, radius = swept + 20 * u_;
+    const std::string label = math("ω") + "\u2009=\u2009" + quantity(cam.speed, "rad/s");
+    const TextStyle style{.size = 21 * u_, .color = palette_.muted, .halo = palette_.paper};
+    if (cam.speed != 0) {
+        const double span = std::min(0.8, 150 * u_ / radius), middle = -0.30 * kPi;
+        const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
+        const double head = 17 * u_, back = (to < from ? 1 : -1) * 0.9 * head / radius;
+        s.canvas.arc(axis, radius, from, to + back);
+        s.canvas.stroke({palette_.muted, 2.6 * u_, {}, Cap::butt});
+        s.canvas.arrow(axis + down(to + back) * radius, axis + down(to) * radius, {palette_.muted, 2.6 * u_}, head);
+    }
+    // Beside the arrow, within the panel wherever the cam stands.
+    Vec2 at = axis + down(-0.26 * kPi) * (radius + 16 * u_) + Vec2{8 * u_, 12 * u_};
+    at.x = std::min(at.x, box_.right() - s.canvas.measure(label, style).w);
+    at.y = std::min(at.y, box_.bottom() - 34 * u_);
+    s.canvas.text(at, label, style);
+}
+
+// The straight line that deflection is drawn about.
+void MechanismPanel::base_line(const Scene& s) const {
+    if (look_.factor == 1) return;
+    const Vec2 base = sim::unit(s.beam.base_angle);
+    const double clear = 4 * u_ / look_.camera.scale;
+    std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
+    for (Vec2 p : s.beam.line) {
+        const double below = -cross(base, p);  // the base line's offset from the centre line
+        const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
+        line.push_back(covered ? Vec2{kNan, kNan} : px(base * dot(base, p)));
+    }
+    s.canvas.polyline(line);
+    s.canvas.stroke({palette_.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
+}
+
+void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
+    if (!s.shape.disc) return;
+    const DiscShape& d = *s.shape.disc;
+    const double inset = std::min(7 * u_, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
+    stroke_places(s.canvas, facts_, trace.rim(), std::min(7 * u_, 0.1 * d.radius), [&](std::size_t i) {
+        const double at = d.angle + 2 * kPi * (static_cast<double>(i) + 0.5) / n, half = 2 * kPi * 1.7 / n;
+        s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
+        s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
+    });
+    if (d.radius < 26 * u_) return;
+    const Color ink = facts_.setup->view.theme == Theme::dark && facts_.setup->view.style == Style::flat
+                          ? palette_.paper
+                      : facts_.setup->view.theme == Theme::dark ? rgb(0x14171D)
+                                                                : palette_.steel_edge;
+    const double apart = norm(d.centre - d.axis);
+    if (apart > d.bore + 2) {
+        s.canvas.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
+        s.canvas.line_to(d.centre);
+        s.canvas.stroke({ink, 1.8 * u_});
+    }
+    s.canvas.circle(d.centre, 4 * u_);
+    s.canvas.fill(ink);
+    for (Vec2 arm : {Vec2{1, 0}, Vec2{0, 1}}) {
+        s.canvas.move_to(d.axis - arm * (d.bore * 0.75));
+        s.canvas.line_to(d.axis + arm * (d.bore * 0.75));
+    }
+    s.canvas.stroke({palette_.ink, 1.6 * u_, {}, Cap::butt});
+    if (d.radius < 60 * u_) return;
+    // The letters stand beyond the ends of the line C–B, so that they keep off it at any angle.
+    const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
+    const TextStyle style{.size = 22 * u_, .color = ink, .align = Align::centre};
+    s.canvas.text(d.centre + along * (20 * u_) + Vec2{0, 7 * u_}, math("B"), style);
+    s.canvas.text(d.axis - along * (d.bore + 16 * u_) + Vec2{0, 7 * u_}, math("C"), style);
+}
+
+void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
+    const double n = static_cast<double>(trace.beam().size()), last = static_cast<double>(s.beam.line.size() - 1);
+    const double inset = 4.5 * u_;
+    const auto at = [&](double place) {
+        const double station = std::clamp(place / n * last, 0.0, last);
+        const auto i = std::min(static_cast<std::size_t>(station), s.beam.line.size() - 2);
+        const double part = station - static_cast<double>(i);
+        const Vec2 face = px(s.beam.face(i) * (1 - part) + s.beam.face(i + 1) * part),
+                   back = px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
+        return face + (back - face) * (inset / norm(back - face));
+    };
+    stroke_places(s.canvas, facts_, trace.beam(), 5 * u_, [&](std::size_t i) {
+        s.canvas.move_to(at(static_cast<double>(i) - 1.2));
+        s.canvas.line_to(at(static_cast<double>(i) + 2.2));
+    });
+}
+
+// A ring that opens and fades where an impact began, carried along by the disc.
+void MechanismPanel::flash(const Scene& s) const {
+    if (!problem().cam) return;
+    for (const Flash& f : flashes_) {
+        const int age = s.frame - f.frame;
+        if (age < 0 || age >= kFlashFrames) continue;
+        const double share = double(age) / kFlashFrames;
+        const Vec2 at = px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * problem().cam->radius);
+        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * u_);
+        s.canvas.stroke({palette_.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * u_});
+    }
+}
+
+void MechanismPanel::force_arrow(const Scene& s) const {
+    if (!s.pose.nearest || !s.pose.nearest->touching || !(s.pose.nearest->force > 0) || !s.beam.contact) return;
+    const Vec2 foot = px(s.beam.contact->on_disc), n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
+    s.canvas.circle(foot, 5 * u_);
+    s.canvas.fill(palette_.contact);
+    // A stub that shows the direction, then in proportion to the force; the number stands beside it.
+    const double longest = (small_ ? 60 : 150) * u_, stub = 36 * u_;
+    const double length = stub + (longest - stub) * s.pose.nearest->force / facts_.arrow_scale;
+    const Vec2 tip = foot + n * length;
+    s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, 19 * u_);
+    if (small_) return;
+    const TextStyle style{.size = 22 * u_,
+                          .color = palette_.contact,
+                          .weight = Weight::medium,
+                          .align = Align::right,
+                          .halo = palette_.paper};
+    const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
+    // Beside the tip and clear of the beam's back, however short the arrow.
+    const double clear = std::max(length, look_.depth * look_.camera.scale + 26 * u_);
+    Vec2 at = foot + n * clear + Vec2{-14 * u_, 6 * u_};
+    const double w = s.canvas.measure(label, style).w;
+    at.x = std::max(at.x, box_.x + w);
+    s.canvas.text(at, label, style);
+}
+
+// Words at the contact, on a plate beside it.
+void MechanismPanel::callout(const Scene& s) const {
+    for (const Callout& c : facts_.setup->callouts) {
+        if (s.frame < c.first || s.frame > c.last || member_ != 0) continue;
+        const TextStyle style{
+            .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
+        const Box size = s.canvas.measure(escape(c.text), style);
+        const Vec2 foot = s.beam.contact ? px(s.beam.contact->on_disc) : tips_[static_cast<std::size_t>(s.frame)];
+        Box plate{foot.x + 70 * u_, foot.y + 96 * u_, size.w + 32 * u_, 46 * u_};
+        plate.x = std::clamp(plate.x, box_.x, std::max(box_.x, box_.right() - plate.w));
+        plate.y = std::clamp(plate.y, box_.y, std::max(box_.y, box_.bottom() - plate.h - 40 * u_));
+        s.canvas.move_to({plate.x + 18 * u_, plate.y});
+        s.canvas.line_to(foot);
+        s.canvas.stroke({palette_.ink, 1.6 * u_});
+        s.canvas.rounded(plate, 8 * u_);
+        s.canvas.fill_keeping_path(palette_.paper);
+        s.canvas.stroke({palette_.ink, 1.6 * u_});
+        s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_}, escape(c.text), style);
+        break;
+    }
+}
+
+}  // namespace beamcam::render

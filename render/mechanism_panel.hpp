@@ -1,0 +1,77 @@
+// The mechanism in its plane: support, cam, beam, and what is written on them: angle, force arrow, traces, flashes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/lit.hpp"
+#include "render/mechanism.hpp"
+#include "render/panel.hpp"
+
+namespace beamcam::render {
+
+class MechanismPanel final : public Panel {
+  public:
+    MechanismPanel(const FilmFacts& facts, const PanelSlot& slot);
+
+    std::unique_ptr<State> make_state() const override;
+    void draw_ground(Canvas& canvas) const override;
+    void draw(Canvas& canvas, int frame, Style style, State* state) const override;
+
+    const Camera& camera() const { return look_.camera; }
+    DrawnBeam beam(int frame) const { return beam_of(member_, frame); }
+
+  private:
+    struct Threads;  // State
+    struct Flash {
+        int frame = 0;              // the first that shows it
+        double material_angle = 0;  // on the disc, from its mark [rad]
+    };
+    // One frame as it is being drawn.
+    struct Scene {
+        Canvas& canvas;
+        int frame;
+        const sim::Pose& pose;
+        const DrawnBeam& beam;
+        const MechanismShape& shape;
+    };
+
+    DrawnBeam beam_of(int member, int frame) const;
+    const Motion& motion() const { return facts_.motion(member_); }
+    const sim::Problem& problem() const { return motion().problem; }
+    Vec2 px(Vec2 world) const { return look_.camera.to_pixels(world); }
+
+    void place_camera();
+    Bounds beams_reach() const;
+    void note_extent();
+    void find_flashes();
+    void draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const;
+    void scale_bar(Canvas& canvas) const;
+    void label(Canvas& canvas) const;
+
+    void ghosts(const Scene& s) const;
+    void trail(const Scene& s) const;
+    void angle_arc(const Scene& s) const;
+    void turning_arrow(const Scene& s) const;
+    void base_line(const Scene& s) const;
+    void disc_marks(const Scene& s, const Trace& trace) const;
+    void beam_trace(const Scene& s, const Trace& trace) const;
+    void flash(const Scene& s) const;
+    void force_arrow(const Scene& s) const;
+    void callout(const Scene& s) const;
+
+    const FilmFacts& facts_;
+    const Palette& palette_;
+    Box box_;
+    int member_;
+    bool ghosts_;             // the other motions are drawn here as outlines
+    std::vector<int> shown_;  // the motions that the camera has to show
+    double u_;
+    bool small_;
+    MechanismLook look_;
+    Box lit_box_;             // what the lit mechanism ever covers, shadows included; whole pixels
+    std::vector<Vec2> tips_;  // drawn tip of every frame [px]
+    std::vector<Flash> flashes_;
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,84 @@
+// A panel: a part of the frame with a box of its own, a ground that never changes and a layer that moves.
+//
+// Panels are made once for a film and shared by the threads that draw it; what a thread keeps between frames (a GL
+// context, a layer that grows) is its State, which may save time but never changes a pixel.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/canvas.hpp"
+#include "render/film.hpp"
+#include "render/labels.hpp"
+#include "render/ticks.hpp"
+#include "render/trace.hpp"
+
+namespace beamcam::render {
+
+// What all panels of a film share.
+struct FilmFacts {
+    explicit FilmFacts(std::shared_ptr<const FilmSetup> setup);
+
+    std::shared_ptr<const FilmSetup> setup;
+    const Palette* palette = nullptr;
+    bool cjk = false;
+    Layout places;
+    double unit = 1;  // [px] of one design pixel
+    TimeFormat time;
+    double factor = 1;                              // of exaggeration, the same for all motions
+    double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none
+    double arrow_scale = 0;                         // largest force of a frame [N]
+    double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
+    Range span;                                     // first and last instant of frames and charts [s]
+    std::vector<std::vector<TraceSample>> samples;  // of each motion
+
+    int frames() const { return static_cast<int>(setup->poses.size()); }
+    int members() const { return 1 + static_cast<int>(setup->others.size()); }
+    const Motion& motion(int member) const {
+        return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
+    }
+    const sim::Pose& pose(int member, int frame) const { return motion(member).poses[static_cast<std::size_t>(frame)]; }
+    // Of a motion among several: its own; else the palette's for motion.
+    Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+
+  private:
+    void check() const;
+    void choose_scales();
+};
+
+class Panel {
+  public:
+    struct State {
+        virtual ~State() = default;
+    };
+    virtual ~Panel() = default;
+
+    virtual std::unique_ptr<State> make_state() const { return nullptr; }
+    virtual void draw_ground(Canvas& canvas) const = 0;
+    // `style` may be flatter than the view's. `state` is one that this panel made.
+    virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
+};
+
+// The panel for a slot of the layout.
+std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot);
+
+// The makers, one a file.
+std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot);
+
+// ---- small things that panels share ------------------------------------------------------------
+
+// The column of a channel; null when the table has none.
+const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
+// Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
+double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
+void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup);
+// Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
+void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,
+                   const std::function<void(std::size_t)>& path);
+inline Vec2 down(double angle) { return {std::cos(angle), -std::sin(angle)}; }  // unit vector in pixels
+
+}  // namespace beamcam::render

@@ -1,0 +1,354 @@
+// Channels against time, and the energy ledger as stacked bands: both are Charts; here they get their contents.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/chart.hpp"
+#include "render/panel.hpp"
+#include "render/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::Channel;
+using sim::ChannelKind;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Name {
+    const char *words, *symbol;  // markup is made by `math`, subscripts apart
+    const char* subscript = "";
+};
+Name name_of(Channel channel) {
+    switch (channel.kind) {
+        case ChannelKind::t:
+            return {"Time ", "t"};
+        case ChannelKind::theta:
+            return {"Hub angle ", "θ"};
+        case ChannelKind::theta_dot:
+            return {"Hub speed ", "θ̇"};
+        case ChannelKind::tip_deflection:
+            return {"Tip deflection ", "w"};
+        case ChannelKind::tip_rate:
+            return {"Rate of the tip ", "ẇ"};
+        case ChannelKind::contact_force:
+            return {"Contact force ", "F"};
+        case ChannelKind::friction_force:
+            return {"Friction ", "F", "t"};
+        case ChannelKind::gap:
+            return {"Gap ", "g"};
+        case ChannelKind::contact_x:
+            return {"Contact point on the beam ", "x", "c"};
+        case ChannelKind::contact_s:
+            return {"Contact point on the disc ", "s", "c"};
+        case ChannelKind::cam_angle:
+            return {"Cam angle ", "ψ"};
+        case ChannelKind::q:
+            return {"Modal coordinate ", "q"};
+        case ChannelKind::energy_kinetic:
+            return {"Kinetic energy ", "T"};
+        case ChannelKind::energy_potential:
+            return {"Potential energy ", "V"};
+        case ChannelKind::energy_elastic:
+            return {"Bending energy ", "U"};
+        case ChannelKind::energy_contact:
+            return {"Energy in the contact ", "U", "c"};
+        case ChannelKind::loss_structural:
+            return {"Lost in the beam ", "D", "s"};
+        case ChannelKind::loss_contact:
+            return {"Lost in the contact ", "D", "c"};
+        case ChannelKind::loss_friction:
+            return {"Lost to friction ", "D", "f"};
+        case ChannelKind::work_cam:
+            return {"Work of the cam ", "W", "c"};
+        case ChannelKind::work_drive:
+            return {"Work of the drive ", "W", "d"};
+        case ChannelKind::energy_residual:
+            return {"Ledger residual ", "ΔE"};
+        case ChannelKind::separation:
+            return {"Separation ", "a", "n"};
+        case ChannelKind::separation_paper:
+            return {"Separation, printed form ", "a", "n"};
+    }
+    return {"", ""};
+}
+
+std::string symbol_of(Channel channel) {
+    const Name name = name_of(channel);
+    std::string text = math(name.symbol);
+    const std::string below = channel.kind == ChannelKind::q ? std::to_string(channel.index) : name.subscript;
+    return below.empty() ? text : text + "<sub>" + below + "</sub>";
+}
+
+std::string unit_text(Channel channel, const sim::Problem& problem) {
+    const std::string unit = sim::unit(channel, problem);
+    return unit == "m/s^2" ? "m/s²" : unit;
+}
+
+bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
+
+class ChartPanel : public Panel {
+  public:
+    ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
+        : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
+        const Fonts fonts(facts.cjk);
+        past_ = chart_.past(fonts, *facts.palette);
+    }
+    void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        const double t = facts_.pose(0, frame).t;
+        const Box at = chart_.past_box();
+        if (!chart_.windowed())
+            canvas.image_until(past_, static_cast<int>(at.x), static_cast<int>(at.y), chart_.cursor_column(t) + 1);
+        chart_.draw_moving(canvas, *facts_.palette, t, readings(frame));
+    }
+
+  protected:
+    virtual std::vector<Reading> readings(int frame) const = 0;
+    const FilmFacts& facts_;
+
+  private:
+    Chart chart_;
+    Image past_;
+};
+
+ChartContent blank(const FilmFacts& facts, const PanelSpec& spec, int member) {
+    ChartContent c;
+    c.time = facts.span;
+    c.window = spec.window;
+    c.time_unit = facts.time.unit;
+    c.time_label = math("t") + " / " + facts.time.symbol;
+    for (const sim::Impact& i : facts.motion(member).impacts)
+        if (i.t_start >= c.time.low && i.t_start <= c.time.high) c.marks.push_back(i.t_start);
+    return c;
+}
+
+// ---- strips ------------------------------------------------------------------------------------
+
+// The force from the chart's table, with the peaks that its sampling misses.
+void force_rows(const FilmFacts& facts, int member, Curve& curve) {
+    const Motion& one = facts.motion(member);
+    const auto *t = column(one.chart, {ChannelKind::t, 0}), *force = column(one.chart, {ChannelKind::contact_force, 0});
+    std::vector<std::array<double, 2>> rows;
+    if (t && force)
+        for (std::size_t i = 0; i < one.chart.rows(); ++i)
+            if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
+    const std::vector<TraceSample>& samples = facts.samples[static_cast<std::size_t>(member)];
+    for (const TraceSample& s : samples) rows.push_back({s.t, s.force});
+    // Only impacts that fall between the samples: a longer contact shows its own peak.
+    const double spacing = t && t->size() > 1 ? (t->back() - t->front()) / static_cast<double>(t->size() - 1) : 0;
+    for (const sim::Impact& i : one.impacts) {
+        if (!i.t_end || *i.t_end - i.t_start > 4 * spacing) continue;
+        const auto inside = t ? std::ranges::upper_bound(*t, *i.t_end) - std::ranges::lower_bound(*t, i.t_start) : 0;
+        if (inside > 4) continue;
+        rows.push_back({i.t_start, 0});
+        rows.push_back({(i.t_start + *i.t_end) / 2, i.force_peak});
+        rows.push_back({*i.t_end, 0});
+    }
+    std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });
+    std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });
+    for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
+}
+
+Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
+    Curve curve;
+    if (is_force(channel)) {
+        force_rows(facts, member, curve);
+        return curve;
+    }
+    const Motion& one = facts.motion(member);
+    const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
+    if (t && v) curve.t = *t, curve.v = *v;
+    return curve;
+}
+
+Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel channel) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const auto see = [&](double v) {
+        if (!std::isnan(v)) low = std::min(low, v), high = std::max(high, v);
+    };
+    for (const Curve& curve : curves)
+        for (double v : curve.v) see(v);
+    if (channel.kind == ChannelKind::theta)
+        for (int m = 0; m < facts.members(); ++m)
+            for (const sim::Pose& p : facts.motion(m).poses) see(p.theta);
+    if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
+    if (!(low <= high)) return {0, 1};
+    // A constant still needs an axis: a twentieth of it either way, or of one unit.
+    const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
+    if (high - low <= least) {
+        const double half = channel.kind == ChannelKind::theta || low == 0 ? 0.05 : 0.05 * std::abs(low);
+        return {low - half, high + half};
+    }
+    return {low, high};
+}
+
+class StripPanel final : public ChartPanel {
+  public:
+    StripPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : ChartPanel(facts, content(facts, slot.spec), slot.box), spec_(slot.spec) {}
+
+  private:
+    static ChartContent content(const FilmFacts& facts, const PanelSpec& spec) {
+        const Channel first = spec.channels.front();
+        const sim::Problem& problem = facts.setup->problem;
+        const Palette& p = *facts.palette;
+        ChartContent c = blank(facts, spec, 0);
+        const bool single = spec.channels.size() == 1;
+        c.words = single ? name_of(first).words : "";
+        c.unit = unit_text(first, problem);
+        for (std::size_t i = 0; i < spec.channels.size(); ++i) {
+            c.symbol += (i > 0 ? ", " : "") + symbol_of(spec.channels[i]);
+            for (int m = 0; m < facts.members(); ++m) {
+                Curve curve = first.kind == ChannelKind::contact_x ? Curve{} : curve_of(facts, m, spec.channels[i]);
+                const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
+                const bool alone = single && facts.members() == 1;
+                curve.color = alone && contact ? p.contact : series_color(p, facts.members() > 1 ? m : i);
+                curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
+                if (facts.members() > 1)
+                    curve.label = escape(facts.motion(m).label);
+                else if (!single)
+                    curve.label = symbol_of(spec.channels[i]);
+                // Colour alone does not tell curves apart for everybody.
+                const std::size_t dashes = facts.members() > 1 ? static_cast<std::size_t>(m) : i;
+                if (dashes % 3 == 1) curve.dash = {9, 4};
+                if (dashes % 3 == 2) curve.dash = {3, 3};
+                if (is_force(first)) curve.dash.clear();
+                c.curves.push_back(std::move(curve));
+            }
+        }
+        c.filled = single && is_force(first) && facts.members() == 1;
+        c.value = range_of(facts, c.curves, first);
+        if (single && first.kind == ChannelKind::contact_x) add_places(facts, c);
+        return c;
+    }
+
+    static void add_places(const FilmFacts& facts, ChartContent& c) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (int m = 0; m < facts.members(); ++m)
+            for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
+                low = std::min(low, s.x), high = std::max(high, s.x);
+                if (s.t < c.time.low || s.t > c.time.high) continue;
+                const Color color = facts.members() > 1
+                                        ? facts.member_color(m)
+                                        : force_color(*facts.palette, std::sqrt(s.force / facts.force_scale));
+                c.dots.push_back({s.t, s.x, color});
+            }
+        const double length = facts.setup->problem.beam.length;
+        if (!(low <= high)) {
+            c.value = {0, length};
+            return;
+        }
+        const double around = std::max(0.05 * (high - low), 1e-3 * length);
+        c.value = {low - around, high + around};
+    }
+
+    std::vector<Reading> readings(int frame) const override {
+        std::vector<Reading> out;
+        for (const Channel channel : spec_.channels)
+            for (int m = 0; m < facts_.members(); ++m) out.push_back({reading(m, frame, channel)});
+        return out;
+    }
+    double reading(int member, int frame, Channel channel) const {
+        const sim::Pose& pose = facts_.pose(member, frame);
+        if (channel.kind == ChannelKind::theta) return pose.theta;
+        if (channel.kind == ChannelKind::theta_dot) return pose.theta_dot;
+        if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
+        if (channel.kind == ChannelKind::contact_x)
+            return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
+        const sim::Table& table = facts_.motion(member).chart;
+        const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
+        return t && v ? value_at(*t, *v, pose.t) : kNan;
+    }
+
+    PanelSpec spec_;
+};
+
+// ---- the ledger --------------------------------------------------------------------------------
+
+// T + (V − least V) + U + U_c + losses, one upon the other: together they are the energy of the start plus all
+// work done by cam and drive, so the outline of the stack is what was supplied.
+class EnergyPanel final : public ChartPanel {
+  public:
+    EnergyPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : ChartPanel(facts, content(facts, slot.spec), slot.box), box_(slot.box) {}
+
+    void draw_ground(Canvas& canvas) const override {
+        ChartPanel::draw_ground(canvas);
+        legend(canvas);
+    }
+
+  private:
+    struct Part {
+        const char* label;
+        std::vector<ChannelKind> channels;
+        Color color;
+    };
+    static std::vector<Part> parts(const FilmFacts& facts) {
+        const Palette& p = *facts.palette;
+        using K = ChannelKind;
+        return {{"potential", {K::energy_potential}, mix(p.paper, p.motion, 0.30)},
+                {"kinetic", {K::energy_kinetic}, p.motion},
+                {"bending", {K::energy_elastic}, series_color(p, 1)},
+                {"contact", {K::energy_contact}, p.contact},
+                {"lost", {K::loss_structural, K::loss_contact, K::loss_friction}, mix(p.paper, p.muted, 0.55)}};
+    }
+
+    static ChartContent content(const FilmFacts& facts, const PanelSpec& spec) {
+        const int member = std::min(spec.member, facts.members() - 1);
+        ChartContent c = blank(facts, spec, member);
+        c.words = "Energy ";
+        c.symbol = math("E");
+        c.unit = "J";
+        const sim::Table& table = facts.motion(member).chart;
+        const auto* t = column(table, {ChannelKind::t, 0});
+        if (!t) return c;
+        c.band_times = *t;
+        std::vector<double> base(t->size(), 0.0);
+        double most = 0;
+        for (const Part& part : parts(facts)) {
+            Band band{base, base, part.color, part.label};
+            for (ChannelKind kind : part.channels) {
+                const auto* v = column(table, {kind, 0});
+                if (!v || v->empty()) continue;
+                // Only differences of potential energy mean anything: its least value is the zero.
+                const double zero = kind == ChannelKind::energy_potential ? *std::ranges::min_element(*v) : 0;
+                for (std::size_t i = 0; i < base.size(); ++i) band.high[i] += std::max((*v)[i] - zero, 0.0);
+            }
+            base = band.high;
+            for (double v : base)
+                if (v > most) most = v;
+            c.bands.push_back(std::move(band));
+        }
+        c.value = {0, most > 0 ? 1.02 * most : 1};
+        return c;
+    }
+
+    void legend(Canvas& canvas) const {
+        const double u = facts_.unit;
+        const TextStyle style{.size = 16 * u, .color = facts_.palette->muted};
+        double x = plot_area(box_, u).x +
+                   canvas.measure("Energy E / mJ", {.size = 21 * u, .weight = Weight::semibold}).w + 24 * u;
+        for (const Part& part : parts(facts_)) {
+            const double w = canvas.measure(part.label, style).w;
+            if (x + w + 22 * u > box_.right()) break;
+            canvas.rounded({x, box_.y + 14 * u, 13 * u, 13 * u}, 3 * u);
+            canvas.fill(part.color);
+            canvas.text({x + 19 * u, box_.y + 26 * u}, part.label, style);
+            x += w + 35 * u;
+        }
+    }
+    std::vector<Reading> readings(int) const override { return {}; }
+    Box box_;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<StripPanel>(facts, slot);
+}
+std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<EnergyPanel>(facts, slot);
+}
+
+}  // namespace beamcam::render
