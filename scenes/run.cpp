@@ -195,7 +195,7 @@ class Runner {
         } catch (const sim::SolverError& error) {
             progress_.end();
             try {
-                keep_partial_tables(error.partial);
+                keep_partial_tables(error.partials.front());
             } catch (const output::IoError& also) {
                 fmt::print(stderr, "beamcam: {}\n", also.what());  // the solver's failure is the one to report
             }

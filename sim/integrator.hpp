@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -21,13 +22,30 @@ struct Ode {
     int controlled = 0;
 };
 
+// Sorts of segments that can be taken down as numbers and evaluated again (trajectory.hpp).
+enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2 };
+
 class Segment {
   public:
     virtual ~Segment() = default;
     // All components at t in [t0, t1].
     virtual void value(double t, double* y) const = 0;
+    // Appends the numbers that `value` goes by, besides t0 and t1, to `out`; `none`: they are not at hand.
+    virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     double t0 = 0, t1 = 0;
 };
+
+// A segment from its numbers: `value` gives the bits that it gave when it was taken down. Loaded again and again; the
+// numbers must outlive their use.
+class StoredSegment : public Segment {
+  public:
+    // Throws std::invalid_argument when there are not as many as there must be.
+    virtual void load(double begin, double end, std::span<const double> numbers) = 0;
+};
+// Throws std::invalid_argument for `none` and for what it does not know.
+std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem);
+std::unique_ptr<StoredSegment> make_stored_rk8(int size);
+std::unique_ptr<StoredSegment> make_stored_taylor(int size);
 
 struct StepFailure : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "sim/numerics.hpp"
+#include "sim/warnings.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -190,12 +191,8 @@ Pose Eye::pose(int stations) {
 
 // ---- recorder --------------------------------------------------------------------------------
 
-Recorder::Recorder(const Problem& problem, const Request& request, Result& result)
-    : problem_(problem),
-      request_(request),
-      result_(result),
-      eye_(problem),
-      y_(static_cast<std::size_t>(eye_.system().size)) {
+Recorder::Recorder(const Problem& problem, const Request& request, double end)
+    : problem_(problem), request_(request), eye_(problem), y_(static_cast<std::size_t>(eye_.system().size)), end_(end) {
     const auto ordered = [](const std::vector<double>& times) {
         Cursor cursor;
         cursor.order.resize(times.size());
@@ -390,8 +387,9 @@ void Recorder::ledger() {
     result_.energy_residual_max = std::max(result_.energy_residual_max, std::fabs(books.total() - start_total_));
 }
 
-void Recorder::stretch(const Stretch& s) {
+void Recorder::stretch(const Stretch& s, Notes* made) {
     if (!(s.to > s.from) && !s.last) return;
+    const std::size_t apexes = result_.apexes.size(), zeros = result_.theta_zero.size();
     // Each observer starts its search of the contact afresh, so that none sees what another looked at:
     // the last bits of a foot point depend on where its iteration began.
     sample(s);
@@ -411,6 +409,33 @@ void Recorder::stretch(const Stretch& s) {
         eye_.look(t, y_.data());
         ledger();
     }
+    if (!made) return;
+    made->apexes.assign(result_.apexes.begin() + static_cast<std::ptrdiff_t>(apexes), result_.apexes.end());
+    made->theta_zero.assign(result_.theta_zero.begin() + static_cast<std::ptrdiff_t>(zeros), result_.theta_zero.end());
+    if (impact_open_) {
+        made->force_peak = result_.impacts.back().force_peak;
+        made->penetration_peak = result_.impacts.back().penetration_peak;
+    }
+    made->energy_scale = result_.energy_scale;
+    made->energy_residual_max = result_.energy_residual_max;
+    made->largest_elastic = largest_elastic_;
+}
+
+void Recorder::stretch(const Stretch& s, const Notes& known) {
+    if (!(s.to > s.from)) return;
+    sample(s);
+    eye_.system().search_again();
+    extrema(s);
+    eye_.system().search_again();
+    result_.apexes.insert(result_.apexes.end(), known.apexes.begin(), known.apexes.end());
+    result_.theta_zero.insert(result_.theta_zero.end(), known.theta_zero.begin(), known.theta_zero.end());
+    if (impact_open_) {
+        result_.impacts.back().force_peak = known.force_peak;
+        result_.impacts.back().penetration_peak = known.penetration_peak;
+    }
+    result_.energy_scale = known.energy_scale;
+    result_.energy_residual_max = known.energy_residual_max;
+    largest_elastic_ = known.largest_elastic;
 }
 
 void Recorder::touch(double t, const double* y, const ContactState& c) {
@@ -472,7 +497,7 @@ void Recorder::settle(const double* y) {
     collision.energy_lost += impact.energy_lost;
 }
 
-void Recorder::end(double t, const double* y) {
+void Recorder::finish(double t, const double* y, const Tally& tally) {
     if (impact_open_) {
         eye_.look(t, y);
         settle(y);
@@ -483,6 +508,101 @@ void Recorder::end(double t, const double* y) {
     for (Extremum& e : result_.extrema)
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
     result_.end_time = t;
+    result_.counters = tally.counters;
+    result_.warnings = warnings(problem_, result_, tally, largest_elastic_);
+}
+
+// ---- audience --------------------------------------------------------------------------------
+
+double end_of(const Request& request) {
+    double end = request.end_time;
+    const auto extend = [&](const std::vector<double>& times) {
+        for (double t : times) end = std::max(end, t);
+    };
+    for (const TableRequest& table : request.tables) extend(table.times);
+    for (const PoseRequest& poses : request.poses) extend(poses.times);
+    for (const PointRequest& points : request.points) extend(points.times);
+    return end;
+}
+
+Audience::Audience(const Problem& problem, std::span<const Request> requests) : done_(requests.size(), 0) {
+    recorders_.reserve(requests.size());
+    for (const Request& request : requests) {
+        recorders_.emplace_back(problem, request, end_of(request));
+        end_ = std::max(end_, recorders_.back().end());
+    }
+}
+
+void Audience::begin(const Phase& phase, const std::vector<double>& y) {
+    y_.resize(y.size());
+    for (Recorder& r : recorders_) r.begin(phase, y);
+}
+
+void Audience::finish(Recorder& recorder, double t, const double* y, const TallySource& tally) {
+    recorder.finish(t, y, tally());
+    done_[static_cast<std::size_t>(&recorder - recorders_.data())] = 1;
+}
+
+const Notes* Audience::stretch(const Segment& segment, double from, double to, bool event, const TallySource& tally,
+                               const Notes* known) {
+    for (Recorder& r : recorders_) {
+        if (!listens(r)) continue;
+        const bool ends = r.end() < to || (r.end() == to && !event);
+        if (ends) {
+            r.stretch({&segment, from, r.end(), true});
+            segment.value(r.end(), y_.data());
+            finish(r, r.end(), y_.data(), tally);
+        } else if (known) {
+            r.stretch({&segment, from, to, false}, *known);
+        } else {
+            r.stretch({&segment, from, to, false}, &notes_);
+            known = &notes_;
+        }
+    }
+    return known;
+}
+
+void Audience::touch(double t, const double* y, const ContactState& contact) {
+    for (Recorder& r : recorders_)
+        if (listens(r)) r.touch(t, y, contact);
+}
+
+void Audience::release(double t, const double* y, const ContactState& contact) {
+    for (Recorder& r : recorders_)
+        if (listens(r)) r.release(t, y, contact);
+}
+
+namespace {
+
+// The end of a run that falls on an instant without a segment of its own.
+struct PointSegment final : Segment {
+    PointSegment(double t, const std::vector<double>& state) : y(state) { t0 = t1 = t; }
+    void value(double, double* out) const override { std::copy(y.begin(), y.end(), out); }
+    const std::vector<double>& y;
+};
+
+}  // namespace
+
+void Audience::resume(double t, const std::vector<double>& y, const Phase& phase, const TallySource& tally) {
+    for (Recorder& r : recorders_) {
+        if (!listens(r)) continue;
+        r.phase(phase);
+        if (r.end() > t) continue;
+        const PointSegment point(t, y);
+        r.stretch({&point, t, t, true});
+        finish(r, t, y.data(), tally);
+    }
+}
+
+void Audience::give_up(double t, const std::vector<double>& y, const TallySource& tally) {
+    for (Recorder& r : recorders_)
+        if (listens(r)) finish(r, t, y.data(), tally);
+}
+
+std::vector<Result> Audience::results() {
+    std::vector<Result> all;
+    for (Recorder& r : recorders_) all.push_back(std::move(r.result()));
+    return all;
 }
 
 }  // namespace beamcam::sim

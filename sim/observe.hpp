@@ -3,6 +3,8 @@
 // recording never changes a bit of the motion.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "sim/integrator.hpp"
@@ -41,17 +43,37 @@ class Eye {
     double hub_acceleration_ = 0;
 };
 
+// What a stretch adds to every result, whatever was asked for. Found once, told to every recorder.
+struct Notes {
+    std::vector<Apex> apexes;
+    std::vector<ZeroCrossing> theta_zero;
+    // So far: of the impact still open, of the energy ledger, and the largest bending energy [J].
+    decltype(Impact::force_peak) force_peak{};
+    double penetration_peak = 0, energy_scale = 0, energy_residual_max = 0, largest_elastic = 0;
+};
+
+// What an integration has counted so far.
+struct Tally {
+    Counters counters;
+    long floored = 0;   // touches slower than the approach floor
+    long chatters = 0;  // ends of chatter in sustained contact
+};
+
+// Records for one request, until its own end.
 class Recorder {
   public:
-    Recorder(const Problem& problem, const Request& request, Result& result);
+    Recorder(const Problem& problem, const Request& request, double end);
 
     void begin(const Phase& phase, const std::vector<double>& y);
     void phase(const Phase& phase);
-    void stretch(const Stretch& s);
+    void stretch(const Stretch& s, Notes* made = nullptr);
+    void stretch(const Stretch& s, const Notes& known);  // not the last one
     void touch(double t, const double* y, const ContactState& contact);
     void release(double t, const double* y, const ContactState& contact);
-    void end(double t, const double* y);
-    double largest_elastic() const { return largest_elastic_; }  // bending energy [J]
+    void finish(double t, const double* y, const Tally& tally);
+
+    double end() const { return end_; }
+    Result& result() { return result_; }
 
   private:
     struct Cursor {
@@ -70,13 +92,53 @@ class Recorder {
 
     const Problem& problem_;
     const Request& request_;
-    Result& result_;
+    Result result_;
     Eye eye_;
     std::vector<double> y_;
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
-    double start_total_ = 0, largest_elastic_ = 0;
+    double end_ = 0, start_total_ = 0, largest_elastic_ = 0;
     bool impact_open_ = false;
     double books_at_touch_lost_ = 0, impulse_n_at_touch_ = 0, impulse_t_at_touch_ = 0;
 };
+
+// The recorders of one integration. Each hears of it what it would hear if it were alone and the run
+// ended with it: its result does not depend on the others.
+class Audience {
+  public:
+    // The tally where the integration stands. Asked for after a stretch was looked at.
+    using TallySource = std::function<Tally()>;
+
+    Audience(const Problem& problem, std::span<const Request> requests);
+    double end() const { return end_; }  // the furthest that anybody looks [s]
+
+    void begin(const Phase& phase, const std::vector<double>& y);
+    // From `from` to `to`, where an event follows or not. `known` are the notes of an earlier run. Returns the
+    // notes; null where nobody looks at the whole stretch.
+    const Notes* stretch(const Segment& segment, double from, double to, bool event, const TallySource& tally,
+                         const Notes* known = nullptr);
+    void touch(double t, const double* y, const ContactState& contact);
+    void release(double t, const double* y, const ContactState& contact);
+    // After an event, and at the start: the motion goes on from here.
+    void resume(double t, const std::vector<double>& y, const Phase& phase, const TallySource& tally);
+    // Nothing follows.
+    void give_up(double t, const std::vector<double>& y, const TallySource& tally);
+
+    std::vector<Result> results();  // in the order of the requests; once
+
+  private:
+    bool listens(const Recorder& recorder) const {
+        return !done_[static_cast<std::size_t>(&recorder - recorders_.data())];
+    }
+    void finish(Recorder& recorder, double t, const double* y, const TallySource& tally);
+
+    std::vector<Recorder> recorders_;
+    std::vector<char> done_;  // by recorder
+    std::vector<double> y_;
+    Notes notes_;
+    double end_ = 0;
+};
+
+// The last instant that a request looks at [s].
+double end_of(const Request& request);
 
 }  // namespace beamcam::sim

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "sim/integrator.hpp"
@@ -162,6 +163,49 @@ constexpr double kD[4][12] = {
      0.96324553959188282948394950600e+02, -0.39177261675615439165231486172e+02, -0.14972683625798562581422125276e+03},
 };
 
+constexpr std::size_t kDenseRows = 7;
+
+// The continuous extension at the share s of the step: y out of its start and seven rows, each of n numbers.
+template <class Row>
+void extend(double s, std::size_t n, const double* start, const Row* rows, double* y) {
+    const double r = 1 - s;
+    for (std::size_t i = 0; i < n; ++i) {
+        double v = rows[6][i] * s;
+        v = (v + rows[5][i]) * r;
+        v = (v + rows[4][i]) * s;
+        v = (v + rows[3][i]) * r;
+        v = (v + rows[2][i]) * s;
+        v = (v + rows[1][i]) * r;
+        v = (v + rows[0][i]) * s;
+        y[i] = start[i] + v;
+    }
+}
+
+// Start, end and the seven rows, one after the other.
+class StoredRk8 final : public StoredSegment {
+  public:
+    explicit StoredRk8(int size) : n_(static_cast<std::size_t>(size)) {}
+    void load(double begin, double end, std::span<const double> numbers) override {
+        if (numbers.size() != (2 + kDenseRows) * n_)
+            throw std::invalid_argument("a segment of the trajectory has the wrong length");
+        t0 = begin;
+        t1 = end;
+        start_ = numbers.data();
+        for (std::size_t i = 0; i < kDenseRows; ++i) rows_[i] = numbers.data() + (2 + i) * n_;
+    }
+    void value(double t, double* y) const override {
+        if (t == t1)
+            std::copy_n(start_ + n_, n_, y);
+        else
+            extend((t - t0) / (t1 - t0), n_, start_, rows_.data(), y);
+    }
+
+  private:
+    std::size_t n_;
+    const double* start_ = nullptr;
+    std::array<const double*, kDenseRows> rows_{};
+};
+
 // Step-size factors of the book's code: safety 0.9, between 1/3 and 6 a step.
 constexpr double kSafety = 0.9, kShrink = 1.0 / 3.0, kGrow = 6.0;
 
@@ -228,17 +272,15 @@ class Rk8 final : public Integrator, private Segment {
             return;
         }
         if (!dense_known_) const_cast<Rk8*>(this)->build_dense();
-        const double s = (t - t0) / (t1 - t0), r = 1 - s;
-        for (std::size_t i = 0; i < n_; ++i) {
-            double v = dense_[6][i] * s;
-            v = (v + dense_[5][i]) * r;
-            v = (v + dense_[4][i]) * s;
-            v = (v + dense_[3][i]) * r;
-            v = (v + dense_[2][i]) * s;
-            v = (v + dense_[1][i]) * r;
-            v = (v + dense_[0][i]) * s;
-            y[i] = y_[i] + v;
-        }
+        extend((t - t0) / (t1 - t0), n_, y_.data(), dense_.data(), y);
+    }
+
+    SegmentKind numbers(std::vector<double>& out) const override {
+        if (!dense_known_) const_cast<Rk8*>(this)->build_dense();
+        out.insert(out.end(), y_.begin(), y_.end());
+        out.insert(out.end(), end_.begin(), end_.end());
+        for (const std::vector<double>& row : dense_) out.insert(out.end(), row.begin(), row.end());
+        return SegmentKind::rk8;
     }
 
   private:
@@ -326,7 +368,7 @@ class Rk8 final : public Integrator, private Segment {
     double rtol_, atol_;
     std::size_t n_;
     std::array<std::vector<double>, kAll> k_;
-    std::array<std::vector<double>, 7> dense_;
+    std::array<std::vector<double>, kDenseRows> dense_;
     std::vector<double> y_, end_, work_;
     double next_ = 0;
     bool dense_known_ = false;
@@ -337,5 +379,7 @@ class Rk8 final : public Integrator, private Segment {
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol) {
     return std::make_unique<Rk8>(ode, rtol, atol);
 }
+
+std::unique_ptr<StoredSegment> make_stored_rk8(int size) { return std::make_unique<StoredRk8>(size); }
 
 }  // namespace beamcam::sim

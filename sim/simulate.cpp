@@ -11,6 +11,8 @@
 #include "sim/numerics.hpp"
 #include "sim/observe.hpp"
 #include "sim/system.hpp"
+#include "sim/trajectory.hpp"
+#include "sim/warnings.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -57,14 +59,9 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, 
 
 enum class EventKind { none, touch, release, clamp, grip, lift };
 
-// Model `restitution`: a rebound slower than this share of the approach floor ends the chatter in
-// sustained contact. A bouncing point then rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
-constexpr double kChatterShare = 1e-3;
-
-constexpr int kMaxLooks = 16;          // into one step, for events
-constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
-constexpr double kMostPieces = 1e5;    // of one step, for touches
-constexpr double kRestSpeed = 1e-12;   // [m/s] slower is rounding
+constexpr int kMaxLooks = 16;         // into one step, for events
+constexpr double kMostPieces = 1e5;   // of one step, for touches
+constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -72,20 +69,14 @@ struct Event {
 
 class Run {
   public:
-    Run(const Problem& problem, const Request& request, const Progress& progress)
+    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep)
         : problem_(problem),
-          request_(request),
           progress_(progress),
+          keep_(keep),
           dynamics_(problem),
           scout_(problem),
-          recorder_(problem, request, result_) {
-        end_ = request.end_time;
-        for (const TableRequest& table : request.tables)
-            for (double t : table.times) end_ = std::max(end_, t);
-        for (const PoseRequest& poses : request.poses)
-            for (double t : poses.times) end_ = std::max(end_, t);
-        for (const PointRequest& points : request.points)
-            for (double t : points.times) end_ = std::max(end_, t);
+          audience_(problem, requests),
+          end_(audience_.end()) {
         const Solver& solver = problem.solver;
         // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
         // many impacts stays within the ledger's bound of ten times rtol.
@@ -97,17 +88,18 @@ class Run {
         probe_y_.resize(y_.size());
     }
 
-    Result go() {
-        const auto clock = std::chrono::steady_clock::now();
+    // Throws SolverError with what was reached by then.
+    std::vector<Result> go() {
         try {
             integrate();
         } catch (const StepFailure& failure) {
-            finish(clock);
-            throw SolverError(explain(failure), t_, std::move(result_));
+            audience_.give_up(t_, y_, tally_source_);
+            throw SolverError(explain(failure), t_, audience_.results());
         }
-        finish(clock);
-        return std::move(result_);
+        if (keep_) keep_->end(end_);
+        return audience_.results();
     }
+    Counters counters() const { return tally().counters; }
 
   private:
     void integrate() {
@@ -117,36 +109,56 @@ class Run {
         kinks_ = dynamics_.drive().kinks();
         phase_ = start.phase;
         enter_phase();
-        recorder_.begin(phase_, y_);
+        audience_.begin(phase_, y_);
+        if (keep_) keep_->begin(phase_, y_);
         integrator_->stop_at(next_kink());
         if (phase_.touching) {
             set_grip();
-            recorder_.touch(0, y_.data(), contact_now());
+            tell_touch(contact_now());
         }
-        bool more = start_segment();
+        go_on();
         long steps = 0;
-        while (more) {
+        while (t_ < end_) {
             const Segment* segment = &integrator_->step();
             if (progress_ && (++steps & 255) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
             const Event event = first_event(*segment);
-            if (event.kind != EventKind::none && event.t <= end_) {
-                handle(*segment, event);
+            if (event.kind == EventKind::none) {
+                const bool kink = segment->t1 >= next_kink();
+                pass(*segment, segment->t0, kink);
+                if (kink) pass_kinks();
+                if (kink) go_on();
+            } else if (reach(*segment, event)) {
+                change(event);
                 pass_kinks();
-                more = t_ < end_;
-                if (!more) observe_point();
-                if (more) start_segment();
-                continue;
-            }
-            more = segment->t1 < end_;
-            const double from = segment->t0, to = std::min(segment->t1, end_);
-            recorder_.stretch({segment, from, to, !more});
-            segment->value(to, y_.data());
-            t_ = to;
-            if (more && segment->t1 >= next_kink()) {
-                pass_kinks();
-                start_segment();
+                go_on();
             }
         }
+    }
+
+    // Tells of the segment from `from`, as far as anybody looks; something happens at its end or not.
+    void pass(const Segment& segment, double from, bool event) {
+        const double to = std::min(segment.t1, end_);
+        const bool happens = event && segment.t1 <= end_;
+        const Notes* notes = audience_.stretch(segment, from, to, happens, tally_source_);
+        if (keep_) keep_->stretch(segment, from, to, happens, tally(), notes);
+        segment.value(to, y_.data());
+        t_ = to;
+    }
+
+    // From (t_, y_) after an event, and at the start.
+    void go_on() {
+        audience_.resume(t_, y_, phase_, tally_source_);
+        if (keep_) keep_->resume(t_, y_, phase_, tally());
+        if (t_ < end_) integrator_->start(t_, y_.data());
+    }
+
+    void tell_touch(const ContactState& c) {
+        audience_.touch(t_, y_.data(), c);
+        if (keep_) keep_->touch(t_, y_, c);
+    }
+    void tell_release(const ContactState& c) {
+        audience_.release(t_, y_.data(), c);
+        if (keep_) keep_->release(t_, y_, c);
     }
 
     double next_kink() const { return kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front(); }
@@ -155,25 +167,6 @@ class Run {
     void pass_kinks() {
         while (!kinks_.empty() && kinks_.front() - t_ <= 1e-14 * std::fabs(t_)) kinks_.erase(kinks_.begin());
         integrator_->stop_at(next_kink());
-    }
-
-    bool start_segment() {
-        integrator_->start(t_, y_.data());
-        if (end_ > t_) return true;
-        observe_point();
-        return false;
-    }
-
-    // The end of the run falls on a point without a segment of its own.
-    struct PointSegment final : Segment {
-        explicit PointSegment(const std::vector<double>& state) : y(state) {}
-        void value(double, double* out) const override { std::copy(y.begin(), y.end(), out); }
-        const std::vector<double>& y;
-    };
-    void observe_point() {
-        PointSegment point(y_);
-        point.t0 = point.t1 = t_;
-        recorder_.stretch({&point, t_, t_, true});
     }
 
     void enter_phase() {
@@ -338,7 +331,8 @@ class Run {
 
     // ---- transitions ----
 
-    void handle(const Segment& segment, Event event) {
+    // Puts (t_, y_) at the event. False when the run ends before.
+    bool reach(const Segment& segment, const Event& event) {
         const double start = segment.t0;
         if (event.t > start) {
             const Segment* ended = &integrator_->shorten(event.t);
@@ -350,22 +344,25 @@ class Run {
                 if (std::isfinite(dt) && std::fabs(dt) < 1e-3 * (ended->t1 - start))
                     ended = &integrator_->shorten(event.t + dt);
             }
-            recorder_.stretch({ended, start, ended->t1, false});
-            t_ = ended->t1;
-            ended->value(t_, y_.data());
+            // Also when the run ends before the event: a longer run looks at this shortened step, too.
+            pass(*ended, start, true);
             idle_events_ = 0;
-        } else {
-            segment.value(start, y_.data());
-            t_ = start;
-            // Events without progress: a guard that cannot leave its surface.
-            if (++idle_events_ > 50)
-                throw StepFailure("the contact changes its state again and again without time passing");
+            return ended->t1 <= end_;
         }
+        segment.value(start, y_.data());
+        t_ = start;
+        // Events without progress: a guard that cannot leave its surface.
+        if (++idle_events_ > 50)
+            throw StepFailure("the contact changes its state again and again without time passing");
+        return true;
+    }
+
+    void change(const Event& event) {
         switch (event.kind) {
             case EventKind::none:
                 break;
             case EventKind::clamp:
-                return;  // same phase, new step: the kink lies between steps
+                break;  // same phase, new step: the kink lies between steps
             case EventKind::touch:
                 problem_.contact.model == ContactModel::restitution ? strike() : touch();
                 break;
@@ -379,7 +376,6 @@ class Run {
                 change_grip();
                 break;
         }
-        recorder_.phase(phase_);
     }
 
     void touch() {
@@ -407,8 +403,7 @@ class Run {
         if (approach < floor.value) ++floored_;
         set_grip();
         enter_phase();
-        recorder_.phase(phase_);
-        recorder_.touch(t_, y_.data(), contact_now());
+        tell_touch(contact_now());
     }
 
     // ---- impulsive contact ----
@@ -421,7 +416,7 @@ class Run {
         enter_phase();
         c = contact_now();
         const double approach = -c.gap_rate;
-        recorder_.touch(t_, y_.data(), c);
+        tell_touch(c);
         const double chatter = kChatterShare * problem_.contact.approach_floor.value;
         const Compliance compliance = scout_.compliance(t_, y_.data(), c);
         const double e = problem_.contact.restitution;
@@ -442,13 +437,13 @@ class Run {
         ContactState after = c;
         after.gap_rate = impact.v_n;
         after.slip = impact.v_t;
-        recorder_.release(t_, y_.data(), after);
+        tell_release(after);
         last_release_ = t_;
     }
 
     void lift() {
         const ContactState c = contact_now();
-        recorder_.release(t_, y_.data(), c);
+        tell_release(c);
         phase_.touching = phase_.held = false;
         phase_.gap_offset = 0;
         enter_phase();
@@ -490,7 +485,7 @@ class Run {
 
     void release() {
         const ContactState c = contact_now();
-        recorder_.release(t_, y_.data(), c);
+        tell_release(c);
         phase_.touching = false;
         phase_.gap_offset = 0;
         enter_phase();
@@ -504,57 +499,17 @@ class Run {
 
     // ---- the end ----
 
-    void finish(std::chrono::steady_clock::time_point clock) {
-        recorder_.end(t_, y_.data());
-        Counters& c = result_.counters;
+    Tally tally() const {
+        Tally all;
+        Counters& c = all.counters;
         c.steps = integrator_->counters.steps;
         c.rejected = integrator_->counters.rejected;
         c.rhs_evaluations = integrator_->counters.rhs;
         c.jacobians = integrator_->counters.jacobians;
         c.gap_evaluations = dynamics_.gap_evaluations + scout_.gap_evaluations;
-        result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-        tell_chatter();
-        tell_ledger();
-        tell_slopes();
-        if (floored_ > 0)
-            result_.warnings.push_back(
-                fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
-                            "dissipation uses that floor",
-                            floored_, result_.impacts.size(), problem_.contact.approach_floor.value));
-    }
-
-    // Ten times what was asked for is the promise of `auto`; whatever misses it says so.
-    void tell_ledger() {
-        const double limit = 10 * problem_.solver.rtol * result_.energy_scale;
-        if (problem_.beam.model == ModelKind::paper || !(result_.energy_residual_max > limit)) return;
-        result_.warnings.push_back(
-            fmt::format("the energy ledger closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
-                        "tighten solver.rtol{}",
-                        result_.energy_residual_max, result_.energy_scale, problem_.solver.rtol,
-                        problem_.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
-    }
-
-    // ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape.
-    void tell_slopes() {
-        const Beam& beam = problem_.beam;
-        if (beam.model == ModelKind::exact || beam.model == ModelKind::rigid) return;
-        const double slope = std::sqrt(2 * recorder_.largest_elastic() * beam.length / beam.bending_stiffness());
-        if (slope > kLargestSlope)
-            result_.warnings.push_back(
-                fmt::format("the beam bends through angles up to about {:.2g} rad; {} holds for small ones: use "
-                            "\"model\": \"exact\"",
-                            slope, name(beam.model)));
-    }
-
-    void tell_chatter() {
-        if (chatters_ == 0) return;
-        const double speed = kChatterShare * problem_.contact.approach_floor.value;
-        result_.warnings.push_back(
-            fmt::format("chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s "
-                        "(contact.approach_floor.value times {:g}): energy "
-                        "left out per end at most {:.2g} J",
-                        chatters_, chatters_ == 1 ? "" : "s", speed, kChatterShare,
-                        0.5 * problem_.beam.line_density() * problem_.beam.length * speed * speed));
+        all.floored = floored_;
+        all.chatters = chatters_;
+        return all;
     }
 
     std::string explain(const StepFailure& failure) const {
@@ -581,58 +536,128 @@ class Run {
     }
 
     const Problem& problem_;
-    const Request& request_;
     const Progress& progress_;
-    Result result_;
+    TrajectoryWriter* keep_;
     System dynamics_, scout_;
-    Recorder recorder_;
+    Audience audience_;
     std::unique_ptr<Integrator> integrator_;
     std::vector<double> y_, probe_y_, kinks_;
     Phase phase_;
-    double t_ = 0, end_ = 0, phase_start_ = 0, first_approach_ = 0;
+    double end_ = 0, t_ = 0, phase_start_ = 0, first_approach_ = 0;
     std::optional<double> last_release_;
     long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
     bool sunk_ = false;
+    const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 
 // Until when θ is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.
 constexpr double kHorizonError = 1e-6;  // [rad], relative to max(1, |θ|)
 constexpr double kHorizonRate = 1000;   // [Hz] of comparison
 
-double horizon(const Problem& problem, double end_time, const Progress& progress) {
-    Request request;
+Request horizon_request(double end) {
     TableRequest table;
     table.channels = {{ChannelKind::theta, 0}};
-    const auto rows = static_cast<long>(std::floor(end_time * kHorizonRate));
+    const auto rows = static_cast<long>(std::floor(end * kHorizonRate));
     for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kHorizonRate);
-    table.times.push_back(end_time);
-    request.tables.push_back(table);
+    table.times.push_back(end);
+    Request request;
+    request.tables.push_back(std::move(table));
+    return request;
+}
+
+double agree_until(const Request& request, const Result& plain, const Result& tight) {
+    const std::vector<double>& times = request.tables[0].times;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const double a = plain.tables[0].values[0][i], b = tight.tables[0].values[0][i];
+        if (std::fabs(a - b) > kHorizonError * std::max(1.0, std::fabs(b))) return i > 0 ? times[i - 1] : 0;
+    }
+    return times.back();
+}
+
+std::vector<Result> integrate(const Problem& problem, std::span<const Request> requests, const Progress& progress,
+                              TrajectoryWriter* keep, Effort* effort) {
+    Run run(problem, requests, progress, keep);
+    std::vector<Result> results = run.go();
+    if (effort) effort->add(run.counters());
+    return results;
+}
+
+// `motion(requests)` gives the results of the problem itself. A horizon needs one run more, at a tighter tolerance.
+template <class Motion>
+std::vector<Result> with_horizons(const Problem& problem, std::span<const Request> requests, const Progress& progress,
+                                  Effort* effort, Motion&& motion) {
+    double end = -1;
+    for (const Request& request : requests)
+        if (request.horizon) end = std::max(end, end_of(request));
+    if (end < 0) return motion(requests);
+    std::vector<Request> all(requests.begin(), requests.end());
+    all.push_back(horizon_request(end));
+    std::vector<Result> results = motion(all);
     Problem tighter = problem;
     tighter.solver.rtol = std::max(1e-13, problem.solver.rtol / 100);
     tighter.solver.atol = problem.solver.atol / 100;
-    Run plain_run(problem, request, progress);
-    Run tight_run(tighter, request, progress);
-    const Result plain = plain_run.go(), tight = tight_run.go();
-    for (std::size_t i = 0; i < table.times.size(); ++i) {
-        const double a = plain.tables[0].values[0][i], b = tight.tables[0].values[0][i];
-        if (std::fabs(a - b) > kHorizonError * std::max(1.0, std::fabs(b))) return i > 0 ? table.times[i - 1] : 0;
-    }
-    return end_time;
+    const Request& theta = all.back();
+    const std::vector<Result> tight = integrate(tighter, {&theta, 1}, progress, nullptr, effort);
+    const double until = agree_until(theta, results.back(), tight.front());
+    results.pop_back();
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        if (requests[i].horizon) results[i].reproducible_until = std::min(until, results[i].end_time);
+    return results;
+}
+
+void require_valid(const Problem& problem) {
+    for (const Finding& finding : validate(problem))
+        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
+}
+
+template <class Work>
+std::vector<Result> timed(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Result> results = work();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (Result& result : results) result.wall_seconds = seconds;
+    return results;
 }
 
 }  // namespace
 
-SolverError::SolverError(const std::string& what, double last_good_time, Result partial_result)
-    : std::runtime_error(what), last_time(last_good_time), partial(std::move(partial_result)) {}
+SolverError::SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results)
+    : std::runtime_error(what), last_time(last_good_time), partials(std::move(partial_results)) {}
+
+void Effort::add(const Counters& counters) {
+    ++integrations;
+    spent.steps += counters.steps;
+    spent.rejected += counters.rejected;
+    spent.rhs_evaluations += counters.rhs_evaluations;
+    spent.gap_evaluations += counters.gap_evaluations;
+    spent.jacobians += counters.jacobians;
+}
+
+std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress,
+                             TrajectoryWriter* keep, Effort* effort) {
+    require_valid(problem);
+    return timed([&] {
+        return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
+            return integrate(problem, all, progress, keep, effort);
+        });
+    });
+}
 
 Result simulate(const Problem& problem, const Request& request, const Progress& progress) {
-    for (const Finding& finding : validate(problem))
-        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
-    Run run(problem, request, progress);
-    Result result = run.go();
-    if (request.horizon) result.reproducible_until = horizon(problem, result.end_time, progress);
-    return result;
+    return std::move(simulate(problem, {&request, 1}, progress).front());
+}
+
+std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
+                           const Progress& progress, Effort* effort) {
+    require_valid(problem);
+    return timed([&] {
+        return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
+            Audience audience(problem, all);
+            trajectory.play(problem, audience);
+            return audience.results();
+        });
+    });
 }
 
 }  // namespace beamcam::sim

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -106,11 +107,11 @@ struct Result {
     std::vector<std::string> warnings;  // in the user's terms
 };
 
-// The integration could not go on (exit code 4). `partial` holds what was reached by then.
+// The integration could not go on (exit code 4). `partials` hold what was reached by then.
 struct SolverError : std::runtime_error {
-    SolverError(const std::string& what, double last_good_time, Result partial_result);
+    SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results);
     double last_time;
-    Result partial;
+    std::vector<Result> partials;  // one per Request
 };
 struct Interrupted : std::runtime_error {
     Interrupted() : std::runtime_error("interrupted") {}
@@ -119,7 +120,27 @@ struct Interrupted : std::runtime_error {
 // Called now and then with the time reached; returning false ends the run with `Interrupted`.
 using Progress = std::function<bool(double t)>;
 
+// What was really done, by one call or several: nothing for what came from a kept trajectory.
+struct Effort {
+    long integrations = 0;
+    Counters spent;
+    void add(const Counters& counters);
+};
+
+class Trajectory;
+class TrajectoryWriter;
+
 // Throws SolverError, Interrupted; std::invalid_argument when `validate(problem)` has fatal findings.
 Result simulate(const Problem& problem, const Request& request, const Progress& progress = {});
+
+// One integration for several requests. Each result has the same bits as if its request had been alone. `keep`
+// takes the trajectory down (trajectory.hpp).
+std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress = {},
+                             TrajectoryWriter* keep = nullptr, Effort* effort = nullptr);
+
+// The same from a trajectory that was kept, which must reach as far as the requests: the same bits again. A
+// horizon still costs its second run.
+std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
+                           const Progress& progress = {}, Effort* effort = nullptr);
 
 }  // namespace beamcam::sim

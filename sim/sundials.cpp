@@ -174,6 +174,15 @@ class Cvode final : public Integrator, private Segment {
         }
     }
 
+    SegmentKind numbers(std::vector<double>& out) const override {
+        out.push_back(base_);
+        for (int k = 0; k <= order_; ++k) {
+            const std::vector<double>& row = taylor_[static_cast<std::size_t>(k)];
+            out.insert(out.end(), row.begin(), row.end());
+        }
+        return SegmentKind::taylor;
+    }
+
   private:
     // Counts of the present CVODE memory are restarted by CVodeReInit: add up the differences.
     void collect() {
@@ -235,6 +244,34 @@ class Cvode final : public Integrator, private Segment {
     int order_ = 0;
     double base_ = 0;
     IntegratorCounters last_;
+};
+
+// The instant it is expanded about, and its coefficients from the constant on.
+class StoredTaylor final : public StoredSegment {
+  public:
+    explicit StoredTaylor(int size) : n_(static_cast<std::size_t>(size)) {}
+    void load(double begin, double end, std::span<const double> numbers) override {
+        if (numbers.size() < 1 + n_ || (numbers.size() - 1) % n_ != 0)
+            throw std::invalid_argument("a segment of the trajectory has the wrong length");
+        t0 = begin;
+        t1 = end;
+        base_ = numbers.front();
+        rows_ = numbers.subspan(1);
+    }
+    void value(double t, double* y) const override {
+        const double s = t - base_;
+        const std::size_t order = rows_.size() / n_ - 1;
+        for (std::size_t i = 0; i < n_; ++i) {
+            double v = rows_[order * n_ + i];
+            for (std::size_t k = order; k-- > 0;) v = v * s + rows_[k * n_ + i];
+            y[i] = v;
+        }
+    }
+
+  private:
+    std::size_t n_;
+    double base_ = 0;
+    std::span<const double> rows_;
 };
 
 class Arkode final : public Integrator, private Segment {
@@ -332,6 +369,8 @@ class Arkode final : public Integrator, private Segment {
 };
 
 }  // namespace
+
+std::unique_ptr<StoredSegment> make_stored_taylor(int size) { return std::make_unique<StoredTaylor>(size); }
 
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
     if (method == Method::arkode_erk) return std::make_unique<Arkode>(ode, rtol, atol);

@@ -468,7 +468,7 @@ TEST(Cam, PressedThroughIsToldInWords) {
     } catch (const SolverError& error) {
         EXPECT_NE(std::string(error.what()).find("contact.stiffness"), std::string::npos) << error.what();
         EXPECT_GT(error.last_time, 0.2);
-        EXPECT_EQ(error.partial.impacts.size(), 1u);
+        EXPECT_EQ(error.partials.at(0).impacts.size(), 1u);
     }
 }
 

@@ -1,0 +1,66 @@
+#include "sim/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+
+void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
+    if (tally.chatters == 0) return;
+    const double speed = kChatterShare * problem.contact.approach_floor.value;
+    out.push_back(
+        fmt::format("chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s "
+                    "(contact.approach_floor.value times {:g}): energy "
+                    "left out per end at most {:.2g} J",
+                    tally.chatters, tally.chatters == 1 ? "" : "s", speed, kChatterShare,
+                    0.5 * problem.beam.line_density() * problem.beam.length * speed * speed));
+}
+
+// Ten times what was asked for is the promise of `auto`; whatever misses it says so.
+void tell_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+    const double limit = 10 * problem.solver.rtol * result.energy_scale;
+    if (problem.beam.model == ModelKind::paper || !(result.energy_residual_max > limit)) return;
+    out.push_back(
+        fmt::format("the energy ledger closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
+                    "tighten solver.rtol{}",
+                    result.energy_residual_max, result.energy_scale, problem.solver.rtol,
+                    problem.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
+}
+
+// ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape.
+void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
+    const Beam& beam = problem.beam;
+    if (beam.model == ModelKind::exact || beam.model == ModelKind::rigid) return;
+    const double slope = std::sqrt(2 * largest_elastic * beam.length / beam.bending_stiffness());
+    if (slope > kLargestSlope)
+        out.push_back(
+            fmt::format("the beam bends through angles up to about {:.2g} rad; {} holds for small ones: use "
+                        "\"model\": \"exact\"",
+                        slope, name(beam.model)));
+}
+
+void tell_floor(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
+    if (tally.floored > 0)
+        out.push_back(
+            fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
+                        "dissipation uses that floor",
+                        tally.floored, result.impacts.size(), problem.contact.approach_floor.value));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
+                                  double largest_elastic) {
+    std::vector<std::string> out;
+    tell_chatter(problem, tally, out);
+    tell_ledger(problem, result, out);
+    tell_slopes(problem, largest_elastic, out);
+    tell_floor(problem, result, tally, out);
+    return out;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,19 @@
+// What a finished run has to say of its own numbers, in the user's terms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/observe.hpp"
+
+namespace beamcam::sim {
+
+// Model `restitution`: a rebound slower than this share of the approach floor ends the chatter in
+// sustained contact. A bouncing point then rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
+inline constexpr double kChatterShare = 1e-3;
+
+// `largest_elastic`: the largest bending energy of the run [J].
+std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
+                                  double largest_elastic);
+
+}  // namespace beamcam::sim
