@@ -116,8 +116,15 @@ std::vector<Case> cases() {
     };
     add("Default", 0.3, [](Problem&) {});
     add("Rigid", 0.4, [](Problem& p) { p.beam.model = ModelKind::rigid; });
-    add("Exact", 0.285, [](Problem& p) { p.beam.model = ModelKind::exact; });
-    add("SecondOrder", 0.285, [](Problem& p) { p.beam.model = ModelKind::second_order; });
+    add("Exact", 0.15, [](Problem& p) {
+        p.beam.model = ModelKind::exact;
+        p.beam.modes = 1;
+        p.initial.angular_velocity = -3;
+    });
+    add("SecondOrder", 0.15, [](Problem& p) {
+        p.beam.model = ModelKind::second_order;
+        p.initial.angular_velocity = -3;
+    });
     add("Paper", 0.285, [](Problem& p) { p.beam.model = ModelKind::paper; });
     add("NoCam", 0.2, [](Problem& p) { p.cam.reset(); });
     add("StickSlip", 0.3, [](Problem& p) { p.contact.friction = StickSlipFriction{0.3, 0.4, {}, {}}; });
@@ -136,7 +143,10 @@ std::vector<Case> cases() {
         p.hub.drive = SpinUp{4, 0.2};
     });
     add("TorqueTable", 0.3, [](Problem& p) { p.hub.drive = TorqueTable{{0, 0.1, 0.25}, {0, 0.2, 0}}; });
-    add("Adams", 0.3, [](Problem& p) { p.solver.method = Method::cvode_adams; });
+    add("Adams", 0.3, [](Problem& p) {
+        p.solver.method = Method::cvode_adams;
+        p.solver.rtol = 1e-6;
+    });
     add("Bdf", 0.3, [](Problem& p) {
         p.solver.method = Method::cvode_bdf;
         p.solver.rtol = 1e-6;
