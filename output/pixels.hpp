@@ -1,6 +1,7 @@
 // The pixels of an Image as files and digests see them: bytes, colour not premultiplied.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "render/image.hpp"
@@ -13,5 +14,7 @@ bool is_opaque(const render::Image& image);
 std::string rgb_bytes(const render::Image& image);
 // R, G, B, A per pixel: c = round(255 c' / a) for the premultiplied c', 0 where a = 0.
 std::string rgba_bytes(const render::Image& image);
+// The same into 4·width·height bytes of the caller's.
+void rgba_bytes(const render::Image& image, std::uint8_t* out);
 
 }  // namespace beamcam::output

@@ -1,7 +1,5 @@
 #include "output/video.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -16,7 +14,7 @@
 #include <utility>
 
 #include "output/atomic_file.hpp"
-#include "output/resources.hpp"
+#include "output/video_library.hpp"
 #include "output/video_module.hpp"
 #include "output/yuv.hpp"
 
@@ -62,30 +60,12 @@ std::string presets_in_words() {
 
 // ---- module ------------------------------------------------------------------------------------
 
-// Loads the module on first use; it stays loaded, because x264 keeps threads and tables.
 const BeamcamVideoModule& load_module() {
-    std::string reasons;
-    for (const auto& place : module_candidates("beamcam_video.so")) {
-        std::error_code error;
-        if (!std::filesystem::exists(place, error)) {
-            reasons += "\n  " + place.string() + ": no such file";
-            continue;
-        }
-        void* library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        void* symbol = library != nullptr ? dlsym(library, "beamcam_video_module") : nullptr;
-        if (symbol == nullptr) {
-            const char* reason = dlerror();
-            reasons += "\n  " + place.string() + ": " + (reason != nullptr ? reason : "cannot be loaded");
-            continue;
-        }
-        const BeamcamVideoModule* module = reinterpret_cast<const BeamcamVideoModule* (*)()>(symbol)();
-        if (module->version == kBeamcamVideoModuleVersion) return *module;
-        reasons += "\n  " + place.string() + ": it belongs to another version of beamcam";
-    }
-    throw MissingCodec(
-        "films need the module beamcam_video.so with the FFmpeg libraries; install beamcam and libavcodec again. "
-        "Looked at:" +
-        reasons);
+    using Door = const BeamcamVideoModule* (*)();
+    const BeamcamVideoModule* module = reinterpret_cast<Door>(video_library_symbol("beamcam_video_module"))();
+    if (module->version != kBeamcamVideoModuleVersion)
+        throw MissingCodec("the module beamcam_video.so belongs to another version of beamcam; install beamcam again");
+    return *module;
 }
 
 using Clock = std::chrono::steady_clock;

@@ -33,8 +33,6 @@ constexpr Planned kPlanned[] = {
     {"command", "accuracy", "compare runs with --set solver.rtol=…"},
     {"command", "stress", "compare runs with --set solver.rtol=…"},
     {"command", "test", "compare the tables of `beamcam simulate`"},
-    {"command", "hash", "compare files with sha256sum"},
-    {"command", "diff", "compare files with sha256sum"},
     {"command", "info", "see the file's metadata with ffprobe"},
     {"command", "concat", "render the film in one run"},
     {"command", "doctor", "`beamcam --version` tells what was built"},

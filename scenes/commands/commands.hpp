@@ -47,6 +47,8 @@ void add_check(Grammar& grammar);
 void add_plan(Grammar& grammar);
 void add_init(Grammar& grammar);
 void add_schema(Grammar& grammar);
+void add_hash(Grammar& grammar);
+void add_diff(Grammar& grammar);
 
 // ---- options that several commands share --------------------------------------------------------
 

@@ -1,0 +1,25 @@
+// Reads any PNG, of beamcam or not, through libpng. Every damage is an IoError in words, never a picture with holes.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "output/errors.hpp"
+#include "output/raster.hpp"
+
+namespace beamcam::output {
+
+// By the first bytes. Pictures of 16 bits a channel are left to FFmpeg (video_reader.hpp), whose rounding to 8 bits the
+// digests follow.
+enum class PngKind { none, up_to_8_bits, of_16_bits };
+PngKind png_kind(const std::filesystem::path& file);
+
+// The pixels as 8-bit RGBA, as FFmpeg's `-pix_fmt rgba` gives them; colour profiles and gamma are left alone.
+// Throws IoError: unreadable, damaged, cut off, larger than kLargestSide.
+Raster read_png(const std::filesystem::path& file);
+
+// Keyword → text (UTF-8) of what stands before the pixels; those are not decoded.
+std::map<std::string, std::string> read_png_metadata(const std::filesystem::path& file);
+
+}  // namespace beamcam::output

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "output/interrupt.hpp"
+#include "output/manifest.hpp"
+#include "output/picture_source.hpp"
+#include "output/png.hpp"
+#include "output/table_reader.hpp"
+#include "scenes/cli.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/comparison.hpp"
+#include "scenes/files.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    Common common;
+    std::string a, b;
+    std::optional<std::string> picture;
+    std::optional<double> tolerance;
+};
+
+bool is_table(const std::string& file) { return file.ends_with(".csv") || file.ends_with(".npz"); }
+
+// ---- the picture of the difference --------------------------------------------------------------
+
+// One file: of the picture that changed most. A sequence: of every picture that changed.
+class DifferencePictures {
+  public:
+    DifferencePictures(const Arguments& args) : args_(args), manifest_(args.common.force) {
+        if (!args.picture) return;
+        if (ending_of(*args.picture) != ".png")
+            throw UsageError(fmt::format("-o {}: the picture of the difference is a .png file", *args.picture));
+        numbered_ = is_numbered(fs::path(*args.picture).filename().string());
+        if (!numbered_) manifest_.require_replaceable(*args.picture);
+    }
+
+    void add(long number, const output::Raster& a, const output::Raster& b, const PictureComparison& found) {
+        if (!args_.picture || !found.same_size() || found.verdict == Verdict::identical) return;
+        if (numbered_) return write(numbered_file(*args_.picture, number), a, b);
+        const double weight = static_cast<double>(found.difference.changed) + found.difference.largest / 256.0;
+        if (worst_ && weight <= worst_->weight) return;
+        worst_ = Worst{weight, a, b};
+    }
+    void finish() {
+        if (worst_) write(*args_.picture, worst_->a, worst_->b);
+        manifest_.save();
+    }
+
+  private:
+    struct Worst {
+        double weight;
+        output::Raster a, b;
+    };
+
+    void write(const std::string& file, const output::Raster& a, const output::Raster& b) {
+        manifest_.require_replaceable(file);
+        // What the tolerance lets pass is worth seeing too, when nothing else changed.
+        const int threshold = static_cast<int>(args_.tolerance.value_or(0));
+        const bool beyond = output::difference(a, b, threshold).changed > 0;
+        output::write_png(file, output::to_image(output::difference_picture(a, b, beyond ? threshold : 0)));
+        manifest_.record(file);
+        say(args_.common, fmt::format("wrote {}", file));
+    }
+
+    const Arguments& args_;
+    output::Manifest manifest_;
+    bool numbered_ = false;
+    std::optional<Worst> worst_;
+};
+
+// ---- comparing -----------------------------------------------------------------------------------
+
+Comparison compare_pictures(const Arguments& args) {
+    if (args.tolerance && (*args.tolerance < 0 || *args.tolerance > 255))
+        throw UsageError("--tolerance: of pictures it is a difference of colour, 0 … 255");
+    const int tolerance = static_cast<int>(args.tolerance.value_or(0));
+    Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
+    output::PictureSource a(args.a), b(args.b);
+    DifferencePictures pictures(args);
+    output::Raster left, right;
+    std::string name_a, name_b;
+    for (;;) {
+        if (output::interrupted()) throw Stopped();
+        const bool more_a = a.next(left, name_a), more_b = b.next(right, name_b);
+        if (!more_a && !more_b) break;
+        all.pictures_a += more_a ? 1 : 0;
+        all.pictures_b += more_b ? 1 : 0;
+        if (!more_a || !more_b) {
+            all.verdict = Verdict::different;  // the others are only counted
+            continue;
+        }
+        PictureComparison found = compare(left, right, tolerance);
+        found.a = name_a;
+        found.b = name_b;
+        pictures.add(static_cast<long>(all.pictures_a) - 1, left, right, found);
+        all.verdict = worse(all.verdict, found.verdict);
+        if (found.verdict != Verdict::identical) all.pictures.push_back(std::move(found));
+    }
+    pictures.finish();
+    return all;
+}
+
+Comparison compare_tables(const Arguments& args) {
+    if (args.picture) throw UsageError("-o draws how pictures differ; tables are compared in numbers");
+    if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
+    Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
+    all.table = output::difference(output::read_table(args.a), output::read_table(args.b));
+    all.verdict = all.table->identical()                           ? Verdict::identical
+                  : all.table->within(args.tolerance.value_or(-1)) ? Verdict::equivalent
+                                                                   : Verdict::different;
+    return all;
+}
+
+int act(const Arguments& args) {
+    if (is_table(args.a) != is_table(args.b))
+        throw UsageError(fmt::format("{} and {} are of two kinds; compare pictures with pictures, tables with tables",
+                                     args.a, args.b));
+    const Comparison found = is_table(args.a) ? compare_tables(args) : compare_pictures(args);
+    if (args.common.json)
+        print_data(to_json(found));
+    else if (!args.common.quiet)
+        print_data(to_text(found));
+    return found.verdict == Verdict::different ? kDiffers : kDone;
+}
+
+}  // namespace
+
+void add_diff(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand(
+        "diff", "How two pictures, sequences, films or tables differ; ends with 7 if they do");
+    app->add_option("A", args->a, "PNG, directory or sequence (name-####.png), film; or .csv, .npz")
+        ->required()
+        ->type_name("");
+    app->add_option("B", args->b, "What it is compared with")->required()->type_name("");
+    app->add_option("-o,--output", args->picture,
+                    "Picture of the difference, .png; with #### in its name one for each picture that changed")
+        ->type_name("FILE");
+    app->add_option("--tolerance", args->tolerance,
+                    "Differences up to this are equivalent: of colour, 0 … 255; of tables, a share of a column's range")
+        ->type_name("X");
+    app->add_flag("--json", args->common.json, "As JSON");
+    app->add_flag("--force", args->common.force, "Replace a picture that beamcam did not make");
+    add_quiet(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

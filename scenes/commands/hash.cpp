@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <thread>
+
+#include "output/interrupt.hpp"
+#include "output/picture_source.hpp"
+#include "output/png_reader.hpp"
+#include "output/sha256.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/fan_out.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::vector<std::string> files;
+    bool whole = false;
+};
+
+void stop_if_interrupted() {
+    if (output::interrupted()) throw Stopped();
+}
+
+void print_line(const std::string& digest, const std::string& name) { print_data(digest + "  " + name + "\n"); }
+
+// Each picture is a file of its own: they are decoded side by side and told in their order.
+void hash_files(const std::vector<std::filesystem::path>& files, int threads) {
+    Gate gate;
+    auto make_worker = [&]() -> Worker {
+        return [&](long k) {
+            stop_if_interrupted();
+            const std::filesystem::path& file = files[static_cast<std::size_t>(k)];
+            const std::string digest = output::digest(output::read_png(file));
+            gate.pass(k, [&] { print_line(digest, file.string()); });
+        };
+    };
+    fan_out(static_cast<long>(files.size()), threads, make_worker, gate);
+}
+
+void hash_in_order(output::PictureSource& source, const std::string& file, bool whole) {
+    output::Raster picture;
+    std::string name;
+    output::Sha256 all;
+    while (source.next(picture, name)) {
+        stop_if_interrupted();
+        if (whole)
+            all.update(picture.rgba.data(), picture.rgba.size());
+        else
+            print_line(output::digest(picture), name);
+    }
+    if (whole) print_line(all.hex(), file);
+}
+
+int act(const Arguments& args) {
+    const int threads = args.common.threads > 0 ? args.common.threads
+                                                : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    std::vector<std::filesystem::path> stills;  // named one after the other, not hashed yet
+    auto hash_stills = [&] {
+        hash_files(stills, threads);
+        stills.clear();
+    };
+    for (const std::string& file : args.files) {
+        output::PictureSource source(file);
+        if (!source.is_film() && !args.whole) {
+            stills.insert(stills.end(), source.files().begin(), source.files().end());
+            continue;
+        }
+        hash_stills();
+        hash_in_order(source, file, args.whole);
+    }
+    hash_stills();
+    return 0;
+}
+
+}  // namespace
+
+void add_hash(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand("hash", "SHA-256 of the decoded pixels of pictures and films");
+    app->add_option("FILE", args->files, "PNG files, directories or sequences (name-####.png) of them, films")
+        ->required()
+        ->type_name("");
+    app->add_flag("--whole", args->whole, "One digest a FILE, over all its pictures, instead of one a picture");
+    app->add_option("-j,--jobs", args->common.threads, "Threads that decode PNG files (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    app->footer(
+        "The digests are of R, G, B, A bytes, 8 bits each, row by row; for a picture FFmpeg prints the same with\n"
+        "  ffmpeg -i FILE -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba \\\n"
+        "         -f framehash -hash sha256 -\n"
+        "and for --whole with -f hash -hash sha256.");
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

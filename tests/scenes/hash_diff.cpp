@@ -1,0 +1,115 @@
+// `beamcam hash` and `beamcam diff` as people and scripts meet them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using ::testing::StartsWith;
+
+constexpr const char* kScene =
+    R"({"outputs": [{"type": "frames", "file": "f-##.png", "size": [192, 108], "fps": 20, "from": 0.1, "to": 0.3, "view": {"style": "flat"}},
+                    {"type": "trajectory", "file": "t.csv", "rate": 50, "channels": ["theta"]}], "time": {"end": 0.3}})";
+
+TEST(Hash, PrintsOneDigestAPictureThatFFmpegPrintsToo) {
+    const Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
+    const Finished all = shell(folder, "$BEAMCAM hash .");
+    EXPECT_EQ(all.code, 0) << all.err;
+    EXPECT_EQ(std::count(all.out.begin(), all.out.end(), '\n'), 4);
+    EXPECT_THAT(all.out, HasSubstr("  ./f-02.png\n"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM hash f-##.png -j1").out, shell(folder, "$BEAMCAM hash f-0*.png -j3").out);
+    const Finished ffmpeg = shell(folder,
+                                  "ffmpeg -v error -start_number 2 -i f-%02d.png -pix_fmt rgba -f hash -hash sha256 - "
+                                  "| sed s/SHA256=//; $BEAMCAM hash --whole . | cut -c1-64");
+    EXPECT_EQ(ffmpeg.out.substr(0, 64), ffmpeg.out.substr(65, 64)) << ffmpeg.err;
+}
+
+TEST(Hash, RefusesWhatIsNoPictureWithSix) {
+    const Folder folder;
+    folder.write("empty.png", "");
+    folder.write("text.png", "no picture");
+    for (const char* file : {"empty.png", "text.png", "absent.png", ".", "$'\\xff\\xfe.png'"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM hash ") + file);
+        EXPECT_EQ(finished.code, 6) << file << finished.err;
+        EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << file;
+        EXPECT_EQ(finished.out, "") << file;
+    }
+}
+
+TEST(Diff, EndsWithZeroForTheSameAndSevenForOthers) {
+    const Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json && $BEAMCAM run -q s.json -o b --set cam.phase=0.3").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff f-02.png f-02.png").code, 0);
+    const Finished differs = shell(folder, "$BEAMCAM diff f-02.png f-03.png -o d.png");
+    EXPECT_EQ(differs.code, 7) << differs.err;
+    EXPECT_THAT(differs.out, HasSubstr("different"));
+    EXPECT_THAT(differs.out, HasSubstr("largest channel difference"));
+    EXPECT_THAT(differs.err, HasSubstr("wrote d.png"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff f-02.png f-03.png --tolerance 255").code, 0);
+    const Finished folders = shell(folder, "$BEAMCAM diff . b --json");
+    EXPECT_EQ(folders.code, 7) << folders.err;
+    EXPECT_THAT(folders.out, HasSubstr("\"pictures_a\": 5"));  // d.png is one too
+    EXPECT_THAT(folders.out, HasSubstr("\"pictures_b\": 4"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff f-##.png b -o e-###.png").code, 7);
+    EXPECT_TRUE(std::filesystem::exists(folder / "e-003.png"));
+}
+
+TEST(Diff, SizeIsAVerdictOfItsOwn) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    ASSERT_EQ(shell(folder,
+                    "for w in 160 162; do $BEAMCAM render -q s.json --style flat --at 0 --size ${w}x90 -o $w.png; done")
+                  .code,
+              0);
+    const Finished finished = shell(folder, "$BEAMCAM diff 160.png 162.png --tolerance 255");
+    EXPECT_EQ(finished.code, 7);
+    EXPECT_THAT(finished.out, HasSubstr("size 160x90 became 162x90"));
+}
+
+TEST(Diff, ComparesTablesOfBothFormats) {
+    const Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM simulate -q s.json --channels theta --rate 50 --trajectory a.npz && "
+                    "$BEAMCAM simulate -q s.json --channels theta --rate 50 --trajectory a.csv && "
+                    "$BEAMCAM simulate -q s.json --channels theta --rate 50 --trajectory b.csv --set gravity=9.82")
+                  .code,
+              0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.npz a.csv").code, 0);
+    const Finished differs = shell(folder, "$BEAMCAM diff a.csv b.csv");
+    EXPECT_EQ(differs.code, 7);
+    EXPECT_THAT(differs.out, HasSubstr("theta: largest difference"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-2").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-6").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv s.json").code, 2);
+    folder.write("bad.csv", "t,theta\n0,x\n");
+    const Finished bad = shell(folder, "$BEAMCAM diff a.csv bad.csv");
+    EXPECT_EQ(bad.code, 6);
+    EXPECT_THAT(bad.err, HasSubstr("bad.csv:2:3"));
+}
+
+TEST(Diff, KeepsPicturesThatBeamcamDidNotMake) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    ASSERT_EQ(
+        shell(folder, "for t in 0 0.2; do $BEAMCAM render -q s.json --style flat --at $t --size 160x90 -o $t.png; done")
+            .code,
+        0);
+    folder.write("d.png", "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff 0.png 0.2.png -o d.png").code, 6);
+    EXPECT_EQ(testing::slurp(folder / "d.png"), "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff 0.png 0.2.png -o absent/d.png").code, 6);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff 0.png 0.2.png -o d.txt").code, 2);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
