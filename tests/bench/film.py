@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""What a film costs beside what its encoder alone costs.
+
+film.py BEAMCAM [--frames N] [--sizes 1280x720,...] [--presets ultrafast,...] [--styles flat,lit] [--rivals] [--repeat N] [--csv FILE]
+
+For every size and preset the very frames of the film are encoded alone, by the ffmpeg program with the same settings
+and the same bits, from memory; every other number is CPU seconds as a ratio to that. Runs are interleaved, medians are shown.
+"""
+import argparse
+import csv
+import os
+import platform
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+class Cost:
+    """CPU and wall seconds and the peak memory of one child process."""
+
+    def __init__(self, command):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        start = time.perf_counter()
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.said = child.stderr.read()
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        self.wall = time.perf_counter() - start
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        self.peak = usage.ru_maxrss / 1024  # [MiB]
+        if child.returncode:
+            sys.exit(f"{' '.join(command)}\nended with {child.returncode}:\n{self.said}")
+
+
+def stages(said):
+    """drawing, conversion and encoding as -v tells them [s of wall time, summed over threads]."""
+    found = {}
+    for name in ("simulation", "drawing", "conversion", "encoding"):
+        at = said.find(name + " ")
+        if at >= 0 and said.find("time:") >= 0:
+            text = said[said.find(name + " ", said.find("time:")) :].split()[1]
+            found[name] = float(text)
+    return found
+
+
+def render(program, file, style, size, frames, preset, crf, fps=60):
+    return [program, "run", os.path.join(HERE, "film.json"), "-o", os.path.dirname(file), "-v", "--force", "--no-cache",
+            "--progress", "none",
+            "--set", f"time.end={frames / fps}", "--set", f'outputs=[{{"type":"video","file":"{os.path.basename(file)}",'
+            f'"size":[{size[0]},{size[1]}],"fps":{fps},"crf":{crf},"preset":"{preset}","view":{{"style":"{style}"}}}}]']
+
+
+def encode(raw, file, size, preset, fps=60):
+    return ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "yuv420p", "-s", f"{size[0]}x{size[1]}",
+            "-r", str(fps), "-i", raw, "-c:v", "libx264", "-crf", "18", "-preset", preset, "-threads", "4",
+            "-x264-params", "cpu-independent=1", file]
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("program")
+    p.add_argument("--frames", type=int, default=600)
+    p.add_argument("--sizes", default="1920x1080")
+    p.add_argument("--presets", default="veryfast")
+    p.add_argument("--styles", default="flat,lit")
+    p.add_argument("--repeat", type=int, default=3)
+    p.add_argument("--rivals", action="store_true", help="matplotlib and pycairo too, where installed")
+    p.add_argument("--csv")
+    args = p.parse_args()
+    if not shutil.which("ffmpeg"):
+        sys.exit("the encoder alone is measured with the ffmpeg program; install ffmpeg")
+
+    room = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+    rows = []
+    with tempfile.TemporaryDirectory(dir=room) as folder:
+        file, raw = os.path.join(folder, "film.mp4"), os.path.join(folder, "film.yuv")
+        for size in [tuple(int(n) for n in s.split("x")) for s in args.sizes.split(",")]:
+            frames = min(args.frames, max(1, int(args.frames * 1920 * 1080 / (size[0] * size[1]))))
+            for style in args.styles.split(","):
+                # Lossless, then decoded: exactly what the encoder is given.
+                Cost(render(args.program, file, style, size, frames, "ultrafast", 0))
+                Cost(["ffmpeg", "-loglevel", "error", "-y", "-i", file, "-f", "rawvideo", raw])
+                for preset in args.presets.split(","):
+                    alone, film = [], []
+                    for _ in range(args.repeat):
+                        alone.append(Cost(encode(raw, os.path.join(folder, "alone.mp4"), size, preset)))
+                        film.append(Cost(render(args.program, file, style, size, frames, preset, 18)))
+                    rows.append(row(f"beamcam {style}", size, frames, preset, film, alone))
+                    show(rows[-1], len(rows) == 1)
+                    if args.rivals and style == "flat":
+                        for rival in rivals(args, folder, file, size, frames, preset, alone):
+                            rows.append(rival)
+                            show(rival, False)
+    if args.csv:
+        with open(args.csv, "w", newline="") as f:
+            f.write(f"# {machine()}\n")
+            writer = csv.DictWriter(f, rows[0])
+            writer.writeheader()
+            writer.writerows(rows)
+
+
+def row(name, size, frames, preset, film, alone):
+    cpu = statistics.median(c.cpu for c in alone)
+    wall = statistics.median(c.wall for c in alone)
+    parts = [stages(c.said) for c in film]
+    share = {k: statistics.median(s.get(k, 0) for s in parts) for k in ("simulation", "drawing", "conversion", "encoding")}
+    return {"film": name, "size": f"{size[0]}x{size[1]}", "preset": preset, "frames": frames,
+            "encoder_cpu_s": round(cpu, 3), "encoder_wall_s": round(wall, 3),
+            "cpu_ratio": round(statistics.median(c.cpu for c in film) / cpu, 3),
+            "wall_ratio": round(statistics.median(c.wall for c in film) / wall, 3),
+            **{k + "_s": round(v, 3) for k, v in share.items()},
+            "peak_mib": round(max(c.peak for c in film))}
+
+
+def rivals(args, folder, file, size, frames, preset, alone):
+    motion = os.path.join(folder, "motion.csv")
+    Cost([args.program, "simulate", os.path.join(HERE, "film.json"), "--set", f"time.end={(frames - 1) / 60}", "--rate", "60",
+          "--channels", "theta,tip_deflection,contact_force,contact_x,cam_angle", "--trajectory", motion, "--force"])
+    for name, module in (("pycairo", "cairo"), ("matplotlib", "matplotlib")):
+        if subprocess.run([sys.executable, "-c", f"import {module}"], stderr=subprocess.DEVNULL).returncode:
+            print(f"{name}: not installed (python3-{module})", file=sys.stderr)
+            continue
+        script = os.path.join(HERE, "rivals", f"film_{'cairo' if name == 'pycairo' else name}.py")
+        cost = Cost([sys.executable, script, motion, file, str(size[0]), str(size[1]), "60", preset])
+        yield row(name, size, frames, preset, [cost], alone)
+
+
+def machine():
+    model = platform.machine()
+    try:
+        with open("/proc/cpuinfo") as f:
+            model = next(line.split(":")[1].strip() for line in f if line.startswith("model name"))
+    except (OSError, StopIteration):
+        pass
+    return f"{model}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"
+
+
+def show(entry, head):
+    if head:
+        print(f"# {machine()}")
+        print(f"{'film':14} {'size':>10} {'preset':>10} {'frames':>6} {'encoder':>9} {'cpu':>6} {'wall':>6} "
+              f"{'draw':>7} {'convert':>8} {'peak':>9}")
+    print(f"{entry['film']:14} {entry['size']:>10} {entry['preset']:>10} {entry['frames']:6} {entry['encoder_cpu_s']:7.2f} s "
+          f"{entry['cpu_ratio']:5.2f}x {entry['wall_ratio']:5.2f}x {entry['drawing_s']:5.2f} s {entry['conversion_s']:6.2f} s "
+          f"{entry['peak_mib']:5} MiB", flush=True)
+
+
+if __name__ == "__main__":
+    main()
