@@ -98,6 +98,27 @@ Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
 
 constexpr const char* kManifestFormat = "beamcam manifest 1";
 
+Json json_of(const sim::Timing& time) {
+    if (time.repeats == 0) return nullptr;
+    return {{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}};
+}
+
+// `head` comes first: what tells this row from the others.
+Json accuracy_row(Json head, const sim::AccuracyRow& row) {
+    head["error"] = json_of(row.error);
+    if (!row.error) {
+        head["note"] = row.note;
+        return head;
+    }
+    head["trusted_until"] = row.trusted_until;
+    head["seconds"] = json_of(row.time);
+    head["steps"] = row.steps;
+    head["rhs_evaluations"] = row.rhs_evaluations;
+    head["impacts"] = row.impacts;
+    head["touch_error"] = json_of(row.touch_error);
+    return head;
+}
+
 }  // namespace
 
 std::string impacts_json(const sim::Result& result) {
@@ -171,6 +192,29 @@ std::string modes_json(const std::vector<sim::Mode>& modes) {
                        {"shape", std::move(shape)}});
     }
     return Json{{"modes", std::move(all)}}.dump(2) + "\n";
+}
+
+std::string accuracy_json(const sim::Accuracy& a) {
+    Json work = Json::array(), modes = Json::array(), models = Json::array(), contact = Json::array();
+    for (const auto& row : a.work)
+        work.push_back(accuracy_row({{"method", sim::name(row.method)}, {"rtol", row.rtol}}, row));
+    for (const auto& row : a.modes) modes.push_back(accuracy_row({{"modes", row.modes}}, row));
+    for (const auto& row : a.models) models.push_back(accuracy_row({{"model", sim::name(row.model)}}, row));
+    for (const auto& row : a.contact) contact.push_back(accuracy_row({{"change", row.change}}, row));
+    Json all = {{"units", {{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}}},
+                {"end_time", a.end_time},
+                {"until", a.until},
+                {"reference_error", a.reference_error},
+                {"target", a.target},
+                {"time_integration", work},
+                {"modes", {{"against", a.most_modes}, {"rows", modes}}},
+                {"models", {{"against", sim::name(a.best_model)}, {"until", a.models_until}, {"rows", models}}},
+                {"contact", contact},
+                {"recommendation", nullptr}};
+    if (const auto& r = a.recommendation)
+        all["recommendation"] = {{"rtol", r->rtol},   {"modes", r->modes},     {"until", r->until},
+                                 {"error", r->error}, {"seconds", r->seconds}, {"text", r->text}};
+    return all.dump(2) + "\n";
 }
 
 std::string manifest_json(const MadeFiles& files) {

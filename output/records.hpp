@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "output/errors.hpp"
+#include "sim/accuracy.hpp"
 #include "sim/channels.hpp"
 #include "sim/modes.hpp"
 #include "sim/problem.hpp"
@@ -35,6 +36,9 @@ void write_summary(const std::filesystem::path& file, const sim::Problem& proble
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
 std::string modes_json(const std::vector<sim::Mode>& modes);
+
+// Every row of the assessment, its conditions and the recommendation.
+std::string accuracy_json(const sim::Accuracy& accuracy);
 
 // What beamcam knows of a file it made.
 struct MadeFile {

@@ -30,7 +30,6 @@ constexpr Planned kPlanned[] = {
     {"file", ".pdf", "name a .png file"},
     {"command", "figure", "`beamcam simulate` writes the numbers to plot"},
     {"command", "paper", "`beamcam render` films the paper's scene"},
-    {"command", "accuracy", "compare runs with --set solver.rtol=…"},
     {"command", "stress", "compare runs with --set solver.rtol=…"},
     {"command", "test", "compare the tables of `beamcam simulate`"},
     {"command", "info", "see the file's metadata with ffprobe"},

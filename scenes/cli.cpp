@@ -46,9 +46,7 @@ int parse_and_run(int argc, const char* const* argv) {
     app.footer(
         "Exit codes: 0 done, 1 bug, 2 usage, 3 scene, 4 solver, 5 missing renderer, codec or font,\n"
         "6 input/output, 7 differs, 130 interrupted.");
-    for (const auto add :
-         {add_run, add_render, add_simulate, add_modes, add_check, add_plan, add_init, add_schema, add_hash, add_diff})
-        add(grammar);
+    for (const auto add : kCommands) add(grammar);
     refuse_unknown_command(argc, argv, app);
     try {
         app.parse(argc, argv);

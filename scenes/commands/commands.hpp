@@ -49,6 +49,22 @@ void add_init(Grammar& grammar);
 void add_schema(Grammar& grammar);
 void add_hash(Grammar& grammar);
 void add_diff(Grammar& grammar);
+void add_accuracy(Grammar& grammar);
+
+// In the order of --help.
+inline constexpr void (*kCommands[])(Grammar&) = {
+    add_run,
+    add_render,
+    add_simulate,
+    add_modes,
+    add_check,
+    add_plan,
+    add_init,
+    add_schema,
+    add_hash,
+    add_diff,
+    add_accuracy,
+};
 
 // ---- options that several commands share --------------------------------------------------------
 

@@ -1,0 +1,141 @@
+#include "sim/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "output/atomic_file.hpp"
+#include "output/interrupt.hpp"
+#include "output/manifest.hpp"
+#include "output/records.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/progress.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::string scene;
+    std::vector<std::string> files;
+    std::optional<std::string> until, target;
+    int repeats = 5;
+    double longest = 2;
+};
+
+std::string seconds_text(double seconds) {
+    if (seconds <= 0) return "-";
+    if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
+    return fmt::format("{:.3g} s", seconds);
+}
+
+std::string row_text(const std::string& head, const sim::AccuracyRow& row, bool truth = false) {
+    if (!row.error) return fmt::format("  {:24} {}\n", head, row.note);
+    return fmt::format(
+        "  {:24} {:>9}  {:>8.4g} s  {:>10}  {:>9}  {:>9}  {:>7}  {}\n", head,
+        truth ? "(truth)" : fmt::format("{:.1e}", *row.error), row.trusted_until, seconds_text(row.time.median),
+        row.time.repeats > 1 ? fmt::format("±{:.0f} %", 50 * (row.time.high - row.time.low) / row.time.median) : "once",
+        row.steps, row.impacts, row.touch_error ? fmt::format("{:.1e} s", *row.touch_error) : "other impacts");
+}
+
+std::string heading(const std::string& what, double target) {
+    return fmt::format("\n{}\n  {:24} {:>9}  {:>10}  {:>10}  {:>9}  {:>9}  {:>7}  {}\n", what, "", "error/rad",
+                       fmt::format("to {:.0e}", target), "run time", "spread", "steps", "impacts", "touch shift");
+}
+
+std::string report(const sim::Accuracy& a) {
+    std::string text =
+        fmt::format("theta of the first {:.4g} s of {:.4g} s: beyond that it is not reproducible at these settings\n",
+                    a.until, a.end_time);
+    if (a.until >= a.end_time) text = fmt::format("theta of the whole {:.4g} s\n", a.end_time);
+    text += fmt::format("the reference (rk8, rtol 1e-13) is good to about {:.0e} rad\n", a.reference_error);
+    text += heading("time integration: against the reference", a.target);
+    for (const auto& row : a.work) text += row_text(fmt::format("{} {:.0e}", name(row.method), row.rtol), row);
+    if (!a.modes.empty()) {
+        text += heading(fmt::format("number of modes: against {}", a.most_modes), a.target);
+        for (const auto& row : a.modes)
+            text += row_text(fmt::format(row.modes == 1 ? "{} mode" : "{} modes", row.modes), row,
+                             row.modes == a.most_modes);
+    }
+    if (!a.models.empty()) {
+        text += heading(
+            fmt::format("model of the beam: against {}, first {:.4g} s", name(a.best_model), a.models_until), a.target);
+        for (const auto& row : a.models) text += row_text(name(row.model), row, row.model == a.best_model);
+    }
+    if (!a.contact.empty()) {
+        text += heading("contact: what a change of the law moves", a.target);
+        for (const auto& row : a.contact) text += row_text(row.change, row);
+    }
+    text += a.recommendation ? fmt::format("\n{}\n", a.recommendation->text)
+                             : fmt::format("\nno settings tried give theta to {:g} rad\n", a.target);
+    return text;
+}
+
+int act(const Arguments& args) {
+    const Scene scene = read_or_refuse(args.scene, args.common);
+    sim::AccuracyRequest request;
+    request.end_time = args.until ? seconds_argument("--until", *args.until) : scene.end_time;
+    if (!(request.end_time > 0)) throw UsageError("--until must be positive");
+    if (args.target) {
+        request.target = quantity_argument("--target", *args.target, dimension::kAngle);
+        if (!(request.target > 0)) throw UsageError("--target must be positive");
+    }
+    request.repeats = args.repeats;
+    request.longest_run = args.longest;
+    output::Manifest manifest(args.common.force);
+    for (const std::string& file : args.files) {
+        need_ending("-o", file, {".json"});
+        if (file != "-") manifest.require_replaceable(file);
+    }
+    const RunOptions options = run_options(args.common, "");
+    Progress progress(options.progress);
+    progress.begin("accuracy", 100, "%");
+    const sim::Accuracy found = sim::assess(scene.problem, request, [&](const std::string&, double share) {
+        progress.reach(100 * share);
+        return !output::interrupted();
+    });
+    progress.end();
+    bool data_printed = false;
+    for (const std::string& file : args.files) {
+        const std::string text = output::accuracy_json(found);
+        if (file == "-") {
+            print_data(text);
+            data_printed = true;
+            continue;
+        }
+        output::write_file(file, text);
+        manifest.record(file);
+        say(args.common, "wrote " + file);
+    }
+    manifest.save();
+    if (!data_printed) print_data(report(found));
+    return 0;
+}
+
+}  // namespace
+
+void add_accuracy(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app =
+        grammar.app.add_subcommand("accuracy", "Error budget of a scene, and run time against error of every method");
+    add_scene(*app, args->scene, args->common);
+    app->add_option("-o,--output", args->files, "Also as .json, or the diagram as .png, .svg or .pdf (repeatable)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app->add_option("--until", args->until, "Look at the motion up to here (default: the end of the scene)")
+        ->type_name("T");
+    app->add_option("--target", args->target, "Error of theta that the recommendation is for, in rad (default: 1e-4)")
+        ->type_name("RAD");
+    app->add_option("--repeats", args->repeats, "Timings of each row (default: 5)")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    app->add_option("--longest", args->longest, "Leave out runs that take longer than this many seconds (default: 2)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
+        ->type_name("STYLE");
+    app->add_flag("--force", args->common.force, "Replace files that beamcam did not make");
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes
