@@ -54,7 +54,7 @@ std::string report(const sim::Accuracy& a) {
     if (!a.modes.empty()) {
         text += heading(fmt::format("number of modes: against {}", a.most_modes), a.target);
         for (const auto& row : a.modes)
-            text += row_text(fmt::format(row.modes == 1 ? "{} mode" : "{} modes", row.modes), row,
+            text += row_text(fmt::format("{} {}", row.modes, row.modes == 1 ? "mode" : "modes"), row,
                              row.modes == a.most_modes);
     }
     if (!a.models.empty()) {

@@ -1,0 +1,99 @@
+#include "sim/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+AccuracyRequest quick(double end) {
+    AccuracyRequest request;
+    request.end_time = end;
+    request.repeats = 1;
+    request.longest_run = 30;  // sanitizers are slow; nothing here is meant to be left out
+    request.rtols = {1e-4, 1e-7, 1e-10};
+    request.methods = {Method::automatic, Method::rk8, Method::cvode_adams};
+    request.modes = {1, 2, 4};
+    return request;
+}
+
+Problem falling() {
+    Problem p = testing::falling_beam(ModelKind::first_order);
+    p.solver.rtol = 1e-8;
+    p.solver.atol = 1e-11;
+    return p;
+}
+
+TEST(Accuracy, MethodsComeNearerAsTheirTolerancesTighten) {
+    const Accuracy found = assess(falling(), quick(0.3));
+    EXPECT_DOUBLE_EQ(found.until, 0.3);
+    EXPECT_LT(found.reference_error, 1e-11);
+    ASSERT_EQ(found.work.size(), 9u);
+    for (std::size_t i = 0; i < found.work.size(); i += 3) {
+        ASSERT_TRUE(found.work[i].error && found.work[i + 2].error) << name(found.work[i].method);
+        EXPECT_LT(*found.work[i + 2].error, 1e-2 * *found.work[i].error) << name(found.work[i].method);
+        EXPECT_LT(*found.work[i + 2].error, 1e-8) << name(found.work[i].method);
+        EXPECT_GT(found.work[i + 2].steps, found.work[i].steps) << name(found.work[i].method);
+    }
+}
+
+// A beam that falls freely is a rigid rod to 1e-5: shapes and models hardly matter, and which matter more is known.
+TEST(Accuracy, ShapesAndModelsAreComparedWithTheBest) {
+    const Accuracy found = assess(falling(), quick(0.3));
+    EXPECT_EQ(found.most_modes, 4);
+    ASSERT_EQ(found.modes.size(), 3u);
+    EXPECT_EQ(*found.modes[2].error, 0);
+    EXPECT_LT(*found.modes[1].error, *found.modes[0].error);
+    EXPECT_LT(*found.modes[0].error, 1e-4);
+    EXPECT_EQ(found.best_model, ModelKind::exact);
+    ASSERT_EQ(found.models.size(), 6u);
+    EXPECT_EQ(found.models.front().model, ModelKind::rigid);
+    EXPECT_EQ(*found.models.back().error, 0);
+    EXPECT_GT(*found.models.front().error, 1e-6);  // the rigid rod lags by the bending
+    EXPECT_LT(*found.models.front().error, 1e-3);
+    EXPECT_TRUE(found.contact.empty());
+}
+
+TEST(Accuracy, TheRecommendationIsTheLoosestToleranceThatServes) {
+    AccuracyRequest request = quick(0.3);
+    request.target = 1e-6;
+    const Accuracy found = assess(falling(), request);
+    ASSERT_TRUE(found.recommendation);
+    for (const WorkRow& row : found.work) {
+        if (row.method != Method::automatic) continue;
+        if (row.rtol > found.recommendation->rtol)
+            EXPECT_GT(*row.error, request.target / 2);
+        else if (row.rtol == found.recommendation->rtol)
+            EXPECT_LE(*row.error, request.target / 2);
+    }
+    EXPECT_GT(found.recommendation->seconds, 0);
+}
+
+// The time of comparison is the reproducible horizon that the summary tells, found another way.
+TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
+    Problem p;
+    AccuracyRequest request = quick(1.8);
+    request.methods = {Method::rk8};
+    request.rtols = {1e-8};
+    request.modes = {2};
+    p.beam.model = ModelKind::zeroth_order;
+    Request plain;
+    plain.end_time = 1.8;
+    plain.horizon = true;
+    const double horizon = *simulate(p, plain).reproducible_until;
+    ASSERT_LT(horizon, 1.75);
+    const Accuracy found = assess(p, request);
+    EXPECT_NEAR(found.until, horizon, 0.1);
+    EXPECT_LT(found.until, found.end_time);
+    ASSERT_EQ(found.contact.size(), 3u);
+    EXPECT_GT(*found.contact[0].error, 1e-3);  // 1 % of the stiffness is far more than rtol
+}
+
+TEST(Accuracy, StopsWhenAsked) {
+    EXPECT_THROW(assess(falling(), quick(0.3), [](const std::string&, double share) { return share < 0.2; }),
+                 Interrupted);
+}
+
+}  // namespace
+}  // namespace beamcam::sim
