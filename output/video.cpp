@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "output/atomic_file.hpp"
+#include "output/palette.hpp"
 #include "output/video_library.hpp"
 #include "output/video_module.hpp"
 #include "output/yuv.hpp"
@@ -26,32 +27,6 @@ namespace {
 
 constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
                                  "medium",    "slow",      "slower",   "veryslow", "placebo"};
-constexpr int kSmallestSide = 16, kLargestSide = 16384;  // x264's
-
-std::string plain(double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
-}
-
-std::optional<std::string> size_problem(int width, int height) {
-    const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (std::min(width, height) < kSmallestSide || std::max(width, height) > kLargestSide)
-        return "a film of " + size + " pixels is not possible; both sides must be " + std::to_string(kSmallestSide) +
-               " to " + std::to_string(kLargestSide);
-    if (width % 2 != 0 || height % 2 != 0)
-        return "a film of " + size +
-               " pixels is not possible, because H.264 stores colour for pairs of rows and columns; use " +
-               std::to_string(width + width % 2) + "x" + std::to_string(height + height % 2);
-    return {};
-}
-
-std::optional<std::string> rate_problem(double fps) {
-    if (fps >= 0.1 && fps <= 1000) return {};
-    return plain(fps) + " frames per second is not possible; use 0.1 to 1000";
-}
-
 std::string presets_in_words() {
     std::string text;
     for (const char* preset : kPresets) text += (text.empty() ? "" : ", ") + std::string(preset);
@@ -68,13 +43,144 @@ const BeamcamVideoModule& load_module() {
     return *module;
 }
 
+// ---- what each kind of film asks of FFmpeg -------------------------------------------------------
+
+enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+struct Recipe {
+    const char* container;
+    std::vector<const char*> encoders;
+    const char* pixel_format;
+    PixelLayout layout;
+    Pairs encoder_options, container_options;
+    std::string missing;
+};
+
+const char* container_of(std::string_view ending) {
+    if (ending == ".webm") return "webm";
+    if (ending == ".mov") return "mov";
+    if (ending == ".mkv") return "matroska";
+    if (ending == ".gif") return "gif";
+    if (ending == ".apng") return "apng";
+    if (ending == ".webp") return "webp";
+    return "mp4";
+}
+
+void add_encoder(Recipe& r, const VideoOptions& o) {
+    const std::string crf = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
+    switch (o.codec) {
+        case Codec::h264:
+            // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
+            r = {r.container,
+                 {"libx264"},
+                 "yuv420p",
+                 PixelLayout::yuv420,
+                 {{"preset", o.preset}, {"crf", crf}, {"x264-params", "cpu-independent=1"}},
+                 {},
+                 {}};
+            return;
+        case Codec::vp9:
+            // Columns of tiles may run on several threads; the picture does not depend on how many do.
+            r = {r.container,
+                 {"libvpx-vp9"},
+                 o.transparent ? "yuva420p" : "yuv420p",
+                 o.transparent ? PixelLayout::yuva420 : PixelLayout::yuv420,
+                 {{"crf", crf}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}},
+                 {},
+                 {}};
+            if (o.transparent) r.encoder_options.emplace_back("auto-alt-ref", "0");  // which alpha cannot have
+            return;
+        case Codec::av1:
+            r = {r.container,
+                 {"libsvtav1", "libaom-av1"},
+                 "yuv420p",
+                 PixelLayout::yuv420,
+                 {{"crf", crf}, {"libsvtav1:preset", "8"}, {"libaom-av1:cpu-used", "6"}, {"libaom-av1:b", "0"}},
+                 {},
+                 {}};
+            return;
+        case Codec::prores:
+            r = {r.container,
+                 {"prores_ks"},
+                 "yuva444p10le",
+                 PixelLayout::yuva444p10,
+                 {{"profile", "4444"}, {"vendor", "apl0"}, {"alpha_bits", o.transparent ? "16" : "0"}},
+                 {},
+                 {}};
+            return;
+        case Codec::ffv1:
+            r = {r.container,
+                 {"ffv1"},
+                 o.transparent ? "bgra" : "bgr0",
+                 PixelLayout::bgra,
+                 {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}},
+                 {},
+                 {}};
+            return;
+        case Codec::gif:
+            r = {r.container, {"gif"}, "pal8", PixelLayout::indices, {}, {{"loop", "0"}}, {}};
+            return;
+        case Codec::apng:
+            r = {r.container,
+                 {"apng"},
+                 o.transparent ? "rgba" : "rgb24",
+                 o.transparent ? PixelLayout::rgba : PixelLayout::rgb,
+                 {{"compression_level", "6"}, {"pred", "up"}},
+                 {{"plays", "0"}},
+                 {}};
+            return;
+        case Codec::webp:
+            r = {r.container,
+                 {"libwebp_anim"},
+                 "bgra",
+                 PixelLayout::bgra,
+                 {{"quality", "80"}, {"compression_level", "2"}},
+                 {{"loop", "0"}},
+                 {}};
+            return;
+    }
+}
+
+Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
+    Recipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
+    add_encoder(r, o);
+    r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
+    for (const char* encoder : r.encoders)
+        r.missing += (encoder == r.encoders.front() ? "" : " or ") + std::string(encoder);
+    r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
+    // faststart: the index stands first, so that players begin before they have the whole file.
+    // use_metadata_tags: keys of our own are kept.
+    if (ending == ".mp4" || ending == ".mov")
+        r.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
+    return r;
+}
+
+// Bytes of each pixel in the order named, colour not premultiplied.
+void copy_rows(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride) {
+    const auto width = static_cast<std::size_t>(image.width);
+    for (int y = 0; y < image.height; ++y) {
+        std::uint8_t* out = to + y * stride;
+        const std::uint32_t* row = image.pixels.data() + static_cast<std::size_t>(y) * width;
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::uint32_t p = row[x], a = p >> 24;
+            std::uint32_t r = p >> 16 & 255, g = p >> 8 & 255, b = p & 255;
+            if (a != 0 && a != 255) r = (255 * r + a / 2) / a, g = (255 * g + a / 2) / a, b = (255 * b + a / 2) / a;
+            if (layout == PixelLayout::bgra) std::swap(r, b);
+            *out++ = static_cast<std::uint8_t>(r);
+            *out++ = static_cast<std::uint8_t>(g);
+            *out++ = static_cast<std::uint8_t>(b);
+            if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(a);
+        }
+    }
+}
+
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
 FrameRate frame_rate(double fps) {
-    if (const auto problem = rate_problem(fps)) throw UnsupportedOption(*problem);
+    if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
     // 23.976, 23.98, 29.97, 59.94 …: the decimals people write differ from n·1000/1001 by less than 0.005,
     // and no whole rate lies that near to one of them.
     for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
@@ -87,13 +193,19 @@ FrameRate frame_rate(double fps) {
     return best;
 }
 
-std::vector<std::string> problems(const VideoOptions& o) {
+std::vector<std::string> problems(const VideoOptions& o, std::string_view ending) {
     std::vector<std::string> found;
-    if (auto problem = size_problem(o.width, o.height)) found.push_back(*problem);
-    if (auto problem = rate_problem(o.fps)) found.push_back(*problem);
-    if (o.codec != "h264") found.push_back("the codec \"" + o.codec + "\" is not known; use \"h264\"");
-    if (o.crf < 0 || o.crf > 51)
-        found.push_back("crf " + std::to_string(o.crf) + " is not possible; use 0 (best) to 51, 18 looks lossless");
+    for (std::string problem : {format_problem(ending, o.codec, o.transparent),
+                                size_problem(o.codec, o.width, o.height), rate_problem(o.codec, o.fps)})
+        if (!problem.empty()) found.push_back(std::move(problem));
+    const auto quality = quality_scale(o.codec);
+    if (o.crf && !quality)
+        found.push_back(std::string(title(o.codec)) + " has no crf: it keeps what its format can; leave it out");
+    else if (o.crf && (*o.crf < 0 || *o.crf > quality->worst))
+        found.push_back("crf " + std::to_string(*o.crf) + " is not possible; use 0 (best) to " +
+                        std::to_string(quality->worst) + ", " + std::to_string(quality->usual) + " looks lossless");
+    if (o.codec == Codec::gif && (o.palette.empty() || o.palette.size() > 256))
+        found.push_back("a GIF needs a palette of 1 to 256 colours");
     if (std::find(kPresets.begin(), kPresets.end(), o.preset) == kPresets.end())
         found.push_back("the preset \"" + o.preset + "\" is not known; use one of " + presets_in_words());
     if (o.threads < 1 || o.threads > 4)
@@ -112,6 +224,8 @@ struct VideoWriter::Impl {
 
     AtomicFile file;
     VideoOptions options;
+    PixelLayout layout = PixelLayout::yuv420;
+    std::optional<PaletteTable> table;  // of a GIF
     const BeamcamVideoModule& module;
     BeamcamVideoSession* session = nullptr;
     Slot* latest = nullptr;  // filled by the last `write`; kept for `repeat`
@@ -138,13 +252,34 @@ struct VideoWriter::Impl {
     }
 
     void open() {
-        std::vector<const char*> metadata;
+        const Recipe recipe = recipe_of(options, file.target().extension().string());
+        layout = recipe.layout;
+        std::vector<const char*> metadata, encoders, encoder_options, container_options;
         for (const auto& [key, value] : options.metadata) metadata.insert(metadata.end(), {key.c_str(), value.c_str()});
-        metadata.push_back(nullptr);
+        for (const auto& [key, value] : recipe.encoder_options)
+            encoder_options.insert(encoder_options.end(), {key.c_str(), value.c_str()});
+        for (const auto& [key, value] : recipe.container_options)
+            container_options.insert(container_options.end(), {key.c_str(), value.c_str()});
+        for (const char* encoder : recipe.encoders) encoders.push_back(encoder);
+        for (auto* list : {&metadata, &encoders, &encoder_options, &container_options}) list->push_back(nullptr);
+        std::vector<std::uint32_t> colors = options.palette;
+        if (!colors.empty()) table.emplace(colors);
+        colors.resize(256, 0xff000000U);
         const FrameRate fps = frame_rate(options.fps);
         const std::string path = file.temporary_path().string();
-        const BeamcamVideoSettings settings = {path.c_str(),   options.width, options.height,         fps.rate,
-                                               fps.base,       options.crf,   options.preset.c_str(), options.threads,
+        const BeamcamVideoSettings settings = {path.c_str(),
+                                               options.width,
+                                               options.height,
+                                               fps.rate,
+                                               fps.base,
+                                               options.threads,
+                                               recipe.container,
+                                               encoders.data(),
+                                               recipe.pixel_format,
+                                               encoder_options.data(),
+                                               container_options.data(),
+                                               recipe.missing.c_str(),
+                                               colors.data(),
                                                metadata.data()};
         BeamcamVideoError error = {};
         check(module.open(&settings, &session, &error), error);
@@ -227,15 +362,33 @@ struct VideoWriter::Impl {
             ++latest->uses;
         }
         const Clock::time_point start = Clock::now();
-        YuvPlanes planes;
-        for (std::size_t i = 0; i < 3; ++i) {
-            planes.plane[i] = latest->frame->plane[i];
-            planes.stride[i] = latest->frame->stride[i];
-        }
-        convert_to_yuv420(image, planes);
+        convert(image, *latest->frame);
         const double spent = seconds_since(start);
         const std::lock_guard lock(mutex);
         cost.convert_seconds += spent;
+    }
+
+    void convert(const render::Image& image, const BeamcamVideoFrame& frame) const {
+        YuvaPlanes planes;
+        for (std::size_t i = 0; i < 4; ++i) {
+            planes.plane[i] = frame.plane[i];
+            planes.stride[i] = frame.stride[i];
+        }
+        switch (layout) {
+            case PixelLayout::yuv420:
+                return convert_to_yuv420(image, {{planes.plane[0], planes.plane[1], planes.plane[2]},
+                                                 {planes.stride[0], planes.stride[1], planes.stride[2]}});
+            case PixelLayout::yuva420:
+                return convert_to_yuva420(image, planes);
+            case PixelLayout::yuva444p10:
+                return convert_to_yuva444p10(image, planes);
+            case PixelLayout::indices:
+                return table->convert(image, planes.plane[0], planes.stride[0]);
+            case PixelLayout::bgra:
+            case PixelLayout::rgba:
+            case PixelLayout::rgb:
+                return copy_rows(image, layout, planes.plane[0], planes.stride[0]);
+        }
     }
 
     void enqueue_latest() {
@@ -258,7 +411,7 @@ struct VideoWriter::Impl {
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, const VideoOptions& options) {
-    if (const auto found = problems(options); !found.empty()) {
+    if (const auto found = problems(options, file.extension().string()); !found.empty()) {
         std::string text;
         for (const std::string& problem : found) text += (text.empty() ? "" : "\n") + problem;
         throw UnsupportedOption(text);

@@ -1,16 +1,20 @@
-// A film: H.264 in MP4, 4:2:0, tagged BT.709, index first. Pictures are converted where `write` is called and
-// encoded in a thread of the writer's own, so that encoding overlaps drawing; the order is kept.
+// A film in any of video_format.hpp's kinds; the file's ending names the container. Films of Y'CbCr are tagged BT.709,
+// and MP4 has its index first. Pictures are converted where `write` is called and encoded in a thread of the writer's
+// own, so that encoding overlaps drawing; the order is kept, and memory does not grow with the length of the film (an
+// animated WebP alone is held, compressed, until it is finished).
 //
-// The same pictures and options give the same bytes on every machine with the same x264.
+// The same pictures and options give the same bytes on every machine with the same encoder.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/errors.hpp"
+#include "output/video_format.hpp"
 #include "render/image.hpp"
 
 namespace beamcam::output {
@@ -27,17 +31,19 @@ struct FrameRate {
 FrameRate frame_rate(double fps);
 
 struct VideoOptions {
-    int width = 1920, height = 1080;  // [px], even, 16…16384
+    int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
     double fps = 60;                  // [1/s]
-    std::string codec = "h264";       // the only one so far
-    int crf = 18;                     // 0 (large, nearly perfect) … 51
-    std::string preset = "veryfast";  // x264's, ultrafast … placebo
+    Codec codec = Codec::h264;
+    bool transparent = false;            // the pictures' alpha is kept
+    std::optional<int> crf;              // 0 (large, nearly perfect) … the codec's worst; absent: its usual one
+    std::string preset = "veryfast";     // x264's, ultrafast … placebo
+    std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours, as PaletteMaker finds them
     int threads = 4;  // 1…4 of the encoder. Beyond 4 its bits depend on the number, and the default is
                       // the same on every machine for that reason.
     std::map<std::string, std::string> metadata;
 };
-// Everything about these options that a film cannot do, in words with the alternative.
-std::vector<std::string> problems(const VideoOptions& options);
+// Everything about these options that a film cannot do, in words with the alternative. `ending` with the dot.
+std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");
 
 // What a film has cost so far, for progress lines and -v.
 struct VideoStatistics {
@@ -56,7 +62,8 @@ class VideoWriter {
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // The next picture; waits when the encoder is a few pictures behind. Transparent pixels show over black.
+    // The next picture; waits when the encoder is a few pictures behind. Transparent pixels show over black
+    // unless the film is transparent itself.
     void write(const render::Image& image);
     // The picture before, once more, without converting it again. Not the first.
     void repeat();

@@ -24,18 +24,23 @@ struct BeamcamVideoError {
 
 struct BeamcamVideoSettings {
     const char* file;     // exists; it is overwritten
-    int width, height;    // [px], even
+    int width, height;    // [px]
     int rate, rate_base;  // frames per second = rate / rate_base
-    int crf;
-    const char* preset;
     int threads;
-    const char* const* metadata;  // key, value, key, value, …, null
+    const char* container;                 // FFmpeg's name of the muxer
+    const char* const* encoders;           // FFmpeg's names, the first that exists is taken; null ends them
+    const char* pixel_format;              // FFmpeg's name
+    const char* const* encoder_options;    // key, value, …, null; keys "x:name" are for encoder x alone
+    const char* const* container_options;  // key, value, …, null
+    const char* missing;                   // what to say when there is none of these encoders
+    const std::uint32_t* palette;          // 256 times 0xAARRGGBB for "pal8"; else null
+    const char* const* metadata;           // key, value, key, value, …, null
 };
 
-// A picture in 4:2:0, to be filled by the caller. Y, Cb, Cr.
+// A picture to be filled by the caller: the planes of its pixel format, those that it has.
 struct BeamcamVideoFrame {
-    std::uint8_t* plane[3];
-    std::ptrdiff_t stride[3];  // [bytes]
+    std::uint8_t* plane[4];
+    std::ptrdiff_t stride[4];  // [bytes]
 };
 
 struct BeamcamVideoSession;
@@ -55,4 +60,4 @@ struct BeamcamVideoModule {
 const BeamcamVideoModule* beamcam_video_module();
 }
 
-constexpr int kBeamcamVideoModuleVersion = 1;
+constexpr int kBeamcamVideoModuleVersion = 2;

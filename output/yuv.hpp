@@ -25,4 +25,15 @@ struct YuvPlanes {
 // Width and height must be even, and the planes large enough.
 void convert_to_yuv420(const render::Image& image, const YuvPlanes& to);
 
+// The same with transparency: colours not premultiplied, and a fourth plane of alpha, 0…255, full range. Chroma is the
+// mean of four pixels weighted by their alpha, so that what cannot be seen tints nothing.
+struct YuvaPlanes {
+    std::array<std::uint8_t*, 4> plane{};
+    std::array<std::ptrdiff_t, 4> stride{};  // [bytes]
+};
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to);
+
+// 4:4:4 in 10 bits (16-bit words, native order), limited range, with 10 bits of full-range alpha.
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to);
+
 }  // namespace beamcam::output

@@ -62,9 +62,8 @@ AxisScale axis_scale(double low, double high, const std::string& unit) {
 std::string AxisScale::name(const std::string& symbol, const std::string& unit) const {
     std::string text = symbol;
     if (offset != 0) {
-        const std::string value = fmt::format("{:.6g}", std::abs(offset));
-        text += (offset > 0 ? " − " : " + ") + value;
-        if (!unit.empty()) text = "(" + symbol + (offset > 0 ? " − " : " + ") + value + "\u2009" + unit + ")";
+        const std::string value = fmt::format("{} {:.6g}", offset > 0 ? "−" : "+", std::abs(offset));
+        text = unit.empty() ? fmt::format("{} {}", symbol, value) : fmt::format("({} {}\u2009{})", symbol, value, unit);
     }
     if (scale == 1) return unit.empty() ? text : text + " / " + unit;
     if (!unit.empty() && unit != "rad" && unit != "rad/s") return text + " / " + prefix_for(scale).symbol + unit;
@@ -135,8 +134,8 @@ void Chart::draw_value_axis(Canvas& canvas, const Palette& p) const {
     const double u = unit_;
     const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
     const std::string symbol = scale_.name(c_.symbol, c_.unit);
-    const double room = plot_.w - (c_.curves.size() > 1 ? 84 * u * static_cast<double>(c_.curves.size()) : 84 * u);
-    const bool fits = canvas.measure(c_.words + symbol, heading).w <= room;  // the reading stands beside
+    // The readings stand beside it.
+    const bool fits = canvas.measure(c_.words + symbol, heading).w + reading_width(canvas, true) <= plot_.w;
     canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + symbol : symbol, heading);
     const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
     for (double v : value_ticks_.values) {
@@ -250,32 +249,54 @@ Image Chart::past(const Fonts& fonts, const Palette& p) const {
     return image;
 }
 
-// At the right end of the heading's line, the first curve's outermost.
+void Chart::draw_past(Canvas& canvas, const Palette& p, double t) const {
+    const double cut = cursor_column(t) + 1;
+    canvas.clip({plot_.x - 8, plot_.y - 8, cut - plot_.x + 8, plot_.h + 16},
+                [&] { draw_curves(canvas, p, whole(), true, {}); });
+}
+
+namespace {
+constexpr double kBetweenReadings = 18;
+TextStyle reading_style(double u, Color color) {
+    return {.size = 21 * u, .color = color, .weight = Weight::medium, .align = Align::right};
+}
+}  // namespace
+
+// Room for the widest value keeps the readings from dancing.
+double Chart::reading_width(Canvas& canvas, bool named) const {
+    const TextStyle style = reading_style(unit_, {});
+    const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
+                                   canvas.measure(fixed(shown_.low, digits_), style).w);
+    double all = 0;
+    for (const Curve& curve : c_.curves) {
+        all += widest + kBetweenReadings * unit_;
+        if (named && !curve.label.empty()) all += canvas.measure(curve.label + "\u2002", style).w;
+    }
+    return all;
+}
+
+// At the right end of the heading's line, the last curve's outermost; without their names where those have no room.
 void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Reading> readings) const {
     const double u = unit_;
-    const std::string symbol = scale_.name(c_.symbol, c_.unit);
     const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
-    const double left = plot_.x + canvas.measure(symbol, heading).w + 16 * u;
+    const double room = plot_.w - canvas.measure(scale_.name(c_.symbol, c_.unit), heading).w;
+    const bool named = reading_width(canvas, true) <= room;
+    if (!named && readings.size() > 1 && reading_width(canvas, false) > room) return;
     double right = plot_.right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
         const double v = readings[i].value;
-        const std::string& label = i < c_.curves.size() ? c_.curves[i].label : std::string();
-        std::string text =
-            std::isnan(v) ? (label.empty() ? "" : "–") : fixed((v - scale_.offset) / scale_.scale, digits_);
-        if (text.empty()) continue;
-        const TextStyle style{.size = 21 * u,
-                              .color = i < c_.curves.size() ? c_.curves[i].color : p.contact,
-                              .weight = Weight::medium,
-                              .align = Align::right};
-        // Room for the widest value keeps the readings from dancing.
+        const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
+        const TextStyle style = reading_style(u, i < c_.curves.size() ? c_.curves[i].color : p.contact);
         const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
                                        canvas.measure(fixed(shown_.low, digits_), style).w);
-        const std::string named = label.empty() ? text : label + "\u2002" + text;
-        const double named_width = label.empty() ? widest : canvas.measure(label + "\u2002", style).w + widest;
-        const bool with_name = right - named_width >= left;
-        if (!with_name && right - widest < left && readings.size() > 1) break;
-        canvas.text({right, box_.y + 26 * u}, with_name ? named : text, style);
-        right -= (with_name ? named_width : widest) + 18 * u;
+        const std::string value = std::isnan(v) ? "" : fixed((v - scale_.offset) / scale_.scale, digits_);
+        if (!value.empty()) canvas.text({right, box_.y + 26 * u}, value, style);
+        right -= widest;
+        if (!label.empty()) {
+            canvas.text({right, box_.y + 26 * u}, label + "\u2002", style);
+            right -= canvas.measure(label + "\u2002", style).w;
+        }
+        right -= kBetweenReadings * u;
     }
 }
 

@@ -79,9 +79,12 @@ class Chart {
     // All that has been, to be shown up to the cursor; as large as `past_box`. Empty with a window.
     Image past(const Fonts& fonts, const Palette& palette) const;
     Box past_box() const;
+    // The same drawn directly, up to the cursor at t.
+    void draw_past(Canvas& canvas, const Palette& palette, double t) const;
     // What moves: with a window the curves too.
     void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
     int cursor_column(double t) const;  // the first column after the cursor
+    Range time() const { return c_.time; }
     bool windowed() const { return c_.window.has_value(); }
 
   private:
@@ -93,6 +96,7 @@ class Chart {
     void draw_curves(Canvas& canvas, const Palette& palette, const View& view, bool past, Vec2 shift) const;
     void draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
     void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
+    double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
     double y(double v) const;
     ChartContent c_;
     Box box_, plot_;
@@ -101,7 +105,6 @@ class Chart {
     Ticks value_ticks_;  // scaled
     Range shown_;        // scaled
     int digits_ = 0;     // decimals of the reading
-    double heading_width_ = 0;
 };
 
 }  // namespace beamcam::render

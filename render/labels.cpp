@@ -108,10 +108,14 @@ TimeFormat time_format(const std::vector<double>& times) {
         }
         return out;
     }
-    double step = times.back() > times.front() ? times.back() - times.front() : out.unit;
+    // A step that only few frames have, such as the one into a freeze, does not count.
+    std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i)
-        if (times[i] > times[i - 1]) step = std::min(step, times[i] - times[i - 1]);
-    // One digit beyond the smallest step, so that every frame's reading differs; 9 is a nanosecond.
+        if (times[i] > times[i - 1]) steps.push_back(times[i] - times[i - 1]);
+    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 50);
+    std::ranges::nth_element(steps, steps.begin() + rare);
+    const double step = steps[static_cast<std::size_t>(rare)];
+    // One digit beyond the smallest step, so that each frame's reading differs; 9 is a nanosecond.
     out.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(step / out.unit))), 1, 9);
     return out;
 }

@@ -79,6 +79,26 @@ Frame frame(int width, int height) {
     return f;
 }
 
+// The children of a grid without those that would be too small to read, the last of them first: the others share
+// their room.
+std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, const Box& box) {
+    const bool rows = node.kind == LayoutNode::Kind::rows;
+    std::vector<LayoutNode> children = node.children;
+    for (;;) {
+        const double gap = (rows ? 14 : 30) * unit, n = static_cast<double>(children.size());
+        const double room = (rows ? box.h : box.w) - gap * (n - 1);
+        double shares = 0;
+        for (const LayoutNode& child : children) shares += child.share;
+        const auto narrow = std::find_if(children.rbegin(), children.rend(), [&](const LayoutNode& child) {
+            if (child.kind != LayoutNode::Kind::panel) return false;
+            const Vec2 least = smallest(child.panel.kind);
+            return room * child.share / shares < (rows ? least.y : least.x) * unit;
+        });
+        if (narrow == children.rend() || children.size() == 1) return children;
+        children.erase(std::next(narrow).base());
+    }
+}
+
 void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
     if (node.kind == LayoutNode::Kind::panel) {
         const Vec2 least = smallest(node.panel.kind);
@@ -86,12 +106,13 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
         return;
     }
     const bool rows = node.kind == LayoutNode::Kind::rows;
-    const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(node.children.size());
+    const std::vector<LayoutNode> children = those_that_fit(out.unit, node, box);
+    const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(children.size());
     const double room = (rows ? box.h : box.w) - gap * (n - 1);
     if (!(room > 0)) return;
     double shares = 0, at = rows ? box.y : box.x;
-    for (const LayoutNode& child : node.children) shares += child.share;
-    for (const LayoutNode& child : node.children) {
+    for (const LayoutNode& child : children) shares += child.share;
+    for (const LayoutNode& child : children) {
         const double size = room * child.share / shares;
         place_grid(out, child, rows ? Box{box.x, at, box.w, size} : Box{at, box.y, size, box.h});
         at += size + gap;
@@ -128,11 +149,11 @@ Vec2 smallest(PanelKind kind) {
             return {16, 16};
         case PanelKind::strip:
         case PanelKind::energy:
-            return {300, 170};
+            return {300, 150};
         case PanelKind::phase:
         case PanelKind::close_up:
         case PanelKind::traces:
-            return {240, 190};
+            return {240, 170};
     }
     return {};
 }

@@ -25,6 +25,7 @@ struct PanelSpec {
     PanelKind kind = PanelKind::mechanism;
     std::vector<sim::Channel> channels = {};  // of a strip: at least one, all of one unit
     std::optional<double> window = {};        // of a strip or the ledger: this much time [s]; absent: the whole film
+    bool by_collision = false;                // of a strip: the time of one collision after the other
     int member = 0;                           // of the mechanism, the close-up, the ledger, the traces: which motion
     bool operator==(const PanelSpec&) const = default;
 };

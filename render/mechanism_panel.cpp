@@ -443,10 +443,14 @@ void MechanismPanel::callout(const Scene& s) const {
             .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
         const Box size = s.canvas.measure(escape(c.text), style);
         const Vec2 foot = s.beam.contact ? px(s.beam.contact->on_disc) : tips_[static_cast<std::size_t>(s.frame)];
-        Box plate{foot.x + 70 * u_, foot.y + 96 * u_, size.w + 32 * u_, 46 * u_};
+        // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
+        const double swept =
+            problem().cam ? (problem().cam->radius + problem().cam->eccentricity) * look_.camera.scale : 0;
+        const Vec2 from = problem().cam ? px(s.pose.cam_centre) : foot;
+        Box plate{from.x + swept + 60 * u_, from.y + 26 * u_, size.w + 32 * u_, 46 * u_};
         plate.x = std::clamp(plate.x, box_.x, std::max(box_.x, box_.right() - plate.w));
         plate.y = std::clamp(plate.y, box_.y, std::max(box_.y, box_.bottom() - plate.h - 40 * u_));
-        s.canvas.move_to({plate.x + 18 * u_, plate.y});
+        s.canvas.move_to({plate.x + 10 * u_, plate.y + 10 * u_});
         s.canvas.line_to(foot);
         s.canvas.stroke({palette_.ink, 1.6 * u_});
         s.canvas.rounded(plate, 8 * u_);

@@ -36,8 +36,9 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
 std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion) {
     const auto strip = [](ChannelKind kind) { return PanelSpec{.kind = PanelKind::strip, .channels = {{kind, 0}}}; };
     if (!problem.cam) return {strip(ChannelKind::theta), strip(ChannelKind::tip_deflection)};
-    if (slow_motion)
-        return {strip(ChannelKind::theta), strip(ChannelKind::contact_force), {.kind = PanelKind::close_up}};
+    PanelSpec force = strip(ChannelKind::contact_force);
+    force.by_collision = slow_motion;
+    if (slow_motion) return {strip(ChannelKind::theta), force, {.kind = PanelKind::close_up}};
     return {strip(ChannelKind::theta), strip(ChannelKind::contact_force), strip(ChannelKind::contact_x)};
 }
 

@@ -70,7 +70,8 @@ class PhasePanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, y_.scale.name(math("θ̇"), "rad/s"));
+        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
+                     y_.scale.name("d" + math("θ") + "/d" + math("t"), "rad/s"));
         const TextStyle label{.size = 17 * u, .color = p.muted};
         const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
         for (double v : y_.ticks.values) {
@@ -102,7 +103,7 @@ class PhasePanel final : public Panel {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
             canvas.polyline(points);
-            canvas.stroke({mix(p.paper, color(m), 0.22), 1.4 * u});
+            canvas.stroke({mix(p.paper, color(m), 0.22), 1.0 * u});
         }
     }
 
@@ -111,7 +112,7 @@ class PhasePanel final : public Panel {
         auto& layers = static_cast<Layers*>(state)->layers;
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const sim::Pose& pose = facts_.pose(static_cast<int>(m), frame);
-            const Image& layer = layers[m].until(pose.t, paths_[m], canvas.fonts(), {color(m), 1.8 * u});
+            const Image& layer = layers[m].until(pose.t, paths_[m], canvas.fonts(), {color(m), 1.3 * u});
             canvas.image_part(layer, static_cast<int>(plot_.x) - 8, static_cast<int>(plot_.y) - 8,
                               {0, 0, double(layer.width), double(layer.height)});
             canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * u);

@@ -1,4 +1,6 @@
 // Channels against time, and the energy ledger as stacked bands: both are Charts; here they get their contents.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +20,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 struct Name {
     const char *words, *symbol;  // markup is made by `math`, subscripts apart
     const char* subscript = "";
+    bool rate = false;  // by time
 };
 Name name_of(Channel channel) {
     switch (channel.kind) {
@@ -26,11 +29,11 @@ Name name_of(Channel channel) {
         case ChannelKind::theta:
             return {"Hub angle ", "θ"};
         case ChannelKind::theta_dot:
-            return {"Hub speed ", "θ̇"};
+            return {"Hub speed ", "θ", "", true};
         case ChannelKind::tip_deflection:
             return {"Tip deflection ", "w"};
         case ChannelKind::tip_rate:
-            return {"Rate of the tip ", "ẇ"};
+            return {"Rate of the tip ", "w", "", true};
         case ChannelKind::contact_force:
             return {"Contact force ", "F"};
         case ChannelKind::friction_force:
@@ -76,6 +79,7 @@ Name name_of(Channel channel) {
 std::string symbol_of(Channel channel) {
     const Name name = name_of(channel);
     std::string text = math(name.symbol);
+    if (name.rate) text = fmt::format("d{}/d{}", text, math("t"));
     const std::string below = channel.kind == ChannelKind::q ? std::to_string(channel.index) : name.subscript;
     return below.empty() ? text : text + "<sub>" + below + "</sub>";
 }
@@ -264,6 +268,91 @@ class StripPanel final : public ChartPanel {
     PanelSpec spec_;
 };
 
+// ---- a strip that turns from one collision to the next ------------------------------------------
+
+// The channel during one collision, from a little before its first touch: t₀ is that touch. It stays until the next
+// collision begins; before the first it shows that one's axes. All collisions share the axis of values.
+class CollisionPanel final : public Panel {
+  public:
+    CollisionPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : facts_(facts), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, facts.unit)) {
+        for (const sim::Impact& i : facts.motion(0).impacts) {
+            if (i.t_start > facts.span.high) break;
+            const double end = std::min(i.t_end.value_or(facts.span.high), facts.span.high);
+            if (spans_.empty() || i.collision != last_)
+                spans_.push_back({i.t_start, end});
+            else
+                spans_.back().high = std::max(spans_.back().high, end);
+            last_ = i.collision;
+        }
+        content_.words = name_of(first()).words;
+        content_.unit = unit_text(first(), facts.setup->problem);
+        content_.symbol = symbol_of(first());
+        Curve curve = curve_of(facts, 0, first());
+        curve.color = is_force(first()) ? facts.palette->contact : facts.palette->motion;
+        curve.faint = is_force(first()) ? facts.palette->contact_faint : facts.palette->motion_faint;
+        content_.filled = is_force(first());
+        content_.value = range_of(facts, {curve}, first());
+        curve_ = std::move(curve);
+    }
+
+    void draw_ground(Canvas&) const override {}
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        const sim::Pose& pose = facts_.pose(0, frame);
+        const std::size_t which = shown(pose.t);
+        const Chart chart = chart_of(which);
+        chart.draw_ground(canvas, *facts_.palette);
+        const double t0 = spans_.empty() ? 0 : spans_[which].low, t = pose.t - t0;
+        const bool within = t >= chart.time().low && t <= chart.time().high;
+        if (t > chart.time().low) chart.draw_past(canvas, *facts_.palette, std::min(t, chart.time().high));
+        const Reading reading{is_force(first()) && pose.nearest ? pose.nearest->force : kNan};
+        if (within) chart.draw_moving(canvas, *facts_.palette, t, std::span(&reading, 1));
+    }
+
+  private:
+    sim::Channel first() const { return spec_.channels.front(); }
+
+    // The collision that has begun last.
+    std::size_t shown(double t) const {
+        std::size_t which = 0;
+        while (which + 1 < spans_.size() && spans_[which + 1].low - margin(which + 1) <= t) ++which;
+        return which;
+    }
+    double margin(std::size_t which) const { return 0.15 * std::max(spans_[which].high - spans_[which].low, 1e-4); }
+
+    Chart chart_of(std::size_t which) const {
+        ChartContent c = content_;
+        if (spans_.empty()) {
+            c.time = {0, 0.01};
+        } else {
+            // A contact that lasts is no collision any more: its first tenth of a second is.
+            const double length = std::min(spans_[which].high - spans_[which].low, 0.1), m = margin(which);
+            c.time = {-std::min(m, 0.01), length + std::min(m, 0.01)};
+            c.words = fmt::format("Collision {}, ", which + 1);
+        }
+        const Prefix prefix = prefix_for(c.time.high);
+        c.time_unit = c.time.high < 1 ? prefix.factor : 1;
+        c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
+        Curve curve;
+        curve.color = curve_.color, curve.faint = curve_.faint;
+        const double t0 = spans_.empty() ? 0 : spans_[which].low;
+        const auto begin = std::ranges::lower_bound(curve_.t, t0 + c.time.low) - curve_.t.begin(),
+                   end = std::ranges::upper_bound(curve_.t, t0 + c.time.high) - curve_.t.begin();
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+            curve.t.push_back(curve_.t[i] - t0), curve.v.push_back(curve_.v[i]);
+        c.curves.push_back(std::move(curve));
+        return Chart(std::move(c), box_, plot_, facts_.unit);
+    }
+
+    const FilmFacts& facts_;
+    PanelSpec spec_;
+    Box box_, plot_;
+    std::vector<Range> spans_;
+    int last_ = -1;
+    ChartContent content_;
+    Curve curve_;
+};
+
 // ---- the ledger --------------------------------------------------------------------------------
 
 // T + (V − least V) + U + U_c + losses, one upon the other: together they are the energy of the start plus all
@@ -271,7 +360,7 @@ class StripPanel final : public ChartPanel {
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : ChartPanel(facts, content(facts, slot.spec), slot.box), box_(slot.box) {}
+        : ChartPanel(facts, content(facts, slot), slot.box), box_(slot.box) {}
 
     void draw_ground(Canvas& canvas) const override {
         ChartPanel::draw_ground(canvas);
@@ -294,10 +383,11 @@ class EnergyPanel final : public ChartPanel {
                 {"lost", {K::loss_structural, K::loss_contact, K::loss_friction}, mix(p.paper, p.muted, 0.55)}};
     }
 
-    static ChartContent content(const FilmFacts& facts, const PanelSpec& spec) {
+    static ChartContent content(const FilmFacts& facts, const PanelSlot& slot) {
+        const PanelSpec& spec = slot.spec;
         const int member = std::min(spec.member, facts.members() - 1);
         ChartContent c = blank(facts, spec, member);
-        c.words = "Energy ";
+        c.words = slot.box.w > 600 * facts.unit ? "Energy " : "";  // the legend stands beside it
         c.symbol = math("E");
         c.unit = "J";
         const sim::Table& table = facts.motion(member).chart;
@@ -327,9 +417,13 @@ class EnergyPanel final : public ChartPanel {
     void legend(Canvas& canvas) const {
         const double u = facts_.unit;
         const TextStyle style{.size = 16 * u, .color = facts_.palette->muted};
-        double x = plot_area(box_, u).x +
-                   canvas.measure("Energy E / mJ", {.size = 21 * u, .weight = Weight::semibold}).w + 24 * u;
+        double x =
+            plot_area(box_, u).x +
+            canvas.measure(box_.w > 600 * u ? "Energy E / mJ" : "E / mJ", {.size = 21 * u, .weight = Weight::semibold})
+                .w +
+            24 * u;
         for (const Part& part : parts(facts_)) {
+            if (part.channels.front() == ChannelKind::energy_contact && !facts_.setup->problem.cam) continue;
             const double w = canvas.measure(part.label, style).w;
             if (x + w + 22 * u > box_.right()) break;
             canvas.rounded({x, box_.y + 14 * u, 13 * u, 13 * u}, 3 * u);
@@ -345,6 +439,8 @@ class EnergyPanel final : public ChartPanel {
 }  // namespace
 
 std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    if (slot.spec.by_collision && facts.members() == 1 && facts.setup->problem.cam)
+        return std::make_unique<CollisionPanel>(facts, slot);
     return std::make_unique<StripPanel>(facts, slot);
 }
 std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {

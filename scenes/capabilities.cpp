@@ -11,21 +11,11 @@ struct Planned {
 };
 
 constexpr Planned kPlanned[] = {
+    {"outputs.type", "apng", "write a \"video\" whose \"file\" ends in .apng"},
+    {"outputs.type", "gif", "write a \"video\" whose \"file\" ends in .gif"},
     {"outputs.type", "figure", "write a \"trajectory\" and plot it, or a \"still\""},
-    {"outputs.type", "apng", "write \"frames\" or a \"video\""},
-    {"outputs.type", "gif", "write \"frames\" or a \"video\""},
-    {"outputs", "speed", "remove it: films run in real time"},
-    {"outputs", "layout", "remove it: films have one layout"},
     {"outputs", "figure", "remove it"},
     {"outputs", "lang", "remove it: texts are English"},
-    {"outputs.codec", "vp9", "write \"h264\""},
-    {"outputs.codec", "av1", "write \"h264\""},
-    {"outputs.codec", "prores", "write \"h264\""},
-    {"outputs.codec", "ffv1", "write \"h264\", or \"frames\" for exact pixels"},
-    {"file", ".webm", "name an .mp4 file"},
-    {"file", ".gif", "name an .mp4 file"},
-    {"file", ".apng", "name an .mp4 file or a frame sequence"},
-    {"file", ".webp", "name an .mp4 file or a frame sequence"},
     {"file", ".svg", "name a .png file"},
     {"file", ".pdf", "name a .png file"},
     {"command", "figure", "`beamcam simulate` writes the numbers to plot"},

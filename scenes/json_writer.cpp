@@ -99,31 +99,85 @@ Json frame_rate(const FrameRate& rate) {
     return std::to_string(rate.numerator) + "/" + std::to_string(rate.denominator);
 }
 
+Json layout(const render::LayoutNode& node) {
+    using Kind = render::LayoutNode::Kind;
+    Json out;
+    if (node.kind == Kind::panel) {
+        using render::PanelKind;
+        const render::PanelSpec& p = node.panel;
+        static constexpr std::pair<PanelKind, const char*> kNames[] = {
+            {PanelKind::mechanism, "mechanism"}, {PanelKind::strip, "strip"},       {PanelKind::phase, "phase"},
+            {PanelKind::energy, "energy"},       {PanelKind::close_up, "close-up"}, {PanelKind::traces, "traces"}};
+        for (const auto& [kind, text] : kNames)
+            if (kind == p.kind) out["panel"] = text;
+        for (const sim::Channel& channel : p.channels) out["channels"].push_back(name(channel));
+        if (p.by_collision) out["window"] = "collision";
+        if (p.window) out["window"] = *p.window;
+        if (p.member > 0) out["motion"] = p.member + 1;
+    } else {
+        for (const render::LayoutNode& child : node.children)
+            out[node.kind == Kind::rows ? "rows" : "columns"].push_back(layout(child));
+    }
+    out["share"] = node.share;
+    return out;
+}
+
+Json instant(const Instant& at) {
+    switch (at.kind) {
+        case Instant::Kind::time:
+            return at.t;
+        case Instant::Kind::impact:
+            return "impact:" + std::to_string(at.number);
+        case Instant::Kind::collision:
+            return "collision:" + std::to_string(at.number);
+    }
+    return at.t;
+}
+
 template <class Film>
 Json film(const char* type, const Film& film) {
     static constexpr const char* kThemes[] = {"light", "dark", "print"};
     Json view = {{"style", film.view.style == render::Style::lit ? "lit" : "flat"}};
     if (film.view.exaggeration) view["exaggeration"] = *film.view.exaggeration;
-    return {{"type", type},
-            {"file", film.file},
-            {"view", view},
-            {"theme", kThemes[static_cast<int>(film.view.theme)]},
-            {"size", {film.size.width, film.size.height}}};
+    Json out = {{"type", type},
+                {"file", film.file},
+                {"view", view},
+                {"theme", kThemes[static_cast<int>(film.view.theme)]},
+                {"background", film.view.transparent ? "transparent" : "paper"},
+                {"size", {film.size.width, film.size.height}},
+                {"layout", film.layout ? layout(*film.layout) : Json("auto")}};
+    if (film.compare.empty()) return out;
+    out["comparison"] = film.comparison == render::Comparison::panels ? "panels" : "ghosts";
+    for (const Compared& each : film.compare) {
+        // All of its mechanics, so that it does not depend on the scene's own or on another file.
+        Json set = Json::parse(each.physics);
+        set.erase("time");
+        out["compare"].push_back({{"label", each.label}, {"set", set}});
+    }
+    return out;
 }
 
 void add_span(Json& out, const FrameSpan& span) {
     out["fps"] = frame_rate(span.fps);
     out["from"] = span.from;
     if (span.to) out["to"] = *span.to;
+    if (const auto& slow = span.speed.around)
+        out["speed"] = {{"around", "impacts"},    {"factor", slow->factor}, {"otherwise", span.speed.factor},
+                        {"before", slow->before}, {"after", slow->after},   {"ease", slow->ease}};
+    else
+        out["speed"] = span.speed.factor;
+    for (const FilmEvent& event : span.events)
+        out["events"].push_back(
+            {{"at", instant(event.at)}, {"freeze", event.freeze}, {"text", event.text}, {"show", event.show}});
 }
 
-Json output(const Output& any) {
+Json output_json(const Output& any) {
     struct Write {
         Json operator()(const VideoOutput& v) const {
             Json out = film("video", v);
             add_span(out, v.span);
-            out["codec"] = "h264";
-            out["crf"] = v.encoding.crf;
+            out["codec"] = output::name(v.encoding.codec);
+            if (v.encoding.crf) out["crf"] = *v.encoding.crf;
             out["preset"] = v.encoding.preset;
             return out;
         }
@@ -134,7 +188,7 @@ Json output(const Output& any) {
         }
         Json operator()(const StillOutput& s) const {
             Json out = film("still", s);
-            out["at"] = s.at;
+            out["at"] = instant(s.at);
             return out;
         }
         Json operator()(const TrajectoryOutput& t) const {
@@ -171,13 +225,14 @@ std::string to_json(const Scene& scene) {
     out["time"] = {{"end", scene.end_time}};
     if (!scene.outputs.empty()) {
         out["outputs"] = Json::array();
-        for (const Output& each : scene.outputs) out["outputs"].push_back(output(each));
+        for (const Output& each : scene.outputs) out["outputs"].push_back(output_json(each));
     }
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_json(const Plan& plan, const Scene& scene) {
     Json out, stages = Json::array();
+    if (plan.impacts_until) stages.push_back({{"stage", "impacts"}, {"until", *plan.impacts_until}});
     if (plan.simulation) {
         const sim::Request& request = plan.simulation->request;
         stages.push_back({{"stage", "simulate"},
@@ -188,20 +243,28 @@ std::string to_json(const Plan& plan, const Scene& scene) {
                           {"horizon", request.horizon}});
     }
     for (const Pictures& p : plan.pictures) {
-        const std::vector<double>& times = plan.simulation->request.poses[p.poses].times;
-        Json stage = {{"stage", kind_name(p.kind)},
-                      {"file", p.file},
-                      {"output", p.output},
-                      {"frames", times.size()},
-                      {"from", times.front()},
-                      {"last", times.back()},
-                      {"size", {p.size.width, p.size.height}},
-                      {"style", view_name(p.view)}};
-        if (p.kind != Pictures::Kind::still) stage["fps"] = p.fps.value();
+        const std::vector<double>& times = plan.times(p);
+        for (const ComparedMotion& motion : p.compared)
+            stages.push_back(
+                {{"stage", "simulate"},
+                 {"model", name(motion.problem.beam.model)},
+                 {"modes", motion.problem.beam.model == sim::ModelKind::rigid ? 0 : motion.problem.beam.modes},
+                 {"until", motion.request.end_time},
+                 {"because", p.file},
+                 {"label", motion.label}});
+        Json stage = {{"stage", kind_name(p.kind)}, {"file", p.file}, {"output", p.output}};
+        if (p.settled) {
+            stage["frames"] = times.size();
+            stage["from"] = times.front();
+            stage["last"] = times.back();
+        }
+        stage["size"] = {p.picture.size.width, p.picture.size.height};
+        stage["style"] = view_name(p.picture.view);
+        if (p.kind != Pictures::Kind::still) stage["fps"] = p.span.fps.value();
         if (p.kind == Pictures::Kind::video) {
-            stage["codec"] = "h264";
-            stage["crf"] = p.encoding.crf;
-            stage["preset"] = p.encoding.preset;
+            stage["codec"] = output::name(p.encoding.codec);
+            if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
+            if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
         }
         stages.push_back(std::move(stage));
     }

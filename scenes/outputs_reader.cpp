@@ -6,6 +6,7 @@
 
 #include "output/video.hpp"
 #include "scenes/files.hpp"
+#include "scenes/film_times.hpp"
 #include "scenes/reader.hpp"
 #include "scenes/sections.hpp"
 
@@ -17,14 +18,17 @@ namespace dim = dimension;
 // Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
 constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
-constexpr double kMostFrames = 250'000;                              // over an hour at 60 fps; poses are held in memory
+constexpr FrameRate kGifRate{25, 1};                                 // what a GIF has unless told otherwise
 constexpr double kMostRows = 20'000'000;                             // 160 MB a channel
 
 // Everything that the outputs' readers share.
 struct OutputContext {
     Findings& findings;
     const Scene& scene;  // name, physics and end time are read before
+    const Node& root;
+    const Source& source;
     std::size_t index;
+    PictureContext pictures() const { return {findings, scene, root, source}; }
 };
 
 void read_file(Fields& f, std::string& file, std::initializer_list<std::string_view> endings, bool numbered) {
@@ -53,7 +57,7 @@ void read_file(Fields& f, std::string& file, std::initializer_list<std::string_v
     file = node->text;
 }
 
-void read_size(Fields& f, Size& size, bool must_be_even) {
+void read_size(Fields& f, Size& size) {
     const Node* node = f.take("size");
     if (!node) return;
     if (node->kind != Node::Kind::array || node->items.size() != 2)
@@ -62,17 +66,13 @@ void read_size(Fields& f, Size& size, bool must_be_even) {
     Size read;
     const bool fine = f.whole_value(node->items[0], "size.0", kSmallestSide, kLargestSide, read.width) &
                       f.whole_value(node->items[1], "size.1", kSmallestSide, kLargestSide, read.height);
-    if (!fine) return;
-    if (must_be_even && (read.width % 2 || read.height % 2))
-        return f.fail(*node, "size",
-                      fmt::format("{} = {} × {}: H.264 films (yuv420p) need even sides; write [{}, {}]", f.path("size"),
-                                  read.width, read.height, read.width + read.width % 2, read.height + read.height % 2));
-    size = read;
+    if (fine) size = read;
 }
 
 void read_view(Findings& findings, Fields& f, render::View& view) {
     using render::Style, render::Theme;
     f.choice<Theme>("theme", {{"light", Theme::light}, {"dark", Theme::dark}, {"print", Theme::print}}, view.theme);
+    f.choice<bool>("background", {{"paper", false}, {"transparent", true}}, view.transparent);
     const Node* node = f.take("view");
     if (!node) return;
     Fields v(findings, node, f.path("view"));
@@ -130,23 +130,55 @@ void read_span(const OutputContext& context, Fields& f, FrameSpan& span) {
         fine = read_instant(f, *to, "to", t) && fine;
         if (fine) span.to = t;
     }
+    read_pace(context.pictures(), f, span);
     if (!fine || !f.node() || context.findings.failed("time")) return;
     if (std::string problem = problem_with_span(span, context.scene.end_time); !problem.empty())
         context.findings.error(f.node()->place, f.path("to"), fmt::format("{}: {}", f.what(), problem));
 }
 
-void read_encoding(Fields& f, Encoding& encoding) {
-    if (const Node* codec = f.take("codec")) {
-        const auto planned =
-            codec->kind == Node::Kind::string ? not_available("outputs.codec", codec->text) : std::nullopt;
-        bool is_h264 = true;
-        if (planned)
-            f.fail(*codec, "codec", fmt::format("{}: {}", f.path("codec"), *planned));
-        else
-            f.choice_value<bool>(*codec, "codec", {{"h264", true}}, is_h264);
-    }
-    f.whole("crf", 0, 51, encoding.crf);
-    std::string preset = encoding.preset;
+// What the codec, the container and the picture ask of each other.
+void judge_format(Fields& f, const VideoOutput& video, bool crf_given) {
+    if (!f.node()) return;
+    const std::string ending = std::filesystem::path(video.file).extension().string();
+    const auto place = [&](const char* key) -> const Node& {
+        const Member* member = f.node()->find(key);
+        return member ? member->value : *f.node();
+    };
+    const output::Codec codec = video.encoding.codec;
+    if (std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
+        return f.fail(place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
+                      fmt::format("{}: {}", f.what(), problem));
+    if (std::string problem = output::size_problem(codec, video.size.width, video.size.height); !problem.empty())
+        f.fail(place("size"), "size", fmt::format("{}: {}", f.path("size"), problem));
+    if (std::string problem = output::rate_problem(codec, video.span.fps.value()); !problem.empty())
+        f.fail(place("fps"), "fps", fmt::format("{}: {}", f.path("fps"), problem));
+    const auto quality = output::quality_scale(codec);
+    if (crf_given && !quality)
+        f.fail(place("crf"), "crf",
+               fmt::format("{}: {} has no crf, it keeps what its format can; remove it", f.path("crf"), title(codec)));
+    else if (quality && video.encoding.crf.value_or(0) > quality->worst)
+        f.fail(place("crf"), "crf",
+               fmt::format("{} = {} is outside 0 … {} of {}", f.path("crf"), *video.encoding.crf, quality->worst,
+                           title(codec)));
+}
+
+void read_encoding(Fields& f, VideoOutput& video) {
+    using output::Codec;
+    Encoding& encoding = video.encoding;
+    encoding.codec =
+        output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(Codec::h264);
+    f.choice<Codec>("codec",
+                    {{"h264", Codec::h264},
+                     {"vp9", Codec::vp9},
+                     {"av1", Codec::av1},
+                     {"prores", Codec::prores},
+                     {"ffv1", Codec::ffv1},
+                     {"gif", Codec::gif},
+                     {"apng", Codec::apng},
+                     {"webp", Codec::webp}},
+                    encoding.codec);
+    int crf = 0;
+    if (f.whole("crf", 0, 63, crf)) encoding.crf = crf;
     using Text = const char*;
     Text chosen = nullptr;
     if (f.choice<Text>("preset",
@@ -161,15 +193,20 @@ void read_encoding(Fields& f, Encoding& encoding) {
                         {"veryslow", "veryslow"}},
                        chosen))
         encoding.preset = chosen;
+    if (!encoding.crf)
+        if (const auto quality = output::quality_scale(encoding.codec)) encoding.crf = quality->usual;
 }
 
 VideoOutput read_video(const OutputContext& context, Fields& f) {
     VideoOutput video = default_film(context.scene);
-    read_file(f, video.file, {".mp4"}, false);
-    read_size(f, video.size, true);
+    read_file(f, video.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}, false);
+    read_size(f, video.size);
     read_view(context.findings, f, video.view);
+    read_arrangement(context.pictures(), f, video);
+    read_encoding(f, video);
+    if (video.encoding.codec == output::Codec::gif) video.span.fps = kGifRate;
     read_span(context, f, video.span);
-    read_encoding(f, video.encoding);
+    judge_format(f, video, f.has("crf"));
     return video;
 }
 
@@ -177,8 +214,9 @@ FramesOutput read_frames(const OutputContext& context, Fields& f) {
     FramesOutput frames;
     frames.file = context.scene.name + "-####.png";
     read_file(f, frames.file, {".png"}, true);
-    read_size(f, frames.size, false);
+    read_size(f, frames.size);
     read_view(context.findings, f, frames.view);
+    read_arrangement(context.pictures(), f, frames);
     read_span(context, f, frames.span);
     return frames;
 }
@@ -187,9 +225,10 @@ StillOutput read_still(const OutputContext& context, Fields& f) {
     StillOutput still;
     still.file = context.scene.name + ".png";
     read_file(f, still.file, {".png"}, false);
-    read_size(f, still.size, false);
+    read_size(f, still.size);
     read_view(context.findings, f, still.view);
-    if (const Node* at = f.require("at", "\"370 ms\"")) read_instant(f, *at, "at", still.at);
+    read_arrangement(context.pictures(), f, still);
+    if (const Node* at = f.require("at", "\"370 ms\"")) read_at(f, *at, "at", still.at);
     return still;
 }
 
@@ -317,14 +356,14 @@ void refuse_shared_files(Findings& findings, const std::vector<std::pair<const N
 
 }  // namespace
 
-void read_outputs(Findings& findings, const Node* node, Scene& scene) {
+void read_outputs(Findings& findings, const Node* node, const Node& root, const Source& source, Scene& scene) {
     if (!node) return;
     if (node->kind != Node::Kind::array)
         return findings.error(node->place, "outputs",
                               fmt::format("outputs must be an array [ … ], not {}", shown(*node)));
     std::vector<std::pair<const Node*, Output>> outputs;
     for (std::size_t i = 0; i < node->items.size(); ++i)
-        if (auto output = read_output({findings, scene, i}, node->items[i]))
+        if (auto output = read_output({findings, scene, root, source, i}, node->items[i]))
             outputs.emplace_back(&node->items[i], std::move(*output));
     if (outputs.size() == node->items.size()) refuse_shared_files(findings, outputs);
     for (auto& [place, output] : outputs) scene.outputs.push_back(std::move(output));
@@ -367,6 +406,11 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
+    if (!span.real_time()) {
+        if (to > span.from) return {};  // how many frames, only the motion tells
+        return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,
+                           span.from);
+    }
     const double first = std::round(span.from * fps), last = std::round(to * fps);
     if (!(last > first))
         return fmt::format(

@@ -66,8 +66,13 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
     std::string problem;
     if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return refuse(problem);
     move_to(value, place);
+    set_value(root, std::string_view(text).substr(0, equals), std::move(value), messages);
+}
 
-    const std::vector<std::string> keys = split(std::string_view(text).substr(0, equals));
+void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
+    const Place place = value.place;
+    auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
+    const std::vector<std::string> keys = split(path);
     if (std::find(keys.begin(), keys.end(), "") != keys.end())
         return refuse("an empty key in the path; write key.path=value");
 

@@ -14,6 +14,10 @@ namespace beamcam::scenes {
 // What cannot be applied is told in `messages` and leaves the tree as it was.
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages);
 
+// Puts `value` at `path`, its keys joined by dots; objects that are missing are made. What cannot be done is told at
+// the value's place.
+void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages);
+
 // How messages name it: `--set beam.modes=3`.
 Source override_source(const std::string& text);
 

@@ -7,44 +7,42 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/film_times.hpp"
+#include "scenes/time_map.hpp"
+
 namespace beamcam::scenes {
 namespace {
 
 using sim::ChannelKind;
 
-// Strip charts show steps down to a quarter of a millisecond, and never more points than a screen
-// of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
-constexpr double kChartRate = 4000;  // [Hz]
-constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
-
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
-// k / rate from `from`, and `to` itself.
-std::vector<double> rows(double from, double to, double rate) {
-    std::vector<double> times;
-    const double first = std::ceil(from * rate), last = std::floor(to * rate);
-    times.reserve(static_cast<std::size_t>(std::max(0.0, last - first)) + 2);
-    for (double k = first; k <= last; ++k) times.push_back(k / rate);
-    // k/rate and `to` may be one instant, written twice by rounding.
-    if (!times.empty() && std::abs(times.back() - to) < 1e-9 / rate) times.back() = to;
-    if (times.empty() || times.back() < to) times.push_back(to);
-    return times;
+// Puts the instants of a picture where its runs are asked for them.
+void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
+    p.first_frame = times.first;
+    p.speeds = std::move(times.speeds);
+    p.callouts = std::move(times.callouts);
+    for (ComparedMotion& other : p.compared) {
+        other.request.poses.front().times = times.frames;
+        other.request.tables.front().times = times.chart;
+        if (other.request.tables.size() > 1) other.request.tables[1].times = times.trace;
+    }
+    if (!p.compared.empty()) return;
+    request.poses[p.poses].times = std::move(times.frames);
+    request.tables[p.chart].times = std::move(times.chart);
+    if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
 }
 
-double chart_rate(double duration) {
-    const double seconds = std::max(duration, 1e-12);
-    return std::clamp(kChartRate, kFewestChartPoints / seconds, kMostChartPoints / seconds);
+FilmTimes times_of(const Pictures& p, double end_time, const sim::Result& motion) {
+    return p.kind == Pictures::Kind::still ? still_times(p.at, motion) : film_times(p.span, end_time, motion);
 }
 
-std::vector<double> frame_times(const FrameSpan& span, double end_time, long& first) {
-    const double fps = span.fps.value();
-    first = std::lround(span.from * fps);
-    const long last = std::lround(span.to.value_or(end_time) * fps);
-    std::vector<double> times;
-    for (long k = first; k < last; ++k)
-        times.push_back(static_cast<double>(k) * span.fps.denominator / span.fps.numerator);
-    return times;
+std::vector<sim::Channel> channels_of(const Picture& picture, const FrameSpan& span, const sim::Problem& problem) {
+    const std::vector<render::PanelSpec> panels =
+        picture.layout ? render::panels_of(*picture.layout)
+                       : render::standard_panels(problem, span.speed.around || span.speed.factor < 0.5);
+    return render::chart_channels(panels);
 }
 
 // Collects what the outputs want of the one simulation.
@@ -74,53 +72,67 @@ class Planner {
         return simulation_.request.tables.size() - 1;
     }
 
-    void want_pictures(Pictures pictures, std::vector<double> times, double chart_from, double chart_to) {
-        const double last = *std::max_element(times.begin(), times.end());
-        look_until(std::max(last, chart_to), pictures.file);
-        pictures.poses = simulation_.request.poses.size();
-        simulation_.request.poses.push_back({std::move(times)});
-        pictures.chart = add_table(rows(chart_from, chart_to, chart_rate(chart_to - chart_from)),
-                                   render::chart_channels(render::standard_panels(scene_.problem, false)));
-        // The trace keeps what happened before the film began.
-        if (scene_.problem.cam) pictures.trace = add_table(rows(0, chart_to, chart_rate(chart_to)), kTraceChannels);
-        plan_.pictures.push_back(std::move(pictures));
+    // `ends` is the latest instant that the picture can look at.
+    void want_pictures(Pictures p, double ends) {
+        p.end_time = ends;
+        const bool still = p.kind == Pictures::Kind::still;
+        p.settled = still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts();
+        p.chart_channels = channels_of(p.picture, p.span, scene_.problem);
+        sim::Request& request = simulation_.request;
+        if (p.picture.compare.empty()) {
+            look_until(ends, p.file);
+            p.poses = request.poses.size();
+            request.poses.push_back({});
+            p.chart = add_table({}, p.chart_channels);
+            if (scene_.problem.cam) p.trace = add_table({}, kTraceChannels);
+        } else {
+            add_compared(p);
+        }
+        if (p.settled)
+            put_times(p, request, times_of(p, ends, {}));
+        else
+            plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), ends);
+        plan_.pictures.push_back(std::move(p));
+    }
+
+    void add_compared(Pictures& p) {
+        for (const Compared& each : p.picture.compare) {
+            ComparedMotion motion{each.label, each.problem, {}};
+            motion.request.end_time = p.end_time;
+            motion.request.poses.push_back({});
+            motion.request.tables.push_back({{}, p.chart_channels});
+            if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
+            p.compared.push_back(std::move(motion));
+        }
+    }
+
+    template <class Output>
+    static Pictures pictures(Pictures::Kind kind, const Output& output, std::size_t index) {
+        Pictures p;
+        p.kind = kind;
+        p.output = index;
+        p.file = output.file;
+        p.picture = output;
+        return p;
     }
 
     void want(const VideoOutput& video, std::size_t index) {
-        Pictures p{.kind = Pictures::Kind::video,
-                   .output = index,
-                   .file = video.file,
-                   .size = video.size,
-                   .view = video.view,
-                   .fps = video.span.fps,
-                   .encoding = video.encoding,
-                   .trace = {}};
-        std::vector<double> times = frame_times(video.span, scene_.end_time, p.first_frame);
-        want_pictures(std::move(p), std::move(times), video.span.from, video.span.to.value_or(scene_.end_time));
+        Pictures p = pictures(Pictures::Kind::video, video, index);
+        p.span = video.span;
+        p.encoding = video.encoding;
+        want_pictures(std::move(p), film_end(video.span));
     }
     void want(const FramesOutput& frames, std::size_t index) {
-        Pictures p{.kind = Pictures::Kind::frames,
-                   .output = index,
-                   .file = frames.file,
-                   .size = frames.size,
-                   .view = frames.view,
-                   .fps = frames.span.fps,
-                   .encoding = {},
-                   .trace = {}};
-        std::vector<double> times = frame_times(frames.span, scene_.end_time, p.first_frame);
-        want_pictures(std::move(p), std::move(times), frames.span.from, frames.span.to.value_or(scene_.end_time));
+        Pictures p = pictures(Pictures::Kind::frames, frames, index);
+        p.span = frames.span;
+        want_pictures(std::move(p), film_end(frames.span));
     }
     void want(const StillOutput& still, std::size_t index) {
-        Pictures p{.kind = Pictures::Kind::still,
-                   .output = index,
-                   .file = still.file,
-                   .size = still.size,
-                   .view = still.view,
-                   .fps = {},
-                   .encoding = {},
-                   .trace = {}};
-        want_pictures(std::move(p), {still.at}, 0, still.at);
+        Pictures p = pictures(Pictures::Kind::still, still, index);
+        p.at = still.at;
+        want_pictures(std::move(p), still.at.kind == Instant::Kind::time ? still.at.t : scene_.end_time);
     }
+    double film_end(const FrameSpan& span) const { return span.to.value_or(scene_.end_time); }
     void want(const TrajectoryOutput& table, std::size_t index) {
         std::vector<sim::Channel> channels = table.channels.empty() ? all_channels(scene_.problem) : table.channels;
         const sim::Channel t{ChannelKind::t, 0};
@@ -145,7 +157,11 @@ class Planner {
     void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
 
     void note_skipped() {
-        if (!needed_) return skip("simulation", "no output looks at the motion");
+        const bool compares =
+            std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
+        if (!needed_)
+            return skip(compares ? "simulation of the scene itself" : "simulation",
+                        compares ? "only compared motions are shown" : "no output looks at the motion");
         const double end = plan_.simulation->request.end_time;
         if (end < scene_.end_time)
             skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");
@@ -186,7 +202,7 @@ class Planner {
 
 bool Plan::needs_gl() const {
     return std::any_of(pictures.begin(), pictures.end(),
-                       [](const Pictures& p) { return p.view.style == render::Style::lit; });
+                       [](const Pictures& p) { return p.picture.view.style == render::Style::lit; });
 }
 
 bool Plan::needs_encoder() const {
@@ -196,10 +212,45 @@ bool Plan::needs_encoder() const {
 
 std::size_t Plan::frames() const {
     std::size_t count = 0;
-    for (const Pictures& p : pictures) count += simulation->request.poses[p.poses].times.size();
+    for (const Pictures& p : pictures) count += times(p).size();
     return count;
 }
 
+const std::vector<double>& Plan::times(const Pictures& p) const {
+    return p.compared.empty() ? simulation->request.poses[p.poses].times
+                              : p.compared.front().request.poses.front().times;
+}
+
 Plan plan(const Scene& scene) { return Planner(scene).make(); }
+
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
+    std::optional<sim::Result> own;
+    for (Pictures& p : plan.pictures) {
+        if (p.settled) continue;
+        p.settled = true;
+        if (p.compared.empty()) {
+            if (!own) own = find(scene.problem, *plan.impacts_until);
+            put_times(p, plan.simulation->request, times_of(p, p.end_time, *own));
+            continue;
+        }
+        // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
+        sim::Result first = find(p.compared.front().problem, p.end_time), all;
+        all = first;
+        for (std::size_t i = 1; i < p.compared.size(); ++i) {
+            const sim::Result other = find(p.compared[i].problem, p.end_time);
+            all.impacts.insert(all.impacts.end(), other.impacts.begin(), other.impacts.end());
+        }
+        std::ranges::stable_sort(all.impacts, {}, &sim::Impact::t_start);
+        FrameSpan span = p.span;
+        const auto fix = [&](Instant& at) { at = {.kind = Instant::Kind::time, .t = instant_of(at, first)}; };
+        for (FilmEvent& event : span.events) fix(event.at);
+        sim::Request none;
+        if (p.kind == Pictures::Kind::still)
+            put_times(p, none, still_times({.kind = Instant::Kind::time, .t = instant_of(p.at, first)}, all));
+        else
+            put_times(p, none, film_times(span, p.end_time, all));
+    }
+    plan.impacts_until.reset();
+}
 
 }  // namespace beamcam::scenes

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,19 +22,33 @@ struct Simulation {
     std::string until_because;  // the output that looks furthest: "fall.mp4"
 };
 
+// Another motion in the same picture: a run of its own, with the poses, the chart and the trace of that picture.
+struct ComparedMotion {
+    std::string label;
+    sim::Problem problem;
+    sim::Request request;  // one pose request, then the tables: chart and, with a cam, trace
+};
+
 // A film, a sequence or a still: the same pictures, put away differently.
 struct Pictures {
     enum class Kind { video, frames, still };
     Kind kind = Kind::video;
     std::size_t output = 0;  // index into the scene's outputs
     std::string file;
-    Size size;
-    render::View view;
-    FrameRate fps;                     // of video and frames
-    Encoding encoding;                 // of video
-    long first_frame = 0;              // number of the first frame; the others follow
+    Picture picture;
+    FrameSpan span;              // of video and frames
+    Instant at;                  // of a still
+    Encoding encoding;           // of video
+    bool settled = true;         // false: the frames' instants are not known before the impacts are
+    double end_time = 0;         // nothing is looked at beyond it [s]
+    long first_frame = 0;        // number of the first frame; the others follow
+    std::vector<double> speeds;  // of time at each frame; empty in real time
+    std::vector<render::Callout> callouts;
+    std::vector<sim::Channel> chart_channels;
+    std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
+    // Of the one simulation, unless the picture compares motions:
     std::size_t poses = 0;             // index into Request::poses, whose times are the frames' instants
-    std::size_t chart = 0;             // index into Request::tables: t, theta, contact_force
+    std::size_t chart = 0;             // index into Request::tables: what the panels show
     std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
 };
 struct TableFile {
@@ -56,22 +71,32 @@ struct Skipped {
 
 struct Plan {
     std::optional<Simulation> simulation;
+    // Until when a first run has to find impacts, because pictures that are not settled look at them.
+    std::optional<double> impacts_until;
     std::vector<Pictures> pictures;
     std::vector<TableFile> tables;
     std::vector<ImpactsFile> impacts;
     std::vector<SummaryFile> summaries;
     std::vector<Skipped> skipped;
 
-    bool needs_gl() const;       // a lit view
-    bool needs_encoder() const;  // a video
-    std::size_t frames() const;  // drawn altogether
+    bool needs_gl() const;                                             // a lit view
+    bool needs_encoder() const;                                        // a video
+    std::size_t frames() const;                                        // drawn altogether
+    const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty before it is settled
 };
 
 Plan plan(const Scene& scene);
 
+// Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
+// is called once for the scene's own motion, if a picture needs that, and for each compared one. Throws what `find`
+// throws and render::PictureError.
+using FindImpacts = std::function<sim::Result(const sim::Problem& problem, double until)>;
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find);
+
 // Words of the plan: "lit", "video".
 const char* view_name(const render::View& view);
 const char* kind_name(Pictures::Kind kind);
+std::string encoding_words(const Encoding& encoding);  // "H.264, crf 18, veryfast"
 
 // For people, and for programs.
 std::string to_text(const Plan& plan, const Scene& scene);

@@ -19,6 +19,13 @@ const char* kind_name(Pictures::Kind kind) {
     return "?";
 }
 
+std::string encoding_words(const Encoding& encoding) {
+    std::string words = output::title(encoding.codec);
+    if (encoding.crf) words += fmt::format(", crf {}", *encoding.crf);
+    if (encoding.codec == output::Codec::h264) words += ", " + encoding.preset;
+    return words;
+}
+
 namespace {
 
 std::string model_words(const sim::Problem& problem) {
@@ -43,13 +50,30 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
     return words;
 }
 
-std::string picture_words(const Pictures& p, std::size_t frames, double first, double last) {
-    std::string words = p.kind == Pictures::Kind::still
-                            ? fmt::format("{}: one picture of {:g} s", p.file, first)
-                            : fmt::format("{}: {} frames of {:g} s to {:g} s at {:g} a second", p.file, frames, first,
-                                          last, p.fps.value());
-    words += fmt::format(", {} × {}, {}", p.size.width, p.size.height, view_name(p.view));
-    if (p.kind == Pictures::Kind::video) words += fmt::format("; H.264, crf {}, {}", p.encoding.crf, p.encoding.preset);
+std::string span_words(const Pictures& p, const std::vector<double>& times) {
+    const bool still = p.kind == Pictures::Kind::still;
+    if (!p.settled) {
+        if (still)
+            return fmt::format("one picture of {} {}", p.at.kind == Instant::Kind::impact ? "impact" : "collision",
+                               p.at.number);
+        return fmt::format("frames of {:g} s to {:g} s at {:g} a second, as many as the impacts ask for", p.span.from,
+                           p.end_time, p.span.fps.value());
+    }
+    if (still) return fmt::format("one picture of {:g} s", times.front());
+    return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", times.size(), times.front(), times.back(),
+                       p.span.fps.value());
+}
+
+std::string pace_words(const Speed& speed) {
+    if (!speed.around) return speed.factor == 1 ? "" : fmt::format(", {:g} times real speed", speed.factor);
+    return fmt::format(", {:g} times real speed around impacts", speed.around->factor);
+}
+
+std::string picture_words(const Pictures& p, const std::vector<double>& times) {
+    std::string words = fmt::format("{}: {}{}", p.file, span_words(p, times), pace_words(p.span.speed));
+    words += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
+    if (p.picture.view.transparent) words += ", transparent";
+    if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
     return words;
 }
 
@@ -58,10 +82,15 @@ std::string picture_words(const Pictures& p, std::size_t frames, double first, d
 std::string to_text(const Plan& plan, const Scene& scene) {
     std::string text = "to do\n";
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
+    if (plan.impacts_until)
+        line("impacts", fmt::format("a first run until {:g} s finds them: pictures below stand or slow down at them",
+                                    *plan.impacts_until));
     if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
-        const std::vector<double>& times = plan.simulation->request.poses[p.poses].times;
-        line(kind_name(p.kind), picture_words(p, times.size(), times.front(), times.back()));
+        for (const ComparedMotion& motion : p.compared)
+            line("simulate", fmt::format("{}; until {:g} s, as \"{}\" of {}", model_words(motion.problem),
+                                         motion.request.end_time, motion.label, p.file));
+        line(kind_name(p.kind), picture_words(p, plan.times(p)));
     }
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];

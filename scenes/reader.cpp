@@ -58,7 +58,7 @@ void judge_physics(const Node& root, const Scene& scene, Findings& findings, std
     }
 }
 
-Scene read_tree(const Node& root, const std::string& scene_name, std::vector<Message>& messages) {
+Scene read_tree(const Node& root, const Source& source, const std::string& scene_name, std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
     scene.title.clear();
@@ -69,7 +69,7 @@ Scene read_tree(const Node& root, const std::string& scene_name, std::vector<Mes
     f.text("title", scene.title);
     read_physics(findings, f, scene);
     judge_physics(root, scene, findings, messages);
-    read_outputs(findings, f.take("outputs"), scene);
+    read_outputs(findings, f.take("outputs"), root, source, scene);
     f.finish();
     for (Message& message : findings.take()) messages.push_back(std::move(message));
     return scene;
@@ -99,7 +99,7 @@ Reading read_scene(Source file, const std::vector<std::string>& overrides) {
         reading.sources.push_back(override_source(text));
         apply_override(parsed.root, text, reading.sources.size() - 1, reading.messages);
     }
-    Scene scene = read_tree(parsed.root, name, reading.messages);
+    Scene scene = read_tree(parsed.root, reading.sources.front(), name, reading.messages);
     std::stable_sort(reading.messages.begin(), reading.messages.end(),
                      [](const Message& a, const Message& b) { return a.place < b.place; });
     const bool fatal =

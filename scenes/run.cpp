@@ -10,11 +10,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "output/atomic_file.hpp"
 #include "output/interrupt.hpp"
 #include "output/manifest.hpp"
+#include "output/palette.hpp"
 #include "output/png.hpp"
 #include "output/records.hpp"
 #include "output/tables.hpp"
@@ -70,6 +72,11 @@ class Runner {
         require_room();
         make_directories();
         require_encoder();
+        if (plan_.impacts_until) {
+            find_impacts();
+            require_room();  // now that the number of frames is known
+            make_directories();
+        }
         simulate();
         write_tables();
         write_records();
@@ -85,7 +92,8 @@ class Runner {
         return options_.directory.empty() ? fs::path(file) : fs::path(options_.directory) / file;
     }
 
-    std::size_t frames_of(const Pictures& p) const { return plan_.simulation->request.poses[p.poses].times.size(); }
+    // At least one, also before it is known.
+    std::size_t frames_of(const Pictures& p) const { return std::max<std::size_t>(plan_.times(p).size(), 1); }
 
     // Every file that will be written.
     std::vector<fs::path> targets() const {
@@ -152,11 +160,12 @@ class Runner {
     }
 
     // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹"
-    std::string accuracy_note() const {
-        std::string note = fmt::format("rtol {}", power_of_ten(scene_.problem.solver.rtol));
-        if (result_.energy_scale > 0 && result_.energy_residual_max > 0)
+    std::string accuracy_note() const { return accuracy_note(scene_.problem, result_); }
+    static std::string accuracy_note(const sim::Problem& problem, const sim::Result& result) {
+        std::string note = fmt::format("rtol {}", power_of_ten(problem.solver.rtol));
+        if (result.energy_scale > 0 && result.energy_residual_max > 0)
             note +=
-                fmt::format(" · energy closes to {}", power_of_ten(result_.energy_residual_max / result_.energy_scale));
+                fmt::format(" · energy closes to {}", power_of_ten(result.energy_residual_max / result.energy_scale));
         return note;
     }
 
@@ -164,22 +173,45 @@ class Runner {
 
     output::VideoOptions video_options(const Pictures& p) const {
         output::VideoOptions video;
-        video.width = p.size.width;
-        video.height = p.size.height;
-        video.fps = p.fps.value();
+        video.width = p.picture.size.width;
+        video.height = p.picture.size.height;
+        video.fps = p.span.fps.value();
+        video.codec = p.encoding.codec;
+        video.transparent = p.picture.view.transparent;
         video.crf = p.encoding.crf;
         video.preset = p.encoding.preset;
+        if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
         video.metadata = film_metadata();
         return video;
     }
 
-    // A film is opened and dropped, so that a missing encoder is told before anything is computed.
+    // A film of each codec is opened and dropped, so that a missing encoder is told before anything is computed.
     void require_encoder() const {
+        std::set<output::Codec> tried;
         for (const Pictures& p : plan_.pictures)
-            if (p.kind == Pictures::Kind::video) {
+            if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second)
                 output::VideoWriter(path_of(p.file), video_options(p));
-                return;
-            }
+    }
+
+    // Slow motion and pictures of impacts ask where the impacts are, before anything else can be asked.
+    void find_impacts() {
+        settle(plan_, scene_, [&](const sim::Problem& problem, double until) {
+            sim::Request request;
+            request.end_time = until;
+            return simulated("impacts", problem, request);
+        });
+    }
+
+    sim::Result simulated(const char* stage, const sim::Problem& problem, const sim::Request& request) {
+        progress_.begin(stage, request.end_time, "s");
+        const auto start = Clock::now();
+        sim::Result result = sim::simulate(problem, request, [&](double t) {
+            progress_.reach(t);
+            return !output::interrupted();
+        });
+        progress_.end();
+        times_.simulate += seconds_since(start);
+        return result;
     }
 
     void simulate() {
@@ -260,25 +292,76 @@ class Runner {
 
     render::Film film_of(const Pictures& p) {
         render::FilmSetup setup;
-        setup.problem = scene_.problem;
         setup.title = scene_.title;
-        setup.width = p.size.width;
-        setup.height = p.size.height;
-        setup.view = p.view;
-        setup.poses = std::move(result_.poses[p.poses]);
-        setup.chart = std::move(result_.tables[p.chart]);
-        if (p.trace) setup.trace = std::move(result_.tables[*p.trace]);
-        setup.impacts = result_.impacts;
-        setup.accuracy_note = accuracy_note();
+        setup.width = p.picture.size.width;
+        setup.height = p.picture.size.height;
+        setup.view = p.picture.view;
+        setup.layout = p.picture.layout;
+        setup.comparison = p.picture.comparison;
+        setup.speeds = p.speeds;
+        setup.callouts = p.callouts;
+        if (p.compared.empty()) {
+            static_cast<render::Motion&>(setup) = motion_of(scene_.problem, result_, p.poses, p.chart, p.trace);
+            setup.accuracy_note = accuracy_note();
+        } else {
+            add_compared(p, setup);
+        }
         return render::Film(std::move(setup));
+    }
+
+    static render::Motion motion_of(const sim::Problem& problem, sim::Result& result, std::size_t poses,
+                                    std::size_t chart, std::optional<std::size_t> trace) {
+        render::Motion motion;
+        motion.problem = problem;
+        motion.poses = std::move(result.poses[poses]);
+        motion.chart = std::move(result.tables[chart]);
+        if (trace) motion.trace = std::move(result.tables[*trace]);
+        motion.impacts = result.impacts;
+        return motion;
+    }
+
+    // The least accurate motion speaks for the picture.
+    void add_compared(const Pictures& p, render::FilmSetup& setup) {
+        double worst = -1;
+        for (std::size_t i = 0; i < p.compared.size(); ++i) {
+            const ComparedMotion& each = p.compared[i];
+            sim::Result result = simulated("simulate", each.problem, each.request);
+            stop_if_interrupted();
+            const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
+            if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
+            const bool traced = result.tables.size() > 1;
+            render::Motion motion =
+                motion_of(each.problem, result, 0, 0, traced ? std::optional<std::size_t>(1) : std::nullopt);
+            motion.label = each.label;
+            if (i == 0)
+                static_cast<render::Motion&>(setup) = std::move(motion);
+            else
+                setup.others.push_back(std::move(motion));
+        }
+    }
+
+    // A GIF's colours are those of a few of its frames.
+    static std::vector<std::uint32_t> palette_of(render::Film& film) {
+        constexpr int kSamples = 9;
+        output::PaletteMaker maker;
+        render::Image image;
+        const int last = film.frames() - 1, samples = std::min(kSamples, film.frames());
+        for (int i = 0; i < samples; ++i) {
+            film.draw(samples == 1 ? 0 : i * last / (samples - 1), image);
+            maker.add(image);
+        }
+        return maker.colors();
     }
 
     void draw(const Pictures& p) {
         stop_if_interrupted();
         render::Film film = film_of(p);
         std::unique_ptr<output::VideoWriter> video;
-        if (p.kind == Pictures::Kind::video)
-            video = std::make_unique<output::VideoWriter>(path_of(p.file), video_options(p));
+        if (p.kind == Pictures::Kind::video) {
+            output::VideoOptions options = video_options(p);
+            if (options.codec == output::Codec::gif) options.palette = palette_of(film);
+            video = std::make_unique<output::VideoWriter>(path_of(p.file), options);
+        }
         const long count = film.frames();
         progress_.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
         Gate gate;
@@ -366,7 +449,7 @@ class Runner {
                        result_.collisions.size(), result_.energy_residual_max, result_.energy_scale);
     }
 
-    const Plan& plan_;
+    Plan plan_;  // settled by find_impacts
     const Scene& scene_;
     const RunOptions& options_;
     Progress progress_;

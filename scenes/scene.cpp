@@ -1,5 +1,7 @@
 #include "scenes/scene.hpp"
 
+#include <algorithm>
+
 namespace beamcam::scenes {
 
 const std::string& file_of(const Output& output) {
@@ -16,6 +18,11 @@ const char* type_name(const Output& output) {
         const char* operator()(const SummaryOutput&) const { return "summary"; }
     };
     return std::visit(Name{}, output);
+}
+
+bool FrameSpan::looks_at_impacts() const {
+    return speed.around || std::any_of(events.begin(), events.end(),
+                                       [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
 }
 
 VideoOutput default_film(const Scene& scene) {

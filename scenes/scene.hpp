@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "output/video_format.hpp"
 #include "render/film.hpp"
 #include "sim/channels.hpp"
 #include "sim/problem.hpp"
@@ -28,37 +29,88 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
-// How x264 is asked to encode.
+// How a film is encoded. The file's ending names the container.
 struct Encoding {
-    int crf = 18;                     // 0 (lossless) … 51
+    output::Codec codec = output::Codec::h264;
+    std::optional<int> crf;           // 0 (best) …; absent: the codec's usual one, or it has none
     std::string preset = "veryfast";  // of x264
 };
 
-// Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers.
-struct FrameSpan {
-    FrameRate fps;
-    double from = 0;           // [s], >= 0
-    std::optional<double> to;  // [s], > from; absent: the end of the scene
+// An instant of the motion: a time, or the first touch of an impact or a collision, counted from 1.
+struct Instant {
+    enum class Kind { time, impact, collision };
+    Kind kind = Kind::time;
+    double t = 0;    // [s], >= 0
+    int number = 1;  // of the impact or collision
+    bool operator==(const Instant&) const = default;
 };
 
-struct VideoOutput {
-    std::string file;  // relative to the output directory, as in every output
+// How fast the motion runs in a film.
+struct SlowMotion {
+    double factor = 0.02;  // of real time, around impacts
+    // All in seconds of the motion: slow from so long before the first touch of an impact …
+    double before = 2e-3;
+    double after = 10e-3;  // … until so long after its release …
+    double ease = 20e-3;   // … and on the way from one speed to the other for so long
+    bool operator==(const SlowMotion&) const = default;
+};
+struct Speed {
+    double factor = 1;  // of real time, away from impacts
+    std::optional<SlowMotion> around = {};
+    bool real_time() const { return factor == 1 && !around; }
+    bool operator==(const Speed&) const = default;
+};
+
+// What the film does at an instant: stands still, says something.
+struct FilmEvent {
+    Instant at;
+    double freeze = 0;  // [s] of the film
+    std::string text;   // plain, beside the contact
+    double show = 1.5;  // [s] of the film, and at least as long as it stands still
+};
+
+// Another motion in the same picture: this scene with some of its mechanics changed.
+struct Compared {
+    std::string label;
+    sim::Problem problem;
+    std::string physics;  // JSON object of the sections, for the scene written back
+};
+
+// What every picture has.
+struct Picture {
     Size size;
     render::View view;
+    std::optional<render::LayoutNode> layout;  // absent: the standard arrangement
+    // Absent: this motion alone. The first is the main one; the scene itself is one of them only if listed.
+    std::vector<Compared> compare;
+    render::Comparison comparison = render::Comparison::panels;
+};
+
+// Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers; with a speed other than real
+// time or with events, k / fps is the film's own time.
+struct FrameSpan {
+    FrameRate fps;
+    double from = 0;           // [s] of the motion, >= 0
+    std::optional<double> to = {};  // [s], > from; absent: the end of the scene
+    Speed speed = {};
+    std::vector<FilmEvent> events = {};
+
+    bool real_time() const { return speed.real_time() && events.empty(); }
+    bool looks_at_impacts() const;  // they have to be known before the frames' instants are
+};
+
+struct VideoOutput : Picture {
+    std::string file;  // relative to the output directory, as in every output
     FrameSpan span;
     Encoding encoding;
 };
-struct FramesOutput {
+struct FramesOutput : Picture {
     std::string file;  // with one run of '#', replaced by the frame number
-    Size size;
-    render::View view;
     FrameSpan span;
 };
-struct StillOutput {
+struct StillOutput : Picture {
     std::string file;
-    Size size;
-    render::View view;
-    double at = 0;  // [s], >= 0
+    Instant at;
 };
 struct TrajectoryOutput {
     std::string file;                    // .csv or .npz

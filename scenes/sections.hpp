@@ -3,13 +3,27 @@
 
 #include "scenes/fields.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/source.hpp"
 
 namespace beamcam::scenes {
 
 // hub, beam, cam, contact, gravity, initial, solver, time.
 void read_physics(Findings& findings, Fields& root, Scene& scene);
 
-// Needs the scene's name, physics and end time.
-void read_outputs(Findings& findings, const Node* node, Scene& scene);
+// Needs the scene's name, physics and end time. `root` is the whole scene, `source` its file.
+void read_outputs(Findings& findings, const Node* node, const Node& root, const Source& source, Scene& scene);
+
+// What pictures look like (picture_reader.cpp): layout, compare, comparison; and how time runs in them: speed, events.
+struct PictureContext {
+    Findings& findings;
+    const Scene& scene;
+    const Node& root;
+    const Source& source;
+};
+void read_arrangement(const PictureContext& context, Fields& f, Picture& picture);
+void read_pace(const PictureContext& context, Fields& f, FrameSpan& span);
+bool read_at(Fields& f, const Node& node, std::string_view key, Instant& out);
+// "0.3", "300 ms", "impact:2": nothing if it is none of them.
+std::optional<Instant> parse_instant(std::string_view text);
 
 }  // namespace beamcam::scenes

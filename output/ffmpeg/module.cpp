@@ -1,4 +1,4 @@
-// The only file that sees FFmpeg: H.264 in MP4 through libavcodec and libavformat 59 to 61 (FFmpeg 5 to 7).
+// The only file that sees FFmpeg: encoders and containers through libavcodec and libavformat 59 to 61 (FFmpeg 5 to 7).
 // Built as a module of its own; video.cpp loads it through video_module.hpp.
 #include "output/video_module.hpp"
 
@@ -6,10 +6,13 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
 }
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <string>
@@ -31,6 +34,7 @@ struct BeamcamVideoSession {
     AVPacket* packet = nullptr;
     std::vector<std::unique_ptr<OwnedFrame>> frames;
     std::int64_t next_frame = 0;
+    std::uint32_t palette[256] = {};
 
     ~BeamcamVideoSession() {
         av_packet_free(&packet);
@@ -57,13 +61,27 @@ BeamcamVideoStatus fail_to_write(BeamcamVideoError* error, int code) {
     return beamcam_video_write_failed;
 }
 
-const AVCodec* h264_encoder(BeamcamVideoError* error) {
-    const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
-    if (codec == nullptr)
-        std::snprintf(error->text, sizeof error->text,
-                      "the FFmpeg libraries on this machine have no H.264 encoder (libx264); install the "
-                      "distribution's full build of libavcodec");
-    return codec;
+const AVCodec* first_encoder(const BeamcamVideoSettings& s, BeamcamVideoError* error) {
+    for (const char* const* name = s.encoders; *name != nullptr; ++name)
+        if (const AVCodec* codec = avcodec_find_encoder_by_name(*name)) return codec;
+    std::snprintf(error->text, sizeof error->text, "%s", s.missing);
+    return nullptr;
+}
+
+// Keys of the form "name:key" are for the encoder of that name alone.
+void add_options(AVDictionary** to, const char* const* options, const char* encoder) {
+    for (; *options != nullptr; options += 2) {
+        const char* colon = std::strchr(options[0], ':');
+        if (colon == nullptr)
+            av_dict_set(to, options[0], options[1], 0);
+        else if (std::string(options[0], colon) == encoder)
+            av_dict_set(to, colon + 1, options[1], 0);
+    }
+}
+
+bool is_yuv(AVPixelFormat format) {
+    const AVPixFmtDescriptor* d = av_pix_fmt_desc_get(format);
+    return d != nullptr && (d->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) == 0;
 }
 
 BeamcamVideoStatus open_codec(BeamcamVideoSession& session, const AVCodec* encoder, const BeamcamVideoSettings& s,
@@ -75,24 +93,23 @@ BeamcamVideoStatus open_codec(BeamcamVideoSession& session, const AVCodec* encod
     codec->time_base = {s.rate_base, s.rate};
     codec->framerate = {s.rate, s.rate_base};
     codec->sample_aspect_ratio = {1, 1};
-    codec->pix_fmt = AV_PIX_FMT_YUV420P;
-    codec->color_primaries = AVCOL_PRI_BT709;
-    codec->color_trc = AVCOL_TRC_BT709;
-    codec->colorspace = AVCOL_SPC_BT709;
-    codec->color_range = AVCOL_RANGE_MPEG;
-    codec->chroma_sample_location = AVCHROMA_LOC_CENTER;
+    codec->pix_fmt = av_get_pix_fmt(s.pixel_format);
+    if (is_yuv(codec->pix_fmt)) {
+        codec->color_primaries = AVCOL_PRI_BT709;
+        codec->color_trc = AVCOL_TRC_BT709;
+        codec->colorspace = AVCOL_SPC_BT709;
+        codec->color_range = AVCOL_RANGE_MPEG;
+        codec->chroma_sample_location = AVCHROMA_LOC_CENTER;
+    }
     codec->thread_count = s.threads;
     if ((session.format->oformat->flags & AVFMT_GLOBALHEADER) != 0) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
-    // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
     AVDictionary* options = nullptr;
-    av_dict_set(&options, "preset", s.preset, 0);
-    av_dict_set_int(&options, "crf", s.crf, 0);
-    av_dict_set(&options, "x264-params", "cpu-independent=1", 0);
+    add_options(&options, s.encoder_options, encoder->name);
     int code = avcodec_open2(codec, encoder, &options);
     if (code >= 0 && av_dict_count(options) > 0) code = AVERROR_OPTION_NOT_FOUND;
     av_dict_free(&options);
-    return code < 0 ? fail(error, "opening the H.264 encoder", code) : beamcam_video_ok;
+    return code < 0 ? fail(error, "opening the encoder", code) : beamcam_video_ok;
 }
 
 BeamcamVideoStatus open_file(BeamcamVideoSession& session, const BeamcamVideoSettings& s, BeamcamVideoError* error) {
@@ -109,22 +126,21 @@ BeamcamVideoStatus open_file(BeamcamVideoSession& session, const BeamcamVideoSet
     code = avio_open(&session.format->pb, session.format->url, AVIO_FLAG_WRITE);
     if (code < 0) return fail_to_write(error, code);
 
-    // faststart: the index stands first, so that players begin before they have the whole file.
-    // use_metadata_tags: keys of our own are kept. bitexact: no library version, no date.
+    // bitexact: no library version, no date.
     session.format->flags |= AVFMT_FLAG_BITEXACT;
     AVDictionary* options = nullptr;
-    av_dict_set(&options, "movflags", "+faststart+use_metadata_tags", 0);
+    add_options(&options, s.container_options, "");
     code = avformat_write_header(session.format, &options);
     av_dict_free(&options);
     return code < 0 ? fail_to_write(error, code) : beamcam_video_ok;
 }
 
 BeamcamVideoStatus open_session(BeamcamVideoSession& session, const BeamcamVideoSettings& s, BeamcamVideoError* error) {
-    const AVCodec* encoder = h264_encoder(error);
+    const AVCodec* encoder = first_encoder(s, error);
     if (encoder == nullptr) return beamcam_video_missing_codec;
     // "file:" keeps FFmpeg from reading a protocol into names such as "a:b.mp4".
     const std::string url = std::string("file:") + s.file;
-    const int code = avformat_alloc_output_context2(&session.format, nullptr, "mp4", url.c_str());
+    const int code = avformat_alloc_output_context2(&session.format, nullptr, s.container, url.c_str());
     if (code < 0) return fail(error, "setting up the film", code);
     session.packet = av_packet_alloc();
     if (session.packet == nullptr) return fail(error, "setting up the film", AVERROR(ENOMEM));
@@ -139,7 +155,8 @@ BeamcamVideoStatus drain(BeamcamVideoSession& session, BeamcamVideoError* error)
         if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return beamcam_video_ok;
         if (code < 0) return fail(error, "encoding", code);
         session.packet->stream_index = session.stream->index;
-        session.packet->duration = 1;  // libx264 leaves it out, and the last frame would last no time
+        // libx264 leaves it out, and the last frame would last no time. An animated WebP comes in one packet.
+        if (session.packet->duration == 0) session.packet->duration = 1;
         av_packet_rescale_ts(session.packet, session.codec->time_base, session.stream->time_base);
         code = av_interleaved_write_frame(session.format, session.packet);
         if (code >= 0 && session.format->pb->error < 0) code = session.format->pb->error;
@@ -148,7 +165,7 @@ BeamcamVideoStatus drain(BeamcamVideoSession& session, BeamcamVideoError* error)
 }
 
 void show_planes(OwnedFrame& frame) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 4; ++i) {
         frame.plane[i] = frame.av->data[i];
         frame.stride[i] = frame.av->linesize[i];
     }
@@ -159,7 +176,9 @@ void show_planes(OwnedFrame& frame) {
 BeamcamVideoStatus open(const BeamcamVideoSettings* settings, BeamcamVideoSession** session,
                         BeamcamVideoError* error) noexcept try {
     av_log_set_level(AV_LOG_FATAL);  // messages reach the user through `error`
+    setenv("SVT_LOG", "0", 0);       // SVT-AV1 would print its own
     auto opened = std::make_unique<BeamcamVideoSession>();
+    if (settings->palette != nullptr) std::memcpy(opened->palette, settings->palette, sizeof opened->palette);
     const auto status = open_session(*opened, *settings, error);
     *session = status == beamcam_video_ok ? opened.release() : nullptr;
     return status;
@@ -174,7 +193,13 @@ BeamcamVideoFrame* make_frame(BeamcamVideoSession* session) noexcept try {
     frame->av->format = session->codec->pix_fmt;
     frame->av->width = session->codec->width;
     frame->av->height = session->codec->height;
+    // ProRes tells what its frames tell, not what the encoder was told.
+    frame->av->color_primaries = session->codec->color_primaries;
+    frame->av->color_trc = session->codec->color_trc;
+    frame->av->colorspace = session->codec->colorspace;
+    frame->av->color_range = session->codec->color_range;
     if (av_frame_get_buffer(frame->av, 0) < 0) return nullptr;
+    if (session->codec->pix_fmt == AV_PIX_FMT_PAL8) std::memcpy(frame->av->data[1], session->palette, 1024);
     show_planes(*frame);
     session->frames.push_back(std::move(frame));
     return session->frames.back().get();

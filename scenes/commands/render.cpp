@@ -8,6 +8,7 @@
 #include "scenes/plan.hpp"
 #include "scenes/reader.hpp"
 #include "scenes/run.hpp"
+#include "scenes/sections.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 struct Arguments {
     Common common;
     std::string scene, file;
-    std::optional<std::string> at, from, to, size, fps, style, theme;
+    std::vector<std::string> others;
+    std::optional<std::string> at, from, to, size, fps, style, theme, speed, codec, background, comparison;
 };
 
 // What `render` draws like: the scene's first film, sequence or still, else the default film.
@@ -24,18 +26,74 @@ VideoOutput film_to_imitate(const Scene& scene) {
     for (const Output& output : scene.outputs) {
         if (const auto* video = std::get_if<VideoOutput>(&output)) return *video;
         if (const auto* frames = std::get_if<FramesOutput>(&output)) {
-            film.size = frames->size;
-            film.view = frames->view;
+            static_cast<Picture&>(film) = *frames;
             film.span = frames->span;
             return film;
         }
         if (const auto* still = std::get_if<StillOutput>(&output)) {
-            film.size = still->size;
-            film.view = still->view;
+            static_cast<Picture&>(film) = *still;
             return film;
         }
     }
     return film;
+}
+
+// "0.1", or "impacts": slow motion around them.
+void apply_speed(const std::string& text, Speed& speed) {
+    if (text == "impacts") {
+        speed = {.factor = 1, .around = SlowMotion{}};
+        return;
+    }
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity || !same(read.quantity->dimension, dimension::kNone) || !(read.quantity->value >= 1e-6) ||
+        !(read.quantity->value <= 1000))
+        throw UsageError(fmt::format(
+            "--speed {}: write a factor from 1e-6 to 1000, 1 is real time; or impacts, for slow motion around them",
+            text));
+    speed = {.factor = read.quantity->value, .around = std::nullopt};
+}
+
+// The file's ending decides the codec unless --codec does; the scene's own is kept for its own kind of file.
+void apply_format(const Arguments& args, VideoOutput& film) {
+    const std::string ending = ending_of(args.file);
+    const auto usual = output::default_codec(ending);
+    if (!usual) return;
+    Encoding& encoding = film.encoding;
+    const output::Codec before = encoding.codec;
+    if (args.codec) {
+        const auto codec = output::codec_named(*args.codec);
+        if (!codec)
+            throw UsageError(
+                fmt::format("--codec {}: choose h264, vp9, av1, prores, ffv1, gif, apng or webp", *args.codec));
+        encoding.codec = *codec;
+    } else if (ending_of(film.file) != ending) {
+        encoding.codec = *usual;
+    }
+    if (encoding.codec != before) {
+        encoding.crf.reset();
+        if (const auto quality = output::quality_scale(encoding.codec)) encoding.crf = quality->usual;
+    }
+    if (encoding.codec == output::Codec::gif && !args.fps && film.span.fps.value() > 50) film.span.fps = {25, 1};
+    for (const std::string& problem : {output::format_problem(ending, encoding.codec, film.view.transparent),
+                                       output::size_problem(encoding.codec, film.size.width, film.size.height),
+                                       output::rate_problem(encoding.codec, film.span.fps.value())})
+        if (!problem.empty()) throw UsageError(problem);
+}
+
+// The scenes of the command line beside each other; the first one's outputs tell how.
+void compare_scenes(const Arguments& args, const Scene& scene, Picture& picture) {
+    const auto entry = [](const Scene& one) {
+        Scene mechanics = one;
+        mechanics.outputs.clear();
+        mechanics.title.clear();
+        return Compared{one.title.empty() ? one.name : one.title, one.problem, to_json(mechanics)};
+    };
+    if (args.comparison)
+        picture.comparison = *args.comparison == "ghosts" ? render::Comparison::ghosts : render::Comparison::panels;
+    if (args.others.empty()) return;
+    if (args.others.size() > 7) throw UsageError("render: a picture compares at most eight scenes");
+    picture.compare = {entry(scene)};
+    for (const std::string& other : args.others) picture.compare.push_back(entry(read_or_refuse(other, args.common)));
 }
 
 void apply_render_options(const Arguments& args, VideoOutput& film) {
@@ -53,6 +111,8 @@ void apply_render_options(const Arguments& args, VideoOutput& film) {
     }
     if (args.from) film.span.from = seconds_argument("--from", *args.from);
     if (args.to) film.span.to = seconds_argument("--to", *args.to);
+    if (args.speed) apply_speed(*args.speed, film.span.speed);
+    if (args.background) film.view.transparent = *args.background == "transparent";
     if (args.style) film.view.style = *args.style == "flat" ? render::Style::flat : render::Style::lit;
     if (args.theme)
         film.view.theme = *args.theme == "dark"    ? render::Theme::dark
@@ -60,17 +120,25 @@ void apply_render_options(const Arguments& args, VideoOutput& film) {
                                                    : render::Theme::light;
 }
 
+Instant instant_argument(const std::string& text) {
+    if (text.starts_with("impact") || text.starts_with("collision")) {
+        if (const auto instant = parse_instant(text)) return *instant;
+        throw UsageError(fmt::format("--at {}: impacts and collisions are counted from 1, for example impact:1", text));
+    }
+    return {.kind = Instant::Kind::time, .t = seconds_argument("--at", text)};
+}
+
 Output render_output(const Arguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
-    need_ending("-o", args.file, {".mp4", ".png"});
+    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.at) {
         if (ending != ".png" || numbered)
             throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
-        if (args.from || args.to || args.fps)
-            throw UsageError("--at makes one picture; --from, --to and --fps belong to films");
-        return StillOutput{args.file, film.size, film.view, seconds_argument("--at", *args.at)};
+        if (args.from || args.to || args.fps || args.speed)
+            throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
+        return StillOutput{film, args.file, instant_argument(*args.at)};
     }
     if (ending == ".png") {
         if (!numbered)
@@ -79,15 +147,11 @@ Output render_output(const Arguments& args, VideoOutput film) {
                             args.file));
         if (std::string problem = problem_with_numbering(args.file); !problem.empty())
             throw UsageError(fmt::format("-o {}: {}", args.file, problem));
-        return FramesOutput{args.file, film.size, film.view, film.span};
+        return FramesOutput{film, args.file, film.span};
     }
     if (numbered)
         throw UsageError(fmt::format("-o {}: '#' numbers .png files; choose another name for a film", args.file));
-    if (film.size.width % 2 || film.size.height % 2)
-        throw UsageError(
-            fmt::format("a film of {} × {}: H.264 (yuv420p) needs even sides; choose --size {}x{}, or a .png sequence",
-                        film.size.width, film.size.height, film.size.width + film.size.width % 2,
-                        film.size.height + film.size.height % 2));
+    apply_format(args, film);
     film.file = args.file;
     return film;
 }
@@ -96,6 +160,7 @@ int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     VideoOutput film = film_to_imitate(scene);
     apply_render_options(args, film);
+    compare_scenes(args, scene, film);
     if (!args.at)
         if (std::string problem = problem_with_span(film.span, scene.end_time); !problem.empty())
             throw UsageError(problem);
@@ -111,11 +176,14 @@ int act(const Arguments& args) {
 
 void add_render(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("render", "Make one film (.mp4), sequence (name-####.png) or still (--at, .png)");
+    CLI::App* app = grammar.app.add_subcommand("render",
+                                               "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
+                                               "(name-####.png) or still (--at, .png)");
     add_scene(*app, args->scene, args->common);
+    app->add_option("OTHERS", args->others, "More scenes, to be compared with the first in one picture")->type_name("");
     app->add_option("-o,--output", args->file, "File to make")->required()->type_name("FILE");
-    app->add_option("--at", args->at, "One picture of this instant, in seconds or with a unit")->type_name("T");
+    app->add_option("--at", args->at, "One picture of this instant, in seconds, with a unit, or impact:N, collision:N")
+        ->type_name("T");
     app->add_option("--from", args->from, "First instant of the film")->type_name("T");
     app->add_option("--to", args->to, "Last instant of the film")->type_name("T");
     app->add_option("--size", args->size, "Pixels, for example 1280x720")->type_name("WxH");
@@ -126,6 +194,15 @@ void add_render(Grammar& grammar) {
     app->add_option("--theme", args->theme, "light, dark or print")
         ->check(CLI::IsMember({"light", "dark", "print"}))
         ->type_name("THEME");
+    app->add_option("--speed", args->speed, "Of time, 1 is real; or impacts: slow motion around them")->type_name("S");
+    app->add_option("--codec", args->codec, "h264, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)")
+        ->type_name("CODEC");
+    app->add_option("--background", args->background, "paper or transparent")
+        ->check(CLI::IsMember({"paper", "transparent"}))
+        ->type_name("WHAT");
+    app->add_option("--comparison", args->comparison, "Several scenes as panels, or as ghosts in one")
+        ->check(CLI::IsMember({"panels", "ghosts"}))
+        ->type_name("HOW");
     add_work(*app, args->common);
     grammar.bind(app, args, act);
 }

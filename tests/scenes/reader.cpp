@@ -127,7 +127,7 @@ TEST(Reader, EveryOutputTypeIsRead) {
     EXPECT_EQ(video.encoding.crf, 20);
     EXPECT_EQ(video.encoding.preset, "fast");
     EXPECT_EQ(std::get<FramesOutput>(outputs[1]).span.fps, (FrameRate{10, 1}));
-    EXPECT_EQ(std::get<StillOutput>(outputs[2]).at, 0.37);
+    EXPECT_EQ(std::get<StillOutput>(outputs[2]).at.t, 0.37);
     EXPECT_EQ(std::get<StillOutput>(outputs[2]).file, "scene.png");
     const auto& table = std::get<TrajectoryOutput>(outputs[3]);
     EXPECT_EQ(table.channels, (std::vector<sim::Channel>{{sim::ChannelKind::q, 2}, {sim::ChannelKind::theta, 0}}));
@@ -183,12 +183,53 @@ TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
 TEST(Reader, WhatTheVersionCannotDoIsRefusedByName) {
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "figure"}]})")),
                 ElementsAre(HasSubstr("figure is not available in this version")));
-    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "speed": {}, "layout": 1}]})")),
-                ElementsAre(HasSubstr("speed is not available"), HasSubstr("layout is not available")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.pdf"}]})")),
+                ElementsAre(HasSubstr(".pdf is not available")));
+}
+
+TEST(Reader, AnImpossibleFormatIsRefusedWithAPossibleOne) {
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "background": "transparent"}]})")),
+                ElementsAre(HasSubstr("name a .webm (vp9)")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.webm", "size": [321, 240]}]})")),
+                ElementsAre(HasSubstr("use 322x240")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.gif", "fps": 60}]})")),
+                ElementsAre(HasSubstr("use 50, 25 or 20")));
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "codec": "vp9"}]})")),
-                ElementsAre(HasSubstr("vp9 is not available")));
-    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.webm"}]})")),
-                ElementsAre(HasSubstr(".webm is not available")));
+                ElementsAre(HasSubstr("name a .webm or .mkv file")));
+}
+
+TEST(Reader, TheEndingChoosesTheCodec) {
+    const Reading reading =
+        read(R"({"outputs": [{"type": "video", "file": "a.webm"}, {"type": "video", "file": "b.gif"},
+        {"type": "video", "file": "c.mov"}, {"type": "video", "file": "d.mkv"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const output::Codec expected[] = {output::Codec::vp9, output::Codec::gif, output::Codec::prores,
+                                      output::Codec::ffv1};
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[i]).encoding.codec, expected[i]);
+    EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
+}
+
+TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
+    const Reading reading = read(R"({"beam": {"modes": 5}, "outputs": [{"type": "video", "compare": [{"label": "a"},
+        {"label": "b", "set": {"cam.speed": 5, "beam.model": "rigid"}}, {"set": {"cam": null}}]}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const auto& compared = std::get<VideoOutput>(reading.scene->outputs[0]).compare;
+    ASSERT_EQ(compared.size(), 3u);
+    EXPECT_EQ(compared[0].problem.beam.modes, 5);
+    EXPECT_EQ(compared[0].problem.cam->speed, reading.scene->problem.cam->speed);
+    EXPECT_EQ(compared[1].problem.cam->speed, 5);
+    EXPECT_EQ(compared[1].problem.beam.model, sim::ModelKind::rigid);
+    EXPECT_EQ(compared[1].label, "b");
+    EXPECT_FALSE(compared[2].problem.cam);
+    EXPECT_EQ(compared[2].label, "3");
+}
+
+TEST(Reader, WhatAComparisonCannotChangeIsToldAtItsPlace) {
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"cam.spede": 1}}]}]})")),
+                ElementsAre(HasSubstr("did you mean \"speed\"")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"time.end": 1}}]}]})")),
+                ElementsAre(HasSubstr("is no part of the mechanics")));
 }
 
 TEST(Reader, UnknownWordsAreAnsweredWithTheNearestOrAll) {

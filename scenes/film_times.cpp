@@ -1,0 +1,117 @@
+#include "scenes/film_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/error.hpp"
+#include "scenes/time_map.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// Strip charts show steps down to a quarter of a millisecond, and never more points than a screen
+// of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
+constexpr double kChartRate = 4000;  // [Hz]
+constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
+constexpr double kFinePoints = 40000;  // more of them where time runs slowly
+constexpr int kFineSteps = 8;          // between two frames
+
+double chart_rate(double duration) {
+    const double seconds = std::max(duration, 1e-12);
+    return std::clamp(kChartRate, kFewestChartPoints / seconds, kMostChartPoints / seconds);
+}
+
+void merge(std::vector<double>& into, const std::vector<double>& more) {
+    into.insert(into.end(), more.begin(), more.end());
+    std::ranges::sort(into);
+    into.erase(std::unique(into.begin(), into.end()), into.end());
+}
+
+FilmTimes real_time(const FrameSpan& span, double to) {
+    FilmTimes out;
+    const double fps = span.fps.value();
+    out.first = std::lround(span.from * fps);
+    const long last = std::lround(to * fps);
+    for (long k = out.first; k < last; ++k)
+        out.frames.push_back(static_cast<double>(k) * span.fps.denominator / span.fps.numerator);
+    return out;
+}
+
+// Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
+FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, std::vector<double>& fine) {
+    TimeMap map(span.from, to, span.speed, motion.impacts);
+    std::vector<double> instants;
+    for (const FilmEvent& event : span.events) {
+        instants.push_back(instant_of(event.at, motion));
+        if (event.freeze > 0) map.freeze(instants.back(), event.freeze);
+    }
+    const double fps = span.fps.value(), count = std::round(map.duration() * fps);
+    if (count > kMostFrames)
+        throw render::PictureError(
+            fmt::format("the film would have {:.0f} frames, more than {:.0f}; give it a \"to\", a larger \"speed\", or "
+                        "fewer frames "
+                        "a second",
+                        count, kMostFrames));
+    if (!(count >= 1)) throw render::PictureError("the film has no frame at that speed; lower it, or raise \"fps\"");
+    FilmTimes out;
+    const int steps = std::clamp(static_cast<int>(kFinePoints / count), 1, kFineSteps);
+    double previous = span.from;
+    for (long k = 0; k < static_cast<long>(count); ++k) {
+        const double film = static_cast<double>(k) * span.fps.denominator / span.fps.numerator;
+        // Freezes begin between frames: rounding must not step back by an ulp.
+        previous = std::max(previous, map.instant(film));
+        out.frames.push_back(previous);
+        out.speeds.push_back(map.speed(film));
+        for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
+            fine.push_back(map.instant(film + i / (steps * fps)));
+    }
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+        const FilmEvent& event = span.events[i];
+        if (event.text.empty()) continue;
+        const double from = map.film_time(instants[i]);
+        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
+                  last = static_cast<int>(std::floor((from + std::max(event.show, event.freeze)) * fps + 1e-6));
+        out.callouts.push_back({first, last, event.text});
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<double> rows(double from, double to, double rate) {
+    std::vector<double> times;
+    const double first = std::ceil(from * rate), last = std::floor(to * rate);
+    times.reserve(static_cast<std::size_t>(std::max(0.0, last - first)) + 2);
+    for (double k = first; k <= last; ++k) times.push_back(k / rate);
+    // k/rate and `to` may be one instant, written twice by rounding.
+    if (!times.empty() && std::abs(times.back() - to) < 1e-9 / rate) times.back() = to;
+    if (times.empty() || times.back() < to) times.push_back(to);
+    return times;
+}
+
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
+    const double to = span.to.value_or(end_time);
+    std::vector<double> fine;
+    FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, fine);
+    out.chart = rows(span.from, to, chart_rate(to - span.from));
+    out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
+    if (!fine.empty()) {
+        fine.insert(fine.end(), out.frames.begin(), out.frames.end());
+        merge(out.chart, fine);
+        merge(out.trace, fine);
+    }
+    return out;
+}
+
+FilmTimes still_times(const Instant& at, const sim::Result& motion) {
+    FilmTimes out;
+    const double t = instant_of(at, motion);
+    out.frames = {t};
+    out.chart = rows(0, t, chart_rate(t));
+    out.trace = out.chart;
+    return out;
+}
+
+}  // namespace beamcam::scenes

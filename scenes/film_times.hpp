@@ -1,0 +1,31 @@
+// The instants of a picture's frames, and of the charts and traces beside them: k/fps in real time, or through the
+// TimeMap of slow motion and freezes, which may have to know the impacts first.
+#pragma once
+
+#include <vector>
+
+#include "render/film.hpp"
+#include "scenes/scene.hpp"
+#include "sim/simulate.hpp"
+
+namespace beamcam::scenes {
+
+struct FilmTimes {
+    std::vector<double> frames;  // [s] of the motion, not decreasing
+    long first = 0;              // number of the first frame
+    std::vector<double> speeds;  // of each frame; empty in real time
+    std::vector<render::Callout> callouts;
+    std::vector<double> chart, trace;  // rows [s], increasing
+};
+
+// `motion` has the impacts and collisions until the span's end where the span looks at them; else it may be empty.
+// Throws render::PictureError for an impact that does not exist and for a film of too many frames.
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion);
+FilmTimes still_times(const Instant& at, const sim::Result& motion);
+
+// k / rate from `from`, and `to` itself.
+std::vector<double> rows(double from, double to, double rate);
+
+constexpr double kMostFrames = 250'000;  // over an hour at 60 fps; poses are held in memory
+
+}  // namespace beamcam::scenes
