@@ -24,13 +24,28 @@
 
 namespace beamcam::render {
 
-enum class Style { lit, flat };
+// lit: shaded, from the front; flat: a drawing; solid: bodies in perspective.
+enum class Style { lit, flat, solid };
+
+// Where the solid view is seen from. Over the film the camera swings once to either side and back.
+struct Orbit {
+    double yaw = 0.42;    // positive: from the right of the plane of motion [rad], within ±1.2
+    double pitch = 0.20;  // positive: from above [rad], within ±1.2
+    double swing = 0.16;  // of the yaw [rad], within ±1.2
+    bool operator==(const Orbit&) const = default;
+};
+
+// What colours the trace of the contact on the disc: the largest force so far, or how long ago the last touch was.
+enum class TraceColor { force, age };
 
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
     std::optional<double> exaggeration;  // of deflection, >= 1; absent: a round factor that shows it
-    bool transparent = false;            // no paper: the pictures have an alpha channel
+    Orbit orbit = {};                    // of the solid view
+    TraceColor trace = TraceColor::force;
+    bool tip_path = false;     // all of the tip's path so far, not only its last second
+    bool transparent = false;  // no paper: the pictures have an alpha channel
 };
 
 // One run of one mechanism as a film shows it.

@@ -1,4 +1,5 @@
-// The lit view: shaded metal through OpenGL (OSMesa, core profile), orthographic, seen from the front.
+// The lit view: shaded metal through OpenGL (OSMesa, core profile), orthographic, seen from the front; and the solid
+// view (solid.hpp), in perspective.
 //
 // Light and shadow come from normals computed per pixel (chamfers, turned faces, brushed lengths); edges are
 // antialiased by the distance to the shape, which is smoother than four samples and needs none. The renderer lives in
@@ -13,6 +14,7 @@
 #include "render/color.hpp"
 #include "render/geometry.hpp"
 #include "render/image.hpp"
+#include "render/solid.hpp"
 
 namespace beamcam::render {
 
@@ -49,6 +51,8 @@ class LitRenderer {
     virtual ~LitRenderer() = default;
     // Premultiplied pixels on a transparent ground, of the size given at creation.
     virtual void draw(const LitScene& scene, Image& out) = 0;
+    // The same of solid bodies in perspective, four samples a pixel, with soft shadows.
+    virtual void draw(const SolidScene& scene, Image& out) = 0;
     virtual std::string name() const = 0;  // the driver's, for fingerprints
 };
 

@@ -69,14 +69,17 @@ Box lit_bounds(const LitScene& scene) {
 // ---- prepared once for a film ----------------------------------------------------------------
 
 struct MechanismPanel::Threads final : Panel::State {
-    Threads(const FilmFacts& facts, int member, double scale)
-        : trace(facts.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
+    Threads(const FilmFacts& facts, int member, double scale, const Box& box)
+        : path(facts.setup->view.tip_path ? static_cast<int>(box.w) : 1,
+               facts.setup->view.tip_path ? static_cast<int>(box.h) : 1),
+          trace(facts.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
         const sim::Problem& problem = facts.motion(member).problem;
         const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
         const auto places = [](double px) { return static_cast<std::size_t>(std::clamp(px, 1.0, 65536.0)); };
         trace = Trace(facts.samples[static_cast<std::size_t>(member)], 2 * kPi * r, places(2 * kPi * r * scale), l,
                       places(l * scale));
     }
+    GrowingLayer path;
     Trace trace;
     std::unique_ptr<LitRenderer> lit;  // made when first needed
     Image lit_image;
@@ -101,7 +104,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
 }
 
 std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
-    return std::make_unique<Threads>(facts_, member_, look_.camera.scale);
+    return std::make_unique<Threads>(facts_, member_, look_.camera.scale, box_);
 }
 
 DrawnBeam MechanismPanel::beam_of(int member, int frame) const {
@@ -157,6 +160,14 @@ void MechanismPanel::note_extent() {
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
+    wide_ = std::clamp(0.06 * motion().problem.beam.length * look_.camera.scale, 18 * u_, 80 * u_);
+    std::vector<double> times;
+    std::vector<Vec2> inside;
+    for (int k = 0; k < facts_.frames(); ++k) {
+        times.push_back(facts_.pose(member_, k).t);
+        inside.push_back(tips_[static_cast<std::size_t>(k)] - Vec2{box_.x, box_.y});
+    }
+    if (facts_.setup->view.tip_path) path_ = thinned(times, inside, 0.5);
     lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
 }
 
@@ -175,6 +186,7 @@ void MechanismPanel::find_flashes() {
 // ---- the ground ------------------------------------------------------------------------------
 
 void MechanismPanel::draw_ground(Canvas& canvas) const {
+    if (facts_.setup->view.style == Style::solid) return label(canvas);  // all else is seen from moving places
     const Vec2 o = px({0, 0});
     canvas.move_to({box_.x, o.y});
     canvas.line_to({box_.right(), o.y});
@@ -220,31 +232,95 @@ void MechanismPanel::label(Canvas& canvas) const {
 
 // ---- what moves ------------------------------------------------------------------------------
 
+Vec2 MechanismPanel::Scene::on(Vec2 flat) const {
+    if (!view) return flat;
+    const Vec2 middle = panel.box_.centre();
+    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, 0.5 * panel.wide_});
+}
+
+void MechanismPanel::Scene::arc(Vec2 centre, double radius, double from, double to) const {
+    if (!view) return canvas.arc(centre, radius, from, to);
+    constexpr int kPieces = 48;
+    std::vector<Vec2> points;
+    for (int i = 0; i <= kPieces; ++i) points.push_back(on(centre + down(from + (to - from) * i / kPieces) * radius));
+    canvas.polyline(points);
+}
+
+// Far enough for a mild perspective, and a little smaller than the flat view, so that what comes nearer stays within.
+Perspective MechanismPanel::view_of(int frame) const {
+    const Orbit& orbit = facts_.setup->view.orbit;
+    const double turn = 2 * kPi * frame / std::max(1, facts_.frames());
+    return Perspective::looking(box_.centre(), 2.4 * std::max(box_.w, box_.h), 0.9,
+                                orbit.yaw + orbit.swing * std::sin(turn), orbit.pitch);
+}
+
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<Threads*>(state);
     const Pose& pose = facts_.pose(member_, frame);
     const DrawnBeam drawn = beam(frame);
     const MechanismShape shape = mechanism_shape(problem(), pose, drawn, look_, palette_);
     threads.trace.show_until(pose.t);
-    const Scene s{canvas, frame, pose, drawn, shape};
+    const Perspective view = view_of(frame);
+    const Scene s{canvas, frame, pose, drawn, shape, *this, style == Style::solid ? &view : nullptr};
+    if (facts_.setup->view.tip_path && !s.view) whole_path(s, threads);
     trail(s);
-    angle_arc(s);
-    base_line(s);
-    turning_arrow(s);
     switch (style) {
+        case Style::solid:
+            draw_solid(s, threads.trace, threads);
+            break;
         case Style::lit:
+            angle_arc(s);
+            base_line(s);
+            turning_arrow(s);
             draw_lit(shape, canvas, threads);
             break;
         case Style::flat:
+            angle_arc(s);
+            base_line(s);
+            turning_arrow(s);
             draw_flat(canvas, shape, look_, palette_);
             break;
     }
     disc_marks(s, threads.trace);
-    beam_trace(s, threads.trace);
+    if (!s.view) beam_trace(s, threads.trace);
     if (ghosts_) ghosts(s);
     flash(s);
     force_arrow(s);
     callout(s);
+}
+
+void MechanismPanel::draw_solid(const Scene& s, const Trace& trace, Threads& threads) const {
+    const int width = static_cast<int>(box_.w), height = static_cast<int>(box_.h);
+    if (!threads.lit) threads.lit = make_lit_renderer(width, height);
+    Perspective inside = *s.view;
+    inside.centre = inside.centre - Vec2{box_.x, box_.y};
+    const SolidScene scene = solid_scene(s.shape, palette_, box_, inside, wide_, u_, rim_colors(trace, s.pose.t));
+    threads.lit->draw(scene, threads.lit_image);
+    s.canvas.image_part(threads.lit_image, static_cast<int>(box_.x), static_cast<int>(box_.y), {0, 0, box_.w, box_.h});
+    angle_arc(s);
+    turning_arrow(s);
+}
+
+// A colour for each place around the disc, none where it was never touched.
+std::vector<Color> MechanismPanel::rim_colors(const Trace& trace, double now) const {
+    constexpr double kFade = 0.3;  // of the film's time until the trace is half as strong
+    const double half_life = kFade * (facts_.span.high - facts_.span.low);
+    std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (!(trace.rim()[i] > 0) || !(facts_.force_scale > 0)) continue;
+        if (facts_.setup->view.trace == TraceColor::force) {
+            out[i] = force_color(palette_, std::sqrt(std::min(1.0, double(trace.rim()[i]) / facts_.force_scale)));
+        } else {
+            const double age = std::max(0.0, now - trace.rim_times()[i]);
+            out[i] = mix(palette_.steel, palette_.contact, std::pow(0.5, age / half_life));
+        }
+    }
+    return out;
+}
+
+void MechanismPanel::whole_path(const Scene& s, Threads& threads) const {
+    const Image& layer = threads.path.until(s.pose.t, path_, s.canvas.fonts(), {palette_.motion_faint, 1.6 * u_});
+    s.canvas.image_part(layer, static_cast<int>(box_.x), static_cast<int>(box_.y), {0, 0, box_.w, box_.h});
 }
 
 void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const {
@@ -263,12 +339,12 @@ void MechanismPanel::ghosts(const Scene& s) const {
         const Pose& pose = facts_.pose(m, s.frame);
         const std::optional<sim::Cam>& cam = facts_.motion(m).problem.cam;
         if (cam && (!s.shape.disc || norm(px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
-            s.canvas.circle(px(pose.disc_centre), cam->radius * look_.camera.scale);
+            s.arc(px(pose.disc_centre), cam->radius * look_.camera.scale, 0, 2 * kPi);
             s.canvas.stroke({color.faded(0.8), 2 * u_, {8 * u_, 6 * u_}, Cap::butt});
         }
         for (std::size_t i = 0; i < other.line.size(); ++i)
-            i == 0 ? s.canvas.move_to(px(other.face(i))) : s.canvas.line_to(px(other.face(i)));
-        for (std::size_t i = other.line.size(); i-- > 0;) s.canvas.line_to(px(other.back(i)));
+            i == 0 ? s.canvas.move_to(s.px(other.face(i))) : s.canvas.line_to(s.px(other.face(i)));
+        for (std::size_t i = other.line.size(); i-- > 0;) s.canvas.line_to(s.px(other.back(i)));
         s.canvas.close();
         s.canvas.fill_keeping_path(color.faded(0.16));
         s.canvas.stroke({color, 2.2 * u_});
@@ -277,11 +353,12 @@ void MechanismPanel::ghosts(const Scene& s) const {
 
 // The tip's path over the last frames, fading.
 void MechanismPanel::trail(const Scene& s) const {
+    if (facts_.setup->view.tip_path && !s.view) return;  // all of it is drawn already
     const int first = std::max(0, s.frame - kTrailFrames);
     for (int k = first; k < s.frame; ++k) {
         const double age = double(s.frame - k) / kTrailFrames;
-        s.canvas.move_to(tips_[static_cast<std::size_t>(k)]);
-        s.canvas.line_to(tips_[static_cast<std::size_t>(k + 1)]);
+        s.canvas.move_to(s.on(tips_[static_cast<std::size_t>(k)]));
+        s.canvas.line_to(s.on(tips_[static_cast<std::size_t>(k + 1)]));
         s.canvas.stroke({palette_.motion.faded(0.55 * (1 - age)), 2 * u_, {}, Cap::butt});
     }
 }
@@ -296,11 +373,11 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     const double hub = hub_radius(problem(), look_.camera, u_);
     const double angle = std::remainder(s.pose.theta, 2 * kPi);
     if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
-    s.canvas.arc(px({0, 0}), radius, 0, angle);
+    s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
     const double room = std::clamp((std::abs(angle) * radius - 30 * u_) / (12 * u_), 0.0, 1.0);
     if (room > 0 && radius > hub + 38 * u_)
-        s.canvas.text(px({0, 0}) + down(angle / 2) * (radius - 17 * u_) + Vec2{0, 6 * u_}, math("θ"),
+        s.canvas.text(s.on(px({0, 0}) + down(angle / 2) * (radius - 17 * u_)) + Vec2{0, 6 * u_}, math("θ"),
                       {.size = 21 * u_,
                        .color = palette_.muted.faded(room),
                        .align = Align::centre,
@@ -319,12 +396,13 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
         const double span = std::min(0.8, 150 * u_ / radius), middle = -0.30 * kPi;
         const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
         const double head = 17 * u_, back = (to < from ? 1 : -1) * 0.9 * head / radius;
-        s.canvas.arc(axis, radius, from, to + back);
+        s.arc(axis, radius, from, to + back);
         s.canvas.stroke({palette_.muted, 2.6 * u_, {}, Cap::butt});
-        s.canvas.arrow(axis + down(to + back) * radius, axis + down(to) * radius, {palette_.muted, 2.6 * u_}, head);
+        s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
+                       {palette_.muted, 2.6 * u_}, head);
     }
     // Beside the arrow, within the panel wherever the cam stands.
-    Vec2 at = axis + down(-0.26 * kPi) * (radius + 16 * u_) + Vec2{8 * u_, 12 * u_};
+    Vec2 at = s.on(axis + down(-0.26 * kPi) * (radius + 16 * u_)) + Vec2{8 * u_, 12 * u_};
     at.x = std::min(at.x, box_.right() - s.canvas.measure(label, style).w);
     at.y = std::min(at.y, box_.bottom() - 34 * u_);
     s.canvas.text(at, label, style);
@@ -339,7 +417,7 @@ void MechanismPanel::base_line(const Scene& s) const {
     for (Vec2 p : s.beam.line) {
         const double below = -cross(base, p);  // the base line's offset from the centre line
         const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
-        line.push_back(covered ? Vec2{kNan, kNan} : px(base * dot(base, p)));
+        line.push_back(covered ? Vec2{kNan, kNan} : s.px(base * dot(base, p)));
     }
     s.canvas.polyline(line);
     s.canvas.stroke({palette_.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
@@ -348,12 +426,24 @@ void MechanismPanel::base_line(const Scene& s) const {
 void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
     if (!s.shape.disc) return;
     const DiscShape& d = *s.shape.disc;
+    if (s.view) return disc_letters(s, palette_.ink);
     const double inset = std::min(7 * u_, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
-    stroke_places(s.canvas, facts_, trace.rim(), std::min(7 * u_, 0.1 * d.radius), [&](std::size_t i) {
+    const auto place = [&](std::size_t i) {
         const double at = d.angle + 2 * kPi * (static_cast<double>(i) + 0.5) / n, half = 2 * kPi * 1.7 / n;
         s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
         s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
-    });
+    };
+    const double width = std::min(7 * u_, 0.1 * d.radius);
+    if (facts_.setup->view.trace == TraceColor::force) {
+        stroke_places(s.canvas, facts_, trace.rim(), width, place);
+    } else {
+        const std::vector<Color> colors = rim_colors(trace, s.pose.t);
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            if (colors[i].a == 0) continue;
+            place(i);
+            s.canvas.stroke({colors[i], width, {}, Cap::butt});
+        }
+    }
     if (d.radius < 26 * u_) return;
     const Color ink = facts_.setup->view.theme == Theme::dark && facts_.setup->view.style == Style::flat
                           ? palette_.paper
@@ -372,12 +462,18 @@ void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
         s.canvas.line_to(d.axis + arm * (d.bore * 0.75));
     }
     s.canvas.stroke({palette_.ink, 1.6 * u_, {}, Cap::butt});
+    disc_letters(s, ink);
+}
+
+// B and C beyond the ends of the line between them, so that they keep off it at any angle.
+void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
+    const DiscShape& d = *s.shape.disc;
     if (d.radius < 60 * u_) return;
-    // The letters stand beyond the ends of the line C–B, so that they keep off it at any angle.
+    const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = 22 * u_, .color = ink, .align = Align::centre};
-    s.canvas.text(d.centre + along * (20 * u_) + Vec2{0, 7 * u_}, math("B"), style);
-    s.canvas.text(d.axis - along * (d.bore + 16 * u_) + Vec2{0, 7 * u_}, math("C"), style);
+    s.canvas.text(s.on(d.centre + along * (20 * u_)) + Vec2{0, 7 * u_}, math("B"), style);
+    s.canvas.text(s.on(d.axis - along * (d.bore + 16 * u_)) + Vec2{0, 7 * u_}, math("C"), style);
 }
 
 void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
@@ -387,8 +483,8 @@ void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
         const double station = std::clamp(place / n * last, 0.0, last);
         const auto i = std::min(static_cast<std::size_t>(station), s.beam.line.size() - 2);
         const double part = station - static_cast<double>(i);
-        const Vec2 face = px(s.beam.face(i) * (1 - part) + s.beam.face(i + 1) * part),
-                   back = px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
+        const Vec2 face = s.px(s.beam.face(i) * (1 - part) + s.beam.face(i + 1) * part),
+                   back = s.px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
         return face + (back - face) * (inset / norm(back - face));
     };
     stroke_places(s.canvas, facts_, trace.beam(), 5 * u_, [&](std::size_t i) {
@@ -404,7 +500,8 @@ void MechanismPanel::flash(const Scene& s) const {
         const int age = s.frame - f.frame;
         if (age < 0 || age >= kFlashFrames) continue;
         const double share = double(age) / kFlashFrames;
-        const Vec2 at = px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * problem().cam->radius);
+        const Vec2 at =
+            s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * problem().cam->radius);
         s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * u_);
         s.canvas.stroke({palette_.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * u_});
     }
@@ -412,13 +509,14 @@ void MechanismPanel::flash(const Scene& s) const {
 
 void MechanismPanel::force_arrow(const Scene& s) const {
     if (!s.pose.nearest || !s.pose.nearest->touching || !(s.pose.nearest->force > 0) || !s.beam.contact) return;
-    const Vec2 foot = px(s.beam.contact->on_disc), n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
+    const Vec2 flat = px(s.beam.contact->on_disc), foot = s.on(flat),
+               n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
     s.canvas.circle(foot, 5 * u_);
     s.canvas.fill(palette_.contact);
     // A stub that shows the direction, then in proportion to the force; the number stands beside it.
     const double longest = (small_ ? 60 : 150) * u_, stub = 36 * u_;
     const double length = stub + (longest - stub) * s.pose.nearest->force / facts_.arrow_scale;
-    const Vec2 tip = foot + n * length;
+    const Vec2 tip = s.on(flat + n * length);
     s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, 19 * u_);
     if (small_) return;
     const TextStyle style{.size = 22 * u_,
@@ -429,7 +527,7 @@ void MechanismPanel::force_arrow(const Scene& s) const {
     const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
     // Beside the tip and clear of the beam's back, however short the arrow.
     const double clear = std::max(length, look_.depth * look_.camera.scale + 26 * u_);
-    Vec2 at = foot + n * clear + Vec2{-14 * u_, 6 * u_};
+    Vec2 at = s.on(flat + n * clear) + Vec2{-14 * u_, 6 * u_};
     const double w = s.canvas.measure(label, style).w;
     at.x = std::max(at.x, box_.x + w);
     s.canvas.text(at, label, style);
@@ -442,11 +540,12 @@ void MechanismPanel::callout(const Scene& s) const {
         const TextStyle style{
             .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
         const Box size = s.canvas.measure(escape(c.text), style);
-        const Vec2 foot = s.beam.contact ? px(s.beam.contact->on_disc) : tips_[static_cast<std::size_t>(s.frame)];
+        const Vec2 foot =
+            s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tips_[static_cast<std::size_t>(s.frame)]);
         // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
         const double swept =
             problem().cam ? (problem().cam->radius + problem().cam->eccentricity) * look_.camera.scale : 0;
-        const Vec2 from = problem().cam ? px(s.pose.cam_centre) : foot;
+        const Vec2 from = problem().cam ? s.px(s.pose.cam_centre) : foot;
         Box plate{from.x + swept + 60 * u_, from.y + 26 * u_, size.w + 32 * u_, 46 * u_};
         plate.x = std::clamp(plate.x, box_.x, std::max(box_.x, box_.right() - plate.w));
         plate.y = std::clamp(plate.y, box_.y, std::max(box_.y, box_.bottom() - plate.h - 40 * u_));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/growing.hpp"
 #include "render/lit.hpp"
 #include "render/mechanism.hpp"
 #include "render/panel.hpp"
@@ -34,7 +35,16 @@ class MechanismPanel final : public Panel {
         const sim::Pose& pose;
         const DrawnBeam& beam;
         const MechanismShape& shape;
+        const MechanismPanel& panel;
+        const Perspective* view;  // of the solid view; null: as it is
+
+        Vec2 on(Vec2 flat) const;  // where a point of the plane of motion [px of the flat view] is seen
+        Vec2 px(Vec2 world) const { return on(panel.px(world)); }
+        void arc(Vec2 flat_centre, double radius, double from, double to) const;
     };
+    Perspective view_of(int frame) const;
+    void draw_solid(const Scene& s, const Trace& trace, Threads& threads) const;
+    std::vector<Color> rim_colors(const Trace& trace, double now) const;
 
     DrawnBeam beam_of(int member, int frame) const;
     const Motion& motion() const { return facts_.motion(member_); }
@@ -50,11 +60,13 @@ class MechanismPanel final : public Panel {
     void label(Canvas& canvas) const;
 
     void ghosts(const Scene& s) const;
+    void whole_path(const Scene& s, Threads& threads) const;
     void trail(const Scene& s) const;
     void angle_arc(const Scene& s) const;
     void turning_arrow(const Scene& s) const;
     void base_line(const Scene& s) const;
     void disc_marks(const Scene& s, const Trace& trace) const;
+    void disc_letters(const Scene& s, Color ink) const;
     void beam_trace(const Scene& s, const Trace& trace) const;
     void flash(const Scene& s) const;
     void force_arrow(const Scene& s) const;
@@ -70,7 +82,9 @@ class MechanismPanel final : public Panel {
     bool small_;
     MechanismLook look_;
     Box lit_box_;             // what the lit mechanism ever covers, shadows included; whole pixels
+    double wide_ = 0;         // of the beam across the plane of motion, in the solid view [px]
     std::vector<Vec2> tips_;  // drawn tip of every frame [px]
+    GrowingPath path_;        // the same in the panel's box
     std::vector<Flash> flashes_;
 };
 

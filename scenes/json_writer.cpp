@@ -137,7 +137,11 @@ Json instant(const Instant& at) {
 template <class Film>
 Json film(const char* type, const Film& film) {
     static constexpr const char* kThemes[] = {"light", "dark", "print"};
-    Json view = {{"style", film.view.style == render::Style::lit ? "lit" : "flat"}};
+    const render::Orbit& orbit = film.view.orbit;
+    Json view = {{"style", view_name(film.view)},
+                 {"trace", film.view.trace == render::TraceColor::force ? "force" : "age"},
+                 {"tip_path", film.view.tip_path ? "whole" : "recent"},
+                 {"camera", {{"yaw", orbit.yaw}, {"pitch", orbit.pitch}, {"swing", orbit.swing}}}};
     if (film.view.exaggeration) view["exaggeration"] = *film.view.exaggeration;
     Json out = {{"type", type},
                 {"file", film.file},

@@ -19,7 +19,8 @@ namespace dim = dimension;
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
 constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
 constexpr FrameRate kGifRate{25, 1};                                 // what a GIF has unless told otherwise
-constexpr double kMostRows = 20'000'000;                             // 160 MB a channel
+constexpr double kWidestOrbit = 1.2;      // [rad]: further round, beam and cam hide each other
+constexpr double kMostRows = 20'000'000;  // 160 MB a channel
 
 // Everything that the outputs' readers share.
 struct OutputContext {
@@ -69,6 +70,28 @@ void read_size(Fields& f, Size& size) {
     if (fine) size = read;
 }
 
+// Where the solid view is seen from.
+void read_orbit(Findings& findings, Fields& v, render::View& view) {
+    const Node* node = v.take("camera");
+    if (!node) return;
+    Fields f(findings, node, v.path("camera"));
+    const auto angle = [&](const char* key, double& out) {
+        double value = 0;
+        const Node* given = f.take(key);
+        if (!given || !f.value(*given, key, dim::kAngle, value)) return;
+        if (!(std::abs(value) <= kWidestOrbit))
+            f.fail(*given, key,
+                   fmt::format("{} = {} is outside −{} … {} rad, from where the mechanism can be seen", f.path(key),
+                               shown(*given), kWidestOrbit, kWidestOrbit));
+        else
+            out = value;
+    };
+    angle("yaw", view.orbit.yaw);
+    angle("pitch", view.orbit.pitch);
+    angle("swing", view.orbit.swing);
+    f.finish();
+}
+
 void read_view(Findings& findings, Fields& f, render::View& view) {
     using render::Style, render::Theme;
     f.choice<Theme>("theme", {{"light", Theme::light}, {"dark", Theme::dark}, {"print", Theme::print}}, view.theme);
@@ -76,7 +99,11 @@ void read_view(Findings& findings, Fields& f, render::View& view) {
     const Node* node = f.take("view");
     if (!node) return;
     Fields v(findings, node, f.path("view"));
-    v.choice<Style>("style", {{"lit", Style::lit}, {"flat", Style::flat}}, view.style);
+    v.choice<Style>("style", {{"lit", Style::lit}, {"flat", Style::flat}, {"solid", Style::solid}}, view.style);
+    using render::TraceColor;
+    v.choice<TraceColor>("trace", {{"force", TraceColor::force}, {"age", TraceColor::age}}, view.trace);
+    v.choice<bool>("tip_path", {{"recent", false}, {"whole", true}}, view.tip_path);
+    read_orbit(findings, v, view);
     if (const Node* factor = v.take("exaggeration")) {
         double value = 0;
         if (factor->kind == Node::Kind::string && factor->text == "auto") {

@@ -202,7 +202,7 @@ class Planner {
 
 bool Plan::needs_gl() const {
     return std::any_of(pictures.begin(), pictures.end(),
-                       [](const Pictures& p) { return p.picture.view.style == render::Style::lit; });
+                       [](const Pictures& p) { return p.picture.view.style != render::Style::flat; });
 }
 
 bool Plan::needs_encoder() const {

@@ -5,7 +5,17 @@
 #include "scenes/plan.hpp"
 
 namespace beamcam::scenes {
-const char* view_name(const render::View& view) { return view.style == render::Style::lit ? "lit" : "flat"; }
+const char* view_name(const render::View& view) {
+    switch (view.style) {
+        case render::Style::lit:
+            return "lit";
+        case render::Style::flat:
+            return "flat";
+        case render::Style::solid:
+            return "solid";
+    }
+    return "?";
+}
 
 const char* kind_name(Pictures::Kind kind) {
     switch (kind) {

@@ -117,6 +117,54 @@ void main() {
     color = vec4(lit(paint, normalize(normal), vec3(forward.x, -forward.y, 0.0), 0.05) * cover, cover);
 })";
 
+// ---- solid bodies --------------------------------------------------------------------------------
+
+// Depth is linear in 1/w: nearest 0.2, farthest 3 of the eye's distance.
+constexpr const char* kSolidVertex = R"(#version 330 core
+layout(location = 0) in vec3 place; layout(location = 1) in vec3 towards; layout(location = 2) in vec4 tint;
+uniform vec3 right, up, near; uniform vec2 size, centre; uniform float distance, zoom, reach;
+uniform vec3 light_right, light_up, light_near;
+out vec3 normal, lit_at, eye_dir; out vec4 paint;
+void main() {
+    float w = (distance - dot(near, place)) / distance;
+    vec2 px = vec2(dot(right, place), dot(up, place)) * zoom;
+    vec2 clip = (vec2(centre.x, size.y - centre.y) * w + px) / size * 2.0 - w;
+    const float far_w = 3.0, near_w = 0.2;
+    gl_Position = vec4(clip, (far_w + near_w) / (far_w - near_w) * w - 2.0 * far_w * near_w / (far_w - near_w), w);
+    normal = towards; paint = tint; eye_dir = near * distance - place;
+    lit_at = vec3(dot(light_right, place), dot(light_up, place), -dot(light_near, place)) / reach * 0.5 + 0.5;
+})";
+
+// Shadows are the mean of 5 × 5 comparisons, each of them filtered. Light from the sky above, from the floor below and
+// from the wall behind stands for what bounces around the room.
+constexpr const char* kSolidFragment = R"(#version 330 core
+in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
+uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, texel;
+void main() {
+    vec3 n = normalize(normal), eye = normalize(eye_dir);
+    if (dot(n, eye) < 0.0) n = -n;
+    float facing = dot(n, light_near), bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0));
+    float seen = 0.0;
+    for (int y = -2; y <= 2; ++y)
+        for (int x = -2; x <= 2; ++x)
+            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * texel, lit_at.z - bias));
+    seen /= 25.0;
+    if (paint.a == 0.0) { color = vec4(0.0, 0.0, 0.0, opacity * (1.0 - seen)); return; }
+    float diffuse = max(facing, 0.0) * seen, sky = 0.5 + 0.5 * n.y, front = max(n.z, 0.0);
+    float spot = pow(max(dot(n, normalize(light_near + eye)), 0.0), 48.0) * seen;
+    vec3 c = paint.rgb * paint.rgb * (0.20 + 0.22 * sky + 0.16 * front + 0.72 * diffuse) + vec3(0.16 * spot);
+    color = vec4(sqrt(clamp(c, 0.0, 1.0)), 1.0);
+})";
+
+constexpr const char* kDepthVertex = R"(#version 330 core
+layout(location = 0) in vec3 place;
+uniform vec3 light_right, light_up, light_near; uniform float reach;
+void main() {
+    gl_Position = vec4(dot(light_right, place) / reach, dot(light_up, place) / reach, -dot(light_near, place) / reach, 1.0);
+})";
+constexpr const char* kDepthFragment = "#version 330 core\nvoid main() {}";
+constexpr int kShadowSize = 2048;
+
 GLuint compile(GLenum kind, const std::vector<const char*>& parts) {
     const GLuint shader = glCreateShader(kind);
     glShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
@@ -131,9 +179,9 @@ GLuint compile(GLenum kind, const std::vector<const char*>& parts) {
     return shader;
 }
 
-GLuint link(const char* vertex, const char* functions, const char* fragment) {
+GLuint link(const char* vertex, const std::vector<const char*>& fragment) {
     const GLuint program = glCreateProgram(), v = compile(GL_VERTEX_SHADER, {vertex}),
-                 f = compile(GL_FRAGMENT_SHADER, {"#version 330 core\n", functions, fragment});
+                 f = compile(GL_FRAGMENT_SHADER, fragment);
     glAttachShader(program, v);
     glAttachShader(program, f);
     glLinkProgram(program);
@@ -143,6 +191,10 @@ GLuint link(const char* vertex, const char* functions, const char* fragment) {
     glGetProgramiv(program, GL_LINK_STATUS, &good);
     if (!good) throw GlError(fmt::format("the OpenGL driver could not link a program; {}", kRemedy));
     return program;
+}
+
+GLuint link(const char* vertex, const char* functions, const char* fragment) {
+    return link(vertex, {"#version 330 core\n", functions, fragment});
 }
 
 struct Vertex {
@@ -242,7 +294,121 @@ class OsmesaRenderer final : public LitRenderer {
             throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
     }
 
+    void draw(const SolidScene& scene, Image& out) override {
+        if (out.width != width_ || out.height != height_) out = Image(width_, height_);
+        use(out);
+        if (solid_ == 0) make_solid_objects();
+        glBindVertexArray(solid_vertices_);
+        glBindBuffer(GL_ARRAY_BUFFER, solid_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.triangles.size() * sizeof(SolidVertex)),
+                     scene.triangles.data(), GL_STREAM_DRAW);
+        const auto count = static_cast<GLsizei>(scene.triangles.size());
+        glEnable(GL_DEPTH_TEST);
+        glDisable(GL_BLEND);
+        // What the light sees. The wall, the first two triangles, casts no shadow.
+        glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
+        glViewport(0, 0, kShadowSize, kShadowSize);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glUseProgram(depth_);
+        set_light(depth_, scene.reach);
+        glDrawArrays(GL_TRIANGLES, 6, count - 6);
+        // What the eye sees.
+        glBindFramebuffer(GL_FRAMEBUFFER, solid_target_);
+        glViewport(0, 0, width_, height_);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glUseProgram(solid_);
+        set_light(solid_, scene.reach);
+        set_view(scene.view);
+        set(solid_, "opacity", float(scene.shadow));
+        set(solid_, "texel", 1.6F / kShadowSize);
+        glDepthMask(GL_FALSE);
+        glDrawArrays(GL_TRIANGLES, 0, 6);
+        glDepthMask(GL_TRUE);
+        glDrawArrays(GL_TRIANGLES, 6, count - 6);
+        glDisable(GL_DEPTH_TEST);
+        glEnable(GL_BLEND);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, solid_target_);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glFinish();
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+    }
+
   private:
+    static void set(GLuint program, const char* what, Vec3 a) {
+        glUniform3f(glGetUniformLocation(program, what), float(a.x), float(a.y), float(a.z));
+    }
+
+    // From the upper left and the front, as in the lit view.
+    static void set_light(GLuint program, double reach) {
+        set(program, "light_near", Vec3{-0.4096, 0.5898, 0.6962});
+        set(program, "light_right", Vec3{0.8619, 0, 0.5071});
+        set(program, "light_up", Vec3{0.2991, 0.8076, -0.5084});
+        set(program, "reach", float(reach));
+    }
+
+    void set_view(const Perspective& view) {
+        set(solid_, "right", view.axes[0]);
+        set(solid_, "up", view.axes[1]);
+        set(solid_, "near", view.axes[2]);
+        set(solid_, "size", Vec2{double(width_), double(height_)});
+        set(solid_, "centre", view.centre);
+        set(solid_, "distance", float(view.distance));
+        set(solid_, "zoom", float(view.zoom));
+    }
+
+    void make_solid_objects() {
+        solid_ = link(kSolidVertex, {kSolidFragment});
+        depth_ = link(kDepthVertex, {kDepthFragment});
+        glGenVertexArrays(1, &solid_vertices_);
+        glGenBuffers(1, &solid_buffer_);
+        glBindVertexArray(solid_vertices_);
+        glBindBuffer(GL_ARRAY_BUFFER, solid_buffer_);
+        const GLint counts[] = {3, 3, 4};
+        std::size_t offset = 0;
+        for (GLuint i = 0; i < 3; ++i) {
+            glEnableVertexAttribArray(i);
+            glVertexAttribPointer(i, counts[i], GL_FLOAT, GL_FALSE, sizeof(SolidVertex),
+                                  reinterpret_cast<const void*>(offset));
+            offset += sizeof(float) * static_cast<std::size_t>(counts[i]);
+        }
+        GLuint buffers[2] = {0, 0};
+        glGenRenderbuffers(2, buffers);
+        glGenFramebuffers(1, &solid_target_);
+        glBindFramebuffer(GL_FRAMEBUFFER, solid_target_);
+        glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_RGBA8, width_, height_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+        glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_DEPTH_COMPONENT24, width_, height_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+        require_target();
+        GLuint texture = 0;
+        glGenTextures(1, &texture);
+        glBindTexture(GL_TEXTURE_2D, texture);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowSize, kShadowSize, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     nullptr);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+        glGenFramebuffers(1, &shadow_target_);
+        glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+        glDrawBuffer(GL_NONE);
+        glReadBuffer(GL_NONE);
+        require_target();
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
+    static void require_target() {
+        if (const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER); state != GL_FRAMEBUFFER_COMPLETE)
+            throw GlError(fmt::format("OpenGL cannot draw into its own memory here (0x{:x}); {}", state, kRemedy));
+    }
+
     // Binds the context to this thread and lets it draw into the picture itself.
     void use(Image& target) {
         if (!OSMesaMakeCurrent(context_, target.pixels.data(), GL_UNSIGNED_BYTE, width_, height_))
@@ -339,6 +505,7 @@ class OsmesaRenderer final : public LitRenderer {
     std::string name_;
     GLuint round_ = 0, round_shadow_ = 0, strip_ = 0, strip_shadow_ = 0, no_vertices_ = 0, strip_vertices_ = 0,
            buffer_ = 0;
+    GLuint solid_ = 0, depth_ = 0, solid_vertices_ = 0, solid_buffer_ = 0, solid_target_ = 0, shadow_target_ = 0;
 };
 
 }  // namespace

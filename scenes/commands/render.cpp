@@ -113,7 +113,10 @@ void apply_render_options(const Arguments& args, VideoOutput& film) {
     if (args.to) film.span.to = seconds_argument("--to", *args.to);
     if (args.speed) apply_speed(*args.speed, film.span.speed);
     if (args.background) film.view.transparent = *args.background == "transparent";
-    if (args.style) film.view.style = *args.style == "flat" ? render::Style::flat : render::Style::lit;
+    if (args.style)
+        film.view.style = *args.style == "flat"    ? render::Style::flat
+                          : *args.style == "solid" ? render::Style::solid
+                                                   : render::Style::lit;
     if (args.theme)
         film.view.theme = *args.theme == "dark"    ? render::Theme::dark
                           : *args.theme == "print" ? render::Theme::print
@@ -188,8 +191,8 @@ void add_render(Grammar& grammar) {
     app->add_option("--to", args->to, "Last instant of the film")->type_name("T");
     app->add_option("--size", args->size, "Pixels, for example 1280x720")->type_name("WxH");
     app->add_option("--fps", args->fps, "Frames a second, for example 60 or 30000/1001")->type_name("RATE");
-    app->add_option("--style", args->style, "lit (OpenGL) or flat")
-        ->check(CLI::IsMember({"lit", "flat"}))
+    app->add_option("--style", args->style, "lit or solid (OpenGL; in perspective), or flat")
+        ->check(CLI::IsMember({"lit", "flat", "solid"}))
         ->type_name("STYLE");
     app->add_option("--theme", args->theme, "light, dark or print")
         ->check(CLI::IsMember({"light", "dark", "print"}))

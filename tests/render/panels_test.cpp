@@ -1,0 +1,206 @@
+// Films of every panel, of several motions, and in perspective: the same pixels in any order of frames and on any
+// number of threads, text apart from text.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/film.hpp"
+#include "render/growing.hpp"
+#include "render/labels.hpp"
+#include "render/solid.hpp"
+#include "tests/render/synthetic.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"
+#else
+#define SKIP_WITHOUT_GL() (void)0
+#endif
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+LayoutNode panel(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
+LayoutNode grid(LayoutNode::Kind kind, std::vector<LayoutNode> children, double share = 1) {
+    return {.kind = kind, .share = share, .children = std::move(children)};
+}
+PanelSpec strip(ChannelKind kind) { return {.kind = PanelKind::strip, .channels = {{kind, 0}}}; }
+
+// Every kind of panel at once.
+FilmSetup everything() {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 1920, setup.height = 1080;
+    setup.view.style = Style::flat;
+    setup.view.tip_path = true;
+    setup.view.trace = TraceColor::age;
+    setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
+    setup.chart.channels.push_back({ChannelKind::energy_kinetic, 0});
+    setup.chart.channels.push_back({ChannelKind::energy_potential, 0});
+    std::vector<double> rate, kinetic, potential;
+    for (double t : setup.chart.values[0]) {
+        rate.push_back(std::sin(9 * t)), kinetic.push_back(std::pow(std::sin(7 * t), 2));
+        potential.push_back(std::pow(std::cos(7 * t), 2));
+    }
+    for (auto* values : {&rate, &kinetic, &potential}) setup.chart.values.push_back(*values);
+    PanelSpec by_collision = strip(ChannelKind::contact_force), moving = strip(ChannelKind::theta_dot);
+    by_collision.by_collision = true;
+    moving.window = 0.1;
+    using enum LayoutNode::Kind;
+    setup.layout =
+        grid(columns, {grid(rows, {panel({.kind = PanelKind::mechanism}, 2), panel({.kind = PanelKind::energy})}, 1.5),
+                       grid(rows, {panel({.kind = PanelKind::phase}), panel({.kind = PanelKind::traces}),
+                                   panel({.kind = PanelKind::close_up})}),
+                       grid(rows, {panel(strip(ChannelKind::theta)), panel(by_collision), panel(moving)})});
+    setup.speeds.assign(setup.poses.size(), 1);
+    setup.speeds[20] = 0.02, setup.speeds[21] = 0;
+    setup.callouts = {{15, 30, "first touch"}};
+    return setup;
+}
+
+FilmSetup compared(Comparison how) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    const FilmSetup faster = test::synthetic_film({.duration = 0.8, .amplitude = 4e-3, .speed = 2});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = Style::flat;
+    setup.label = "ω = 5";
+    setup.others.push_back(faster);
+    setup.others.back().label = "ω = 2";
+    setup.comparison = how;
+    return setup;
+}
+
+Image drawn(Film& film, int frame) {
+    Image image;
+    film.draw(frame, image);
+    return image;
+}
+
+void same_in_any_order(FilmSetup setup) {
+    Film film(std::move(setup));
+    const int frames[] = {0, 7, 20, 21, 33, 47};
+    std::vector<Image> forward;
+    for (int k : frames) forward.push_back(drawn(film, k));
+    Film fresh = film.another();
+    for (int i = 5; i >= 0; --i) EXPECT_EQ(drawn(fresh, frames[i]), forward[std::size_t(i)]) << frames[i];
+    for (int i = 1; i < 6; ++i) EXPECT_NE(forward[std::size_t(i)], forward[std::size_t(i) - 1]) << frames[i];
+}
+
+TEST(Panels, SamePixelsInAnyOrder) { same_in_any_order(everything()); }
+TEST(Panels, ComparisonsHaveTheSamePixelsInAnyOrder) {
+    same_in_any_order(compared(Comparison::panels));
+    same_in_any_order(compared(Comparison::ghosts));
+}
+TEST(SolidFilm, SamePixelsInAnyOrder) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 640, setup.height = 360;
+    setup.view.style = Style::solid;
+    same_in_any_order(std::move(setup));
+}
+
+void texts_keep_apart(FilmSetup setup) {
+    const Box all{0, 0, double(setup.width), double(setup.height)};
+    Film film(std::move(setup));
+    for (int frame : {0, 20, 25, 40}) {
+        const std::vector<Box> texts = film.geometry(frame).texts;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_TRUE(all.contains(texts[i], 0.5)) << frame << ": " << i;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(texts[i].overlaps(texts[j]))
+                    << "frame " << frame << ": texts " << i << " and " << j << " at " << texts[i].x << "," << texts[i].y
+                    << " and " << texts[j].x << "," << texts[j].y;
+        }
+    }
+}
+TEST(Panels, TextKeepsWithinThePictureAndApart) { texts_keep_apart(everything()); }
+TEST(Panels, TextOfComparisonsKeepsApart) {
+    texts_keep_apart(compared(Comparison::panels));
+    texts_keep_apart(compared(Comparison::ghosts));
+}
+
+TEST(Panels, ComparedMechanismsHaveOneScaleAndOneFactor) {
+    Film film(compared(Comparison::panels));
+    const Layout layout = film.geometry(10).layout;
+    std::vector<Box> boxes;
+    for (const PanelSlot& slot : layout.panels)
+        if (slot.spec.kind == PanelKind::mechanism) boxes.push_back(slot.box);
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_NEAR(boxes[0].w, boxes[1].w, 1);
+    EXPECT_EQ(boxes[0].h, boxes[1].h);
+}
+
+TEST(Panels, MotionsAtOtherInstantsAreRefused) {
+    FilmSetup setup = compared(Comparison::panels);
+    setup.others[0].poses.pop_back();
+    EXPECT_ANY_THROW(Film{std::move(setup)});
+}
+
+TEST(Panels, ATransparentFilmHasNoPaper) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.2});
+    setup.width = 960, setup.height = 540;
+    setup.view.style = Style::flat;
+    setup.view.transparent = true;
+    Film film(std::move(setup));
+    const Image image = drawn(film, 3);
+    EXPECT_EQ(image.pixels.front(), 0U);
+    std::size_t opaque = 0;
+    for (std::uint32_t p : image.pixels) opaque += p >> 24 == 255;
+    EXPECT_GT(opaque, 10000U);
+}
+
+TEST(Layout, SharesDivideTheRoom) {
+    using enum LayoutNode::Kind;
+    const Layout l =
+        layout(1920, 1080, grid(columns, {panel({.kind = PanelKind::mechanism}, 3), panel(strip(ChannelKind::theta))}));
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_NEAR(l.panels[0].box.w / l.panels[1].box.w, 3, 0.01);
+    EXPECT_EQ(l.panels[0].box.h, l.panels[1].box.h);
+}
+
+TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
+    using enum LayoutNode::Kind;
+    std::vector<LayoutNode> many;
+    for (int i = 0; i < 12; ++i) many.push_back(panel(strip(ChannelKind::theta)));
+    const Layout l = layout(1280, 720, grid(rows, many));
+    EXPECT_LT(l.panels.size(), 8U);
+    EXPECT_GT(l.panels.size(), 1U);
+    for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, smallest(PanelKind::strip).y * l.unit - 1);
+}
+
+TEST(Labels, SpeedsAreToldAsFractions) {
+    EXPECT_EQ(speed_text(1), "");
+    EXPECT_EQ(speed_text(0.02), "1/50 speed");
+    EXPECT_EQ(speed_text(0.5), "1/2 speed");
+    EXPECT_EQ(speed_text(0.037), "1/20 speed");
+    EXPECT_EQ(speed_text(0), "frozen");
+    EXPECT_EQ(speed_text(4), "4× speed");
+}
+
+TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
+    const Perspective front = Perspective::looking({400, 300}, 2000, 1, 0, 0);
+    const Vec2 p = front.to_pixels({120, 50, 0});
+    EXPECT_NEAR(p.x, 520, 1e-12);
+    EXPECT_NEAR(p.y, 250, 1e-12);
+    const Vec2 nearer = front.to_pixels({120, 50, 400});  // at four fifths of the distance
+    EXPECT_NEAR(nearer.x, 400 + 150, 1e-9);
+    EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
+}
+
+TEST(Perspective, AxesAreOrthonormal) {
+    const Perspective p = Perspective::looking({}, 1000, 1, 0.7, -0.3);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec3 &a = p.axes[i], &b = p.axes[j];
+            EXPECT_NEAR(a.x * b.x + a.y * b.y + a.z * b.z, i == j ? 1 : 0, 1e-12);
+        }
+    EXPECT_GT(p.axes[2].x, 0);  // seen from the right
+}
+
+TEST(Growing, ThinningKeepsTheEnds) {
+    const GrowingPath path = thinned({0, 1, 2, 3}, {{0, 0}, {0.1, 0}, {5, 0}, {5.1, 0}}, 1);
+    EXPECT_EQ(path.times, (std::vector<double>{0, 2, 3}));
+}
+
+}  // namespace
+}  // namespace beamcam::render

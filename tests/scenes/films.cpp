@@ -1,0 +1,128 @@
+// Films of real motions: what is drawn touching touches, and files do not depend on threads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/exaggeration.hpp"
+#include "scenes/film_times.hpp"
+#include "scenes/plan.hpp"
+#include "sim/simulate.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Folder, testing::Finished, testing::shell;
+using ::testing::HasSubstr;
+
+// Distance of the drawn face, as the polygon that is filled, from the drawn disc.
+double drawn_gap(const render::DrawnBeam& beam, const sim::Pose& pose, double radius) {
+    double best = 1e300;
+    for (std::size_t i = 0; i + 1 < beam.line.size(); ++i) {
+        const sim::Vec2 a = beam.face(i), ab = beam.face(i + 1) - a;
+        const double s = std::clamp(dot(pose.disc_centre - a, ab) / dot(ab, ab), 0.0, 1.0);
+        best = std::min(best, norm(a + ab * s - pose.disc_centre));
+    }
+    return best - radius;
+}
+
+// Frames in contact of a film at real speed and, between first touch and last release, twenty for each millisecond.
+void touches_within_half_a_pixel(const std::string& overrides, double wanted_factor) {
+    const Reading reading = testing::read("{" + overrides + "\"time\": {\"end\": 1}}");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const sim::Problem& problem = reading.scene->problem;
+    const sim::Result first = sim::simulate(problem, {.end_time = 1});
+    ASSERT_FALSE(first.impacts.empty());
+    sim::PoseRequest request;
+    for (int k = 0; k < 60; ++k) request.times.push_back(k / 60.0);
+    for (const sim::Impact& impact : first.impacts)
+        for (double t = impact.t_start; t < impact.t_end.value_or(1); t += 5e-5) request.times.push_back(t);
+    std::ranges::sort(request.times);
+    const sim::Result motion = sim::simulate(problem, {.end_time = 1, .poses = {request}});
+    const std::vector<sim::Pose>& poses = motion.poses[0];
+    const double factor =
+        render::film_factor(problem, poses, wanted_factor > 0 ? std::optional(wanted_factor) : std::nullopt);
+    constexpr double kPixel = 1.0 / 950;  // [m], of a film 1920 pixels wide
+    int touching = 0;
+    for (const sim::Pose& pose : poses) {
+        const render::DrawnBeam beam = render::drawn_beam(problem, pose, factor, problem.beam.depth);
+        const double gap = drawn_gap(beam, pose, problem.cam->radius);
+        // Penetration is real: the drawing may show as much of it as there is, and no more.
+        EXPECT_GT(gap, std::min(pose.nearest->gap, 0.0) - 0.5 * kPixel) << "t = " << pose.t << ", ×" << factor;
+        if (!pose.nearest->touching) continue;
+        ++touching;
+        EXPECT_LT(std::abs(gap), std::abs(pose.nearest->gap) + 0.5 * kPixel) << "t = " << pose.t << ", ×" << factor;
+    }
+    EXPECT_GT(touching, 100);
+}
+
+TEST(Films, TouchingIsDrawnTouchingAtEveryFrameInContact) {
+    touches_within_half_a_pixel("\"beam\": {\"modes\": 4}, \"cam\": {\"speed\": 5},", 0);
+    touches_within_half_a_pixel("\"beam\": {\"modes\": 4}, \"cam\": {\"speed\": 0},", 100);
+    touches_within_half_a_pixel("\"contact\": {\"offset\": \"half-depth\"},", 50);
+}
+
+TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "frames", "file": "f-###.png",
+        "size": [960, 540], "fps": 12, "from": 0.27, "view": {"style": "flat", "tip_path": "whole"},
+        "speed": {"around": "impacts", "factor": 0.02, "ease": "5 ms"}, "events": [{"at": "impact:1", "freeze": 0.5, "text": "touch"}],
+        "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}]}}]})");
+    std::string listing;
+    for (const char* jobs : {"1", "3"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM run s.json -j ") + jobs + " -o j" + jobs);
+        ASSERT_EQ(finished.code, 0) << finished.err;
+    }
+    EXPECT_EQ(shell(folder, "diff -r -x .beamcam.json j1 j3").out, "");
+    const int frames = std::stoi(shell(folder, "ls j1/*.png | wc -l").out);
+    EXPECT_GT(frames, 8);
+}
+
+TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "still", "at": "impact:1", "size": [320, 180],
+        "view": {"style": "flat"}}]})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    const Finished none = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:99");
+    EXPECT_EQ(none.code, 3);
+    EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
+}
+
+TEST(Films, ScenesOfTheCommandLineAreCompared) {
+    const Folder folder;
+    folder.write("a.json", R"({"title": "slow", "cam": {"speed": 1}})");
+    folder.write("b.json", R"({"title": "fast", "cam": {"speed": 5}})");
+    const Finished finished = shell(folder,
+                                    "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat --size 640x360 && "
+                                    "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat -n");
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("as \"slow\" of c.png"));
+    EXPECT_THAT(finished.out, HasSubstr("as \"fast\" of c.png"));
+}
+
+TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
+    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": {"around": "impacts"}}]})");
+    ASSERT_TRUE(reading.scene);
+    Plan p = plan(*reading.scene);
+    EXPECT_EQ(p.impacts_until, 1.5);
+    EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
+    settle(p, *reading.scene, [](const sim::Problem&, double) {
+        sim::Result result;
+        result.impacts.resize(1);
+        result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
+        return result;
+    });
+    EXPECT_FALSE(p.impacts_until);
+    EXPECT_GT(p.frames(), 90u + 60u);  // real time, and 22 ms at a fiftieth
+}
+
+TEST(Films, RealTimeFilmsNeedNoFirstRun) {
+    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.1}]})");
+    EXPECT_FALSE(plan(*reading.scene).impacts_until);
+    EXPECT_EQ(plan(*reading.scene).frames(), 900u);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
