@@ -21,7 +21,7 @@ namespace {
 
 using sim::ChannelKind;
 
-LayoutNode panel(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
+LayoutNode leaf(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
 LayoutNode grid(LayoutNode::Kind kind, std::vector<LayoutNode> children, double share = 1) {
     return {.kind = kind, .share = share, .children = std::move(children)};
 }
@@ -48,10 +48,10 @@ FilmSetup everything() {
     moving.window = 0.1;
     using enum LayoutNode::Kind;
     setup.layout =
-        grid(columns, {grid(rows, {panel({.kind = PanelKind::mechanism}, 2), panel({.kind = PanelKind::energy})}, 1.5),
-                       grid(rows, {panel({.kind = PanelKind::phase}), panel({.kind = PanelKind::traces}),
-                                   panel({.kind = PanelKind::close_up})}),
-                       grid(rows, {panel(strip(ChannelKind::theta)), panel(by_collision), panel(moving)})});
+        grid(columns, {grid(rows, {leaf({.kind = PanelKind::mechanism}, 2), leaf({.kind = PanelKind::energy})}, 1.5),
+                       grid(rows, {leaf({.kind = PanelKind::phase}), leaf({.kind = PanelKind::traces}),
+                                   leaf({.kind = PanelKind::close_up})}),
+                       grid(rows, {leaf(strip(ChannelKind::theta)), leaf(by_collision), leaf(moving)})});
     setup.speeds.assign(setup.poses.size(), 1);
     setup.speeds[20] = 0.02, setup.speeds[21] = 0;
     setup.callouts = {{15, 30, "first touch"}};
@@ -152,7 +152,7 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
 TEST(Layout, SharesDivideTheRoom) {
     using enum LayoutNode::Kind;
     const Layout l =
-        layout(1920, 1080, grid(columns, {panel({.kind = PanelKind::mechanism}, 3), panel(strip(ChannelKind::theta))}));
+        layout(1920, 1080, grid(columns, {leaf({.kind = PanelKind::mechanism}, 3), leaf(strip(ChannelKind::theta))}));
     ASSERT_EQ(l.panels.size(), 2U);
     EXPECT_NEAR(l.panels[0].box.w / l.panels[1].box.w, 3, 0.01);
     EXPECT_EQ(l.panels[0].box.h, l.panels[1].box.h);
@@ -161,7 +161,7 @@ TEST(Layout, SharesDivideTheRoom) {
 TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
     using enum LayoutNode::Kind;
     std::vector<LayoutNode> many;
-    for (int i = 0; i < 12; ++i) many.push_back(panel(strip(ChannelKind::theta)));
+    for (int i = 0; i < 12; ++i) many.push_back(leaf(strip(ChannelKind::theta)));
     const Layout l = layout(1280, 720, grid(rows, many));
     EXPECT_LT(l.panels.size(), 8U);
     EXPECT_GT(l.panels.size(), 1U);
