@@ -297,7 +297,6 @@ void MechanismPanel::draw_solid(const Scene& s, const Trace& trace, Threads& thr
     const SolidScene scene = solid_scene(s.shape, palette_, box_, inside, wide_, u_, rim_colors(trace, s.pose.t));
     threads.lit->draw(scene, threads.lit_image);
     s.canvas.image_part(threads.lit_image, static_cast<int>(box_.x), static_cast<int>(box_.y), {0, 0, box_.w, box_.h});
-    angle_arc(s);
     turning_arrow(s);
 }
 

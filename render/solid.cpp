@@ -137,23 +137,23 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     scene.reach = 1.6 * std::max(box.w, box.h);
     Mesh mesh(scene.triangles);
     // The wall behind, for the shadow alone.
-    const double wall = -2.6 * wide, far = scene.reach;
+    const double wall = -1.55 * wide, far = scene.reach;
     mesh.quad({-far, -far, wall}, {far, -far, wall}, {far, far, wall}, {-far, far, wall}, {0, 0, 1}, {0, 0, 0, 0});
     const Color metal = palette.steel;
     const Vec2 hinge = up(shape.hinge);
     // The bearing block, behind the beam, and the shaft through it.
     const double foot = shape.hub + 30 * unit;
-    mesh.box(hinge.x - 0.8 * shape.hub, hinge.x + 0.8 * shape.hub, hinge.y - foot, hinge.y, -1.9 * wide, -0.75 * wide,
+    mesh.box(hinge.x - 0.8 * shape.hub, hinge.x + 0.8 * shape.hub, hinge.y - foot, hinge.y, -1.5 * wide, -0.75 * wide,
              mix(metal, rgb(0), 0.12));
     mesh.box(hinge.x - 1.5 * shape.hub, hinge.x + 1.5 * shape.hub, hinge.y - foot - 10 * unit, hinge.y - foot,
-             -1.9 * wide, 0.75 * wide, mix(metal, rgb(0), 0.3));
-    mesh.disc(hinge, 0.8 * shape.hub, -1.9 * wide, -0.7 * wide, 2 * unit, mix(metal, rgb(0), 0.12));
+             -1.5 * wide, 0.75 * wide, mix(metal, rgb(0), 0.3));
+    mesh.disc(hinge, 0.8 * shape.hub, -1.5 * wide, -0.7 * wide, 2 * unit, mix(metal, rgb(0), 0.12));
     if (shape.disc) {
         const DiscShape& d = *shape.disc;
         const double thick = 0.62 * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
         mesh.disc(up(d.centre), d.radius, -thick, thick, chamfer, metal, up(d.axis), d.bore, rim, d.angle);
         mesh.disc(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
-        mesh.disc(up(d.axis), 0.8 * d.bore, -2.4 * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
+        mesh.disc(up(d.axis), 0.8 * d.bore, -1.5 * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
     }
     mesh.bar(face, back, shape.colors, half);
     mesh.disc(hinge, shape.hub, -0.7 * wide, 0.7 * wide, 3 * unit, mix(metal, rgb(0xFFFFFF), 0.15));

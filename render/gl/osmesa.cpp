@@ -139,7 +139,7 @@ void main() {
 // from the wall behind stands for what bounces around the room.
 constexpr const char* kSolidFragment = R"(#version 330 core
 in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
-uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, texel;
+uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, texel; uniform vec2 size;
 void main() {
     vec3 n = normalize(normal), eye = normalize(eye_dir);
     if (dot(n, eye) < 0.0) n = -n;
@@ -149,7 +149,11 @@ void main() {
         for (int x = -2; x <= 2; ++x)
             seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * texel, lit_at.z - bias));
     seen /= 25.0;
-    if (paint.a == 0.0) { color = vec4(0.0, 0.0, 0.0, opacity * (1.0 - seen)); return; }
+    if (paint.a == 0.0) {  // fading out before the panel ends
+        vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
+        color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
+        return;
+    }
     float diffuse = max(facing, 0.0) * seen, sky = 0.5 + 0.5 * n.y, front = max(n.z, 0.0);
     float spot = pow(max(dot(n, normalize(light_near + eye)), 0.0), 48.0) * seen;
     vec3 c = paint.rgb * paint.rgb * (0.20 + 0.22 * sky + 0.16 * front + 0.72 * diffuse) + vec3(0.16 * spot);
