@@ -136,7 +136,7 @@ void FilmFacts::choose_scales() {
     arrow_scale = force;
     for (int m = 0; m < members(); ++m) {
         for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
-        for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak);
+        for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));
     }
     if (moment > 0) moment_scale = round_up_125(moment);
     if (force > 0) force_scale = round_up_125(force);

@@ -142,11 +142,11 @@ void force_rows(const FilmFacts& facts, int member, Curve& curve) {
     // Only impacts that fall between the samples: a longer contact shows its own peak.
     const double spacing = t && t->size() > 1 ? (t->back() - t->front()) / static_cast<double>(t->size() - 1) : 0;
     for (const sim::Impact& i : one.impacts) {
-        if (!i.t_end || *i.t_end - i.t_start > 4 * spacing) continue;
+        if (!i.t_end || !i.force_peak || *i.t_end - i.t_start > 4 * spacing) continue;
         const auto inside = t ? std::ranges::upper_bound(*t, *i.t_end) - std::ranges::lower_bound(*t, i.t_start) : 0;
         if (inside > 4) continue;
         rows.push_back({i.t_start, 0});
-        rows.push_back({(i.t_start + *i.t_end) / 2, i.force_peak});
+        rows.push_back({(i.t_start + *i.t_end) / 2, *i.force_peak});
         rows.push_back({*i.t_end, 0});
     }
     std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });

@@ -63,7 +63,7 @@ std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Pro
         const std::span sampled(out.data(), known);
         const auto first = std::ranges::lower_bound(sampled, impact.t_start, {}, &TraceSample::t);
         if (first != sampled.end() && first->t <= *impact.t_end) continue;
-        out.push_back({impact.t_start, impact.x, touched_arc(problem, impact), impact.force_peak});
+        out.push_back({impact.t_start, impact.x, touched_arc(problem, impact), *impact.force_peak});
     }
     std::ranges::stable_sort(out, {}, &TraceSample::t);
     return out;

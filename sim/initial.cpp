@@ -78,40 +78,130 @@ bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& x
     return found;
 }
 
-// Equilibrium on the cam at rest, at the cam's pose of time t: f(ξ) + JᵀN n = 0 with N = Kδⁿ, or with
-// whatever N keeps the gap at zero (model `restitution`).
-bool rest(System& system, double t, Eigen::VectorXd& xi) {
+constexpr double kRounding = 1e-10;  // of a gap, relative to the beam's length, that Newton's method leaves
+
+// A motion along which the beam lies on the cam, seen at one instant.
+struct Ride {
+    Eigen::VectorXd xi, rate, acceleration;
+};
+
+// Finds `ride.xi`: the beam on the cam at time t, in equilibrium with gravity, torque, friction and the inertia of
+// the ride, f + τh + (J_n + r J_t)ᵀN = M ξ̈ with N = Kδⁿ, or with whatever N keeps the gap at zero (model
+// `restitution`). False when there is none, or when N would have to pull.                               (S40)
+bool rest(System& system, double t, Ride& ride) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
     const bool rigid_contact = problem.contact.model == ContactModel::restitution;
+    const bool moves = !ride.acceleration.isZero(0) || !ride.rate.isZero(0);
     Model& model = system.model();
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
-    const double stiffness = system.normal_law().stiffness;
-    const double weight = std::fabs(problem.gravity) * model.mass();
+    std::copy_n(ride.rate.data(), n, y.begin() + n);
+    const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
+    const double weight = std::max(std::fabs(problem.gravity) * model.mass(), 1e-300);
     Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), force(n);
-    x.head(n) = xi;
+    x.head(n) = ride.xi;
     scale.head(n) = scales(problem, n);
     if (rigid_contact) {
         x[n] = 0.5 * weight;
-        scale[n] = std::max(weight, 1e-300);
+        scale[n] = weight;
     }
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
-        static_force(model, at, force);
         const ContactState c = system.contact(t, y.data(), true);
-        double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize];
-        model.jacobian(c.x, jx, jy, jchi);
         // Compliant: linear for a separated beam, so that Newton finds its way back.
         const double push = rigid_contact ? at[n]
-                            : c.gap < 0   ? system.normal_law().elastic(-c.gap)
+                            : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
                                           : -c.gap * stiffness * 1e-6;
-        for (int i = 0; i < n; ++i) force[i] += push * (jx[i] * c.normal.x + jy[i] * c.normal.y);
-        r.head(n) = force;
-        if (rigid_contact) r[n] = c.gap * std::max(weight, 1e-300) / problem.beam.length;
+        system.generalized_force(t, c, push, force.data());
+        if (moves) model.solve(force.data());
+        r.head(n) = force - ride.acceleration;
+        if (rigid_contact) r[n] = c.gap * weight / problem.beam.length;
     };
     const bool found = newton(residual, x, scale);
-    xi = x.head(n);
-    return found && (!rigid_contact || x[n] >= 0);
+    ride.xi = x.head(n);
+    if (!found || rigid_contact) return found && x[n] >= 0;
+    std::copy_n(x.data(), n, y.begin());
+    return system.contact(t, y.data(), true).gap <= kRounding * problem.beam.length;
+}
+
+// The beam lying on the cam at its start, moving with the cam if it turns. The equilibria at neighbouring angles
+// of the cam give the rates, the rates give the inertia, and the inertia corrects the equilibria: twice, after
+// which what is left is of the sixth order in the ratio of the cam's speed to the frequencies of beam and contact.
+// (S40)
+class Riding {
+  public:
+    Riding(System& system, const Eigen::VectorXd& guess)
+        : system_(system), step_(kStep / std::fabs(system.problem().cam->speed)) {
+        const Eigen::VectorXd still = Eigen::VectorXd::Zero(guess.size());
+        rides_.assign(kPoints, {guess, still, still});
+    }
+    bool find() {
+        if (!level(4)) return false;
+        motion(2);
+        if (!level(2)) return false;
+        motion(0);
+        return level(0);
+    }
+    Ride start() const { return rides_[kMiddle]; }
+
+  private:
+    static constexpr int kPoints = 9, kMiddle = 4;
+    static constexpr double kStep = 5e-3;  // [rad] of the cam: rounding and the stencil's error balance
+
+    // Equilibria at the instants −reach…reach.
+    bool level(int reach) {
+        for (int k = -reach; k <= reach; ++k)
+            if (!rest(system_, k * step_, rides_[static_cast<std::size_t>(kMiddle + k)])) return false;
+        return true;
+    }
+    // Rates and accelerations there, by differences of the fourth order.
+    void motion(int reach) {
+        std::vector<Ride> moved = rides_;
+        for (int k = -reach; k <= reach; ++k) {
+            const auto at = [&](int i) -> const Eigen::VectorXd& {
+                return rides_[static_cast<std::size_t>(kMiddle + k + i)].xi;
+            };
+            Ride& ride = moved[static_cast<std::size_t>(kMiddle + k)];
+            ride.rate = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step_);
+            ride.acceleration = (16 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30 * at(0)) / (12 * step_ * step_);
+        }
+        rides_ = std::move(moved);
+    }
+
+    System& system_;
+    double step_;
+    std::vector<Ride> rides_;
+};
+
+// A cam that falls away faster than the beam can follow: at rest on it, it moves along until it is left behind.
+Ride left_behind(System& system, const Eigen::VectorXd& xi) {
+    const double dt = 1e-5 / std::fabs(system.problem().cam->speed);
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(xi.size());
+    Ride later{xi, still, still}, earlier = later;
+    if (!rest(system, dt, later) || !rest(system, -dt, earlier))
+        throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
+    return {xi, (later.xi - earlier.xi) / (2 * dt), still};
+}
+
+// The rigid rod on that side of the disc where weight and torque press it on, pressed in by what carries them.
+Eigen::VectorXd rod_on_cam(const System& system) {
+    const Problem& problem = system.problem();
+    const Vec2 disc = system.cam(0).disc;
+    const double away = norm(disc), lever = problem.hub.radius + 0.5 * problem.beam.length;
+    const double direction = std::atan2(disc.y, disc.x);
+    const double aside = std::asin(std::min(1.0, (problem.cam->radius + system.offset()) / away));
+    const double torque = system.drive().has_torque() ? system.drive().torque(0) : 0;
+    const double weight = problem.gravity * problem.beam.line_density() * problem.beam.length;
+    const auto moment = [&](double angle) { return torque - weight * lever * std::cos(angle); };
+    const double side = moment(direction + aside) > 0 && moment(direction - aside) > 0 ? -1 : 1;
+    const double lie = direction + side * aside;
+    const double press = problem.contact.model == ContactModel::restitution
+                             ? 0
+                             : std::pow(std::max(-side * moment(lie), 0.0) / (away * system.normal_law().stiffness),
+                                        1 / problem.contact.exponent);
+    Eigen::VectorXd xi = Eigen::VectorXd::Zero(system.coordinates());
+    xi[0] = lie - side * press / away;
+    return xi;
 }
 
 }  // namespace
@@ -132,31 +222,19 @@ InitialState initial_state(const Problem& problem) {
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
             break;
         case InitialShape::resting: {
-            // From the rigid rod lying on the disc, pressed in by what carries its weight.
-            const Vec2 disc = system.cam(0).disc;
-            const double reach = problem.cam->radius + system.offset();
-            const double lie = std::atan2(disc.y, disc.x) + std::asin(std::min(1.0, reach / norm(disc)));
-            const double lever = problem.hub.radius + 0.5 * problem.beam.length;
-            const double weight = problem.gravity * system.model().mass() * lever * std::cos(lie) / norm(disc);
-            const double press =
-                problem.contact.model == ContactModel::restitution
-                    ? 0
-                    : std::pow(std::max(weight, 0.0) / system.normal_law().stiffness, 1 / problem.contact.exponent);
-            xi.setZero();
-            xi[0] = lie - press / norm(disc);
+            xi = rod_on_cam(system);
             Phase phase;
             phase.touching = false;  // geometry only; the force is the static one
             system.set_phase(phase);
-            if (!rest(system, 0, xi)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
+            const Eigen::VectorXd still = Eigen::VectorXd::Zero(n);
+            Ride ride{xi, still, still};
+            if (!rest(system, 0, ride)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
             if (problem.cam->speed != 0) {
-                // It moves with the cam: the rate at which equilibria follow the cam's angle (S40).
-                const double dt = 1e-5 / std::fabs(problem.cam->speed);
-                Eigen::VectorXd later = xi, earlier = xi;
-                if (!rest(system, dt, later) || !rest(system, -dt, earlier))
-                    throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
-                const Eigen::VectorXd rate = (later - earlier) / (2 * dt);
-                std::copy_n(rate.data(), n, y + n);
+                Riding riding(system, ride.xi);
+                ride = riding.find() ? riding.start() : left_behind(system, ride.xi);
             }
+            xi = ride.xi;
+            std::copy_n(ride.rate.data(), n, y + n);
             state.phase.touching = true;
             state.phase.held = problem.contact.model == ContactModel::restitution;
             state.phase.approach = problem.contact.approach_floor.value;

@@ -338,7 +338,9 @@ void Recorder::contact_peaks(const Stretch& s) {
         for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
         each_maximum(f, time, values.data(), count, best, [&](double, double value) { best = std::max(best, value); });
     };
-    refine(forces, force, impact.force_peak);
+    double force_peak = impact.force_peak.value_or(0);
+    refine(forces, force, force_peak);
+    impact.force_peak = force_peak;
     refine(depths, depth, impact.penetration_peak);
 }
 
@@ -451,7 +453,7 @@ void Recorder::touch(double t, const double* y, const ContactState& c) {
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);
-    impact.force_peak = c.force;
+    if (problem_.contact.model == ContactModel::compliant) impact.force_peak = c.force;
     std::vector<Collision>& collisions = result_.collisions;
     const bool joins = !collisions.empty() && t - collisions.back().t_end.value_or(t) < problem_.contact.collision_gap;
     if (!joins) {
@@ -493,7 +495,7 @@ void Recorder::settle(const double* y) {
     impact.impulse_n = ledger[kImpulseN] - impulse_n_at_touch_;
     impact.impulse_t = ledger[kImpulseT] - impulse_t_at_touch_;
     impact.energy_lost = ledger[kNormalWork] + ledger[kFrictionWork] - books_at_touch_lost_;
-    collision.force_peak = std::max(collision.force_peak, impact.force_peak);
+    if (impact.force_peak) collision.force_peak = std::max(collision.force_peak.value_or(0), *impact.force_peak);
     collision.energy_lost += impact.energy_lost;
 }
 

@@ -57,8 +57,8 @@ class QuadratureModel : public Model {
     }
 
     void linearize(double* mass, double* stiffness, double* centrifugal) const override {
-        // Taken from the model itself at the straight beam; the centrifugal part by a central
-        // difference of the bias force, which is quadratic in the speed and odd in q near q = 0.
+        // Taken from the model itself at the straight beam; the centrifugal part by a central difference, of
+        // fourth order, of the bias force alone, which is quadratic in the speed and odd in q near q = 0.
         const std::unique_ptr<Model> copy = clone();
         auto& model = static_cast<QuadratureModel&>(*copy);
         model.damped_ = false;
@@ -70,18 +70,25 @@ class QuadratureModel : public Model {
         mm = model.inertia_;
         kk.setZero();
         kk.bottomRightCorner(modes_, modes_) = bending_;
+        model.bending_.setZero();
         cc.setZero();
         rate[0] = 1;
+        const double step = 1e-3 * (angular_ ? 1.0 : length_);
         for (int j = 1; j < size_; ++j) {
-            const double step = 1e-5 * (angular_ ? 1.0 : length_);
-            xi[j] = step;
-            model.set(xi, rate);
-            model.assemble(f);
-            xi[j] = -step;
-            model.set(xi, rate);
-            model.assemble(g);
-            xi[j] = 0;
-            for (int i = 1; i < size_; ++i) cc(i, j) = -(f[i] - g[i]) / (2 * step) - kk(i, j);
+            const auto odd = [&](double q, double* out) {
+                double back[kMaxSize];
+                xi[j] = q;
+                model.set(xi, rate);
+                model.assemble(out);
+                xi[j] = -q;
+                model.set(xi, rate);
+                model.assemble(back);
+                xi[j] = 0;
+                for (int i = 0; i < size_; ++i) out[i] = 0.5 * (out[i] - back[i]);
+            };
+            odd(step, f);
+            odd(2 * step, g);
+            for (int i = 1; i < size_; ++i) cc(i, j) = -(8 * f[i] - g[i]) / (6 * step);
         }
     }
 

@@ -25,20 +25,12 @@ struct Guard {
 // The first instant in (a, b] where the guard falls through zero; `probe(t)` gives a Guard. A dip
 // between the ends is found from the rates: a cubic through both ends predicts its depth.
 template <class Probe>
-std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, int depth) {
+std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b) {
     const auto value = [&](double t) { return probe(t).value; };
     const auto rate = [&](double t) { return probe(t).rate; };
     if (a.value < 0 || (a.value == 0 && a.rate < 0)) return a.t;
     if (b.value < 0) {
-        if (a.value > 0) {
-            // A short excursion may hide in front of a later one: halve a few times.
-            if (depth > 0) {
-                const Guard middle = probe(0.5 * (a.t + b.t));
-                if (const auto early = first_fall(probe, a, middle, depth - 1)) return early;
-                return find_root(value, middle.t, b.t, middle.value, b.value);
-            }
-            return find_root(value, a.t, b.t, a.value, b.value);
-        }
+        if (a.value > 0) return find_root(value, a.t, b.t, a.value, b.value);
         // It starts on the surface: leaves it first, or falls at once.
         if (!(a.rate > 0) || !(b.rate < 0)) return a.rate > 0 ? std::optional(b.t) : std::optional(a.t);
         const double top = find_root(rate, a.t, b.t, a.rate, b.rate);
@@ -225,7 +217,7 @@ class Run {
                 a.value = std::max(a.value, 0.0);  // rounding of the release
                 a.rate = std::max(a.rate, 0.0);
             }
-            if (const auto at = first_fall(probe, a, b, 0)) return {EventKind::touch, *at};
+            if (const auto at = first_fall(probe, a, b)) return {EventKind::touch, *at};
             a = b;
         }
         return {};
@@ -313,7 +305,7 @@ class Run {
             const auto offer = [&](EventKind kind, double t) {
                 if (best.kind == EventKind::none || t < best.t) best = {kind, t};
             };
-            if (const auto at = first_fall(release, a.release, b.release, 0)) offer(EventKind::release, *at);
+            if (const auto at = first_fall(release, a.release, b.release)) offer(EventKind::release, *at);
             if (changes(a.clamp, b.clamp))
                 offer(EventKind::clamp,
                       find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
@@ -463,7 +455,7 @@ class Run {
         const ContactState c = contact_now();
         const double growth =
             problem_.contact.exponent > 1 ? 0 : scout_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
-        const bool breaks = scout_.bristle_lags() ||
+        const bool breaks = scout_.bristle_damped() ||
                             scout_.bristle_stiffness() * std::fabs(c.slip) > scout_.static_coefficient() * growth;
         if (breaks && c.slip != 0 && !(c.gap < 0)) phase_.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
         enter_phase();
@@ -477,7 +469,7 @@ class Run {
             phase_.grip = c.friction < 0 ? Grip::slide_plus : Grip::slide_minus;
             if (!scout_.bristle_lags()) z = 0;
         } else {
-            if (!scout_.bristle_lags()) z = scout_.sliding_bristle(c);
+            if (!scout_.bristle_lags()) z = scout_.caught_bristle(c);
             phase_.grip = Grip::stick;
         }
         enter_phase();

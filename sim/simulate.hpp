@@ -29,7 +29,7 @@ struct Impact {
     double v_n_before = 0, v_t_before = 0;       // at touch [m/s]
     std::optional<double> v_n_after, v_t_after;  // at release [m/s]
     std::optional<double> duration;              // [s]
-    double force_peak = 0;                       // [N]
+    std::optional<double> force_peak;            // [N]; absent: a pure impulse has no finite force
     double penetration_peak = 0;                 // [m]
     double impulse_n = 0, impulse_t = 0;         // [N s]
     std::optional<double> restitution;           // −v_n_after / v_n_before
@@ -44,7 +44,8 @@ struct Collision {
     int count = 0;  // of impacts
     double x = 0, v_n_before = 0;
     std::optional<double> v_n_after, restitution;
-    double force_peak = 0, energy_lost = 0;
+    std::optional<double> force_peak;  // [N]
+    double energy_lost = 0;
 };
 
 struct ZeroCrossing {

@@ -93,45 +93,84 @@ SUNContext make_context() {
     return context;
 }
 
-class Cvode final : public Integrator, private Segment {
+// What CVODE and ARKODE have in common: vectors, the start, the end of a step.
+class SundialsSolver : public Integrator, protected Segment {
   public:
-    Cvode(Method method, Ode& ode, double rtol, double atol)
-        : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)), bdf_(method == Method::cvode_bdf) {
-        context_ = make_context();
-        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-        end_.assign(n_, 0);
-        for (auto& d : taylor_) d.assign(n_, 0);
-    }
-    ~Cvode() override {
-        release_solver();
-        N_VDestroy(y_);
-        N_VDestroy(work_);
-        SUNContext_Free(&context_);
-    }
-    Cvode(const Cvode&) = delete;
-    Cvode& operator=(const Cvode&) = delete;
+    SundialsSolver(const SundialsSolver&) = delete;
+    SundialsSolver& operator=(const SundialsSolver&) = delete;
 
-    void start(double t, const double* y) override {
+    void start(double t, const double* y) final {
         std::copy_n(y, n_, N_VGetArrayPointer(y_));
         std::copy_n(y, n_, end_.begin());
         t1 = t;
         collect();
-        if (!memory_) {
+        if (memory_)
+            restart(t);
+        else
             set_up(t);
-        } else {
-            check(CVodeReInit(memory_, t, y_), "a restart");
-        }
-        check(CVodeSetInitStep(memory_, limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_))),
-              "the first step");
+        first_step(limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)));
+    }
+
+    const Segment& shorten(double at) final {
+        // The polynomial is as good as the step; no history to re-take it from.
+        value(at, end_.data());
+        t1 = at;
+        return *this;
+    }
+
+    const double* state() const final { return end_.data(); }
+
+  protected:
+    SundialsSolver(Ode& ode, double rtol, double atol)
+        : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)), context_(make_context()), end_(n_, 0) {
+        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
+    }
+    ~SundialsSolver() override {
+        N_VDestroy(y_);
+        N_VDestroy(work_);
+        SUNContext_Free(&context_);
+    }
+
+    bool stops() const { return std::isfinite(stop_) && stop_ > t0; }
+    double target() const { return stops() ? stop_ : t0 + kFar; }
+    void reached(double t) {
+        t1 = t;
+        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+    }
+    // Counts start anew with every restart of the solver: add up the differences.
+    virtual void collect() = 0;
+    virtual void set_up(double t) = 0;
+    virtual void restart(double t) = 0;
+    virtual void first_step(double h) = 0;
+
+    Callbacks call_;
+    std::size_t n_;
+    SUNContext context_;
+    void* memory_ = nullptr;
+    N_Vector y_ = nullptr, work_ = nullptr;
+    std::vector<double> end_;
+    IntegratorCounters last_;
+};
+
+class Cvode final : public SundialsSolver {
+  public:
+    Cvode(Method method, Ode& ode, double rtol, double atol)
+        : SundialsSolver(ode, rtol, atol), bdf_(method == Method::cvode_bdf) {
+        for (auto& d : taylor_) d.assign(n_, 0);
+    }
+    ~Cvode() override {
+        if (memory_) CVodeFree(&memory_);
+        if (linear_) SUNLinSolFree(linear_);
+        if (matrix_) SUNMatDestroy(matrix_);
+        if (nonlinear_) SUNNonlinSolFree(nonlinear_);
     }
 
     const Segment& step() override {
         t0 = t1;
-        if (std::isfinite(stop_) && stop_ > t0) check(CVodeSetStopTime(memory_, stop_), "the stop time");
-        double reached = t0;
-        const int flag =
-            CVode(memory_, std::isfinite(stop_) && stop_ > t0 ? stop_ : t0 + kFar, y_, &reached, CV_ONE_STEP);
+        if (stops()) check(CVodeSetStopTime(memory_, stop_), "the stop time");
+        double t = t0;
+        const int flag = CVode(memory_, target(), y_, &t, CV_ONE_STEP);
         if (flag < 0) {
             const char* reason = flag == CV_TOO_MUCH_ACC   ? "the tolerance is below rounding"
                                  : flag == CV_ERR_FAILURE  ? "the error test failed again and again"
@@ -139,8 +178,7 @@ class Cvode final : public Integrator, private Segment {
                                                            : "the integrator gave up";
             throw StepFailure(reason);
         }
-        t1 = reached;
-        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        reached(t);
         int order = 1;
         check(CVodeGetLastOrder(memory_, &order), "the order");
         order_ = std::min(order, kMaxOrder);
@@ -155,15 +193,6 @@ class Cvode final : public Integrator, private Segment {
         collect();
         return *this;
     }
-
-    const Segment& shorten(double at) override {
-        // The polynomial is as good as the step; no history to re-take it from.
-        value(at, end_.data());
-        t1 = at;
-        return *this;
-    }
-
-    const double* state() const override { return end_.data(); }
 
     void value(double t, double* y) const override {
         const double s = t - base_;
@@ -184,8 +213,7 @@ class Cvode final : public Integrator, private Segment {
     }
 
   private:
-    // Counts of the present CVODE memory are restarted by CVodeReInit: add up the differences.
-    void collect() {
+    void collect() override {
         if (!memory_) return;
         long steps = 0, rhs = 0, rejected = 0, jacobians = 0, linear_rhs = 0;
         CVodeGetNumSteps(memory_, &steps);
@@ -202,7 +230,10 @@ class Cvode final : public Integrator, private Segment {
         grow(counters.jacobians, jacobians, last_.jacobians);
     }
 
-    void set_up(double t) {
+    void restart(double t) override { check(CVodeReInit(memory_, t, y_), "a restart"); }
+    void first_step(double h) override { check(CVodeSetInitStep(memory_, h), "the first step"); }
+
+    void set_up(double t) override {
         memory_ = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
         if (!memory_) throw StepFailure("the integrator could not be set up");
         check(CVodeInit(memory_, &Callbacks::rhs, t, y_), "the start");
@@ -223,27 +254,13 @@ class Cvode final : public Integrator, private Segment {
         }
     }
 
-    void release_solver() {
-        if (memory_) CVodeFree(&memory_);
-        if (linear_) SUNLinSolFree(linear_);
-        if (matrix_) SUNMatDestroy(matrix_);
-        if (nonlinear_) SUNNonlinSolFree(nonlinear_);
-    }
-
-    Callbacks call_;
-    std::size_t n_;
     bool bdf_;
-    SUNContext context_ = nullptr;
-    void* memory_ = nullptr;
     SUNMatrix matrix_ = nullptr;
     SUNLinearSolver linear_ = nullptr;
     SUNNonlinearSolver nonlinear_ = nullptr;
-    N_Vector y_ = nullptr, work_ = nullptr;
-    std::vector<double> end_;
     std::array<std::vector<double>, kMaxOrder + 1> taylor_;
     int order_ = 0;
     double base_ = 0;
-    IntegratorCounters last_;
 };
 
 // The instant it is expanded about, and its coefficients from the constant on.
@@ -274,56 +291,22 @@ class StoredTaylor final : public StoredSegment {
     std::span<const double> rows_;
 };
 
-class Arkode final : public Integrator, private Segment {
+class Arkode final : public SundialsSolver {
   public:
-    Arkode(Ode& ode, double rtol, double atol) : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)) {
-        context_ = make_context();
-        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-        end_.assign(n_, 0);
-    }
+    Arkode(Ode& ode, double rtol, double atol) : SundialsSolver(ode, rtol, atol) {}
     ~Arkode() override {
         if (memory_) ARKStepFree(&memory_);
-        N_VDestroy(y_);
-        N_VDestroy(work_);
-        SUNContext_Free(&context_);
-    }
-    Arkode(const Arkode&) = delete;
-    Arkode& operator=(const Arkode&) = delete;
-
-    void start(double t, const double* y) override {
-        std::copy_n(y, n_, N_VGetArrayPointer(y_));
-        std::copy_n(y, n_, end_.begin());
-        t1 = t;
-        collect();
-        if (memory_)
-            check(ARKStepReset(memory_, t, y_), "a restart");
-        else
-            set_up(t);
-        check(ARKStepSetInitStep(memory_, limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_))),
-              "the first step");
     }
 
     const Segment& step() override {
         t0 = t1;
-        const bool stops = std::isfinite(stop_) && stop_ > t0;
-        if (stops) check(ARKStepSetStopTime(memory_, stop_), "the stop time");
-        double reached = t0;
-        if (ARKStepEvolve(memory_, stops ? stop_ : t0 + kFar, y_, &reached, ARK_ONE_STEP) < 0)
-            throw StepFailure("the integrator gave up");
-        t1 = reached;
-        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        if (stops()) check(ARKStepSetStopTime(memory_, stop_), "the stop time");
+        double t = t0;
+        if (ARKStepEvolve(memory_, target(), y_, &t, ARK_ONE_STEP) < 0) throw StepFailure("the integrator gave up");
+        reached(t);
         collect();
         return *this;
     }
-
-    const Segment& shorten(double at) override {
-        value(at, end_.data());
-        t1 = at;
-        return *this;
-    }
-
-    const double* state() const override { return end_.data(); }
 
     void value(double t, double* y) const override {
         if (t == t1) {
@@ -335,7 +318,7 @@ class Arkode final : public Integrator, private Segment {
     }
 
   private:
-    void collect() {
+    void collect() override {
         if (!memory_) return;
         long steps = 0, rhs = 0, implicit = 0, rejected = 0;
         ARKStepGetNumSteps(memory_, &steps);
@@ -346,7 +329,10 @@ class Arkode final : public Integrator, private Segment {
         grow(counters.rejected, rejected, last_.rejected);
     }
 
-    void set_up(double t) {
+    void restart(double t) override { check(ARKStepReset(memory_, t, y_), "a restart"); }
+    void first_step(double h) override { check(ARKStepSetInitStep(memory_, h), "the first step"); }
+
+    void set_up(double t) override {
         memory_ = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
         if (!memory_) throw StepFailure("the integrator could not be set up");
         check(ARKStepSetUserData(memory_, &call_), "the start");
@@ -358,14 +344,6 @@ class Arkode final : public Integrator, private Segment {
         check(ARKStepSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr), "the start");
 #endif
     }
-
-    Callbacks call_;
-    std::size_t n_;
-    SUNContext context_ = nullptr;
-    void* memory_ = nullptr;
-    N_Vector y_ = nullptr, work_ = nullptr;
-    std::vector<double> end_;
-    IntegratorCounters last_;
 };
 
 }  // namespace

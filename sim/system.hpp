@@ -90,6 +90,10 @@ class System final : public Ode {
     // The same after `place`.
     ContactState contact_placed(double t, const double* y, bool search);
 
+    // After `contact`: forces and torque at that state with the cam pushing by `normal` [N] along n, and by the
+    // Coulomb friction that goes with it along t; array of `coordinates`.
+    void generalized_force(double t, const ContactState& c, double normal, double* f);
+
     // Energy books at (t, y). Total = what the ledger says must stay constant.
     struct Books {
         Energies energies;
@@ -105,10 +109,14 @@ class System final : public Ode {
 
     // Bristle deflection that carries the sliding force: where z is put at slip (S36).
     double sliding_bristle(const ContactState& contact) const;
+    // Where z is put when sliding ends: spring and dashpot go on with that force.
+    double caught_bristle(const ContactState& contact) const;
     // Speed of the bristle's foot over the cam in the direction of sliding, v_t − ż. A bristle with a
-    // dashpot lags behind its force; only then is z a state while sliding (S36).
+    // dashpot lags behind its force; only then is z a state while sliding (S36), and only when the lag is no mere
+    // trifle of a contact's time.
     double foot_speed(const double* y, const ContactState& contact) const;
-    bool bristle_lags() const { return bristle_damping_ > 0; }
+    bool bristle_lags() const { return bristle_lags_; }
+    bool bristle_damped() const { return bristle_damping_ > 0; }
     double bristle_stiffness() const { return bristle_stiffness_; }
     double static_coefficient() const { return mu_static_; }
     double kinetic_coefficient() const { return mu_; }
@@ -151,7 +159,7 @@ class System final : public Ode {
     NormalLaw law_;
     Phase phase_;
     int n_ = 1;
-    bool bristle_ = false;
+    bool bristle_ = false, bristle_lags_ = false;
     double offset_ = 0;
     double mu_ = 0, mu_static_ = 0, slip_speed_ = 1e-3, bristle_stiffness_ = 0, bristle_damping_ = 0;
     double highest_frequency_ = 0;

@@ -87,6 +87,10 @@ TEST(Impact, BouncingBallAsPublished) {
     longer.end_time = 5 * scale;
     const Result rest = simulate(problem, longer);
     EXPECT_FALSE(rest.impacts.back().t_end.has_value());
+    // A pure impulse has no finite force; holding has: the weight that the disc bears.
+    EXPECT_FALSE(rest.impacts.front().force_peak.has_value());
+    const double borne = pull * problem.beam.line_density() / 3 / (lever * lever);
+    EXPECT_NEAR(rest.impacts.back().force_peak.value(), borne, 1e-6 * borne);
     EXPECT_NEAR(rest.impacts.back().t_start / scale, 4.063712768871579, 3e-3);
 }
 

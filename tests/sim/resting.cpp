@@ -1,0 +1,138 @@
+// The start "resting": on the cam, in equilibrium with weight, torque and the inertia of moving along with it.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+// A rigid rod on a disc: θ(ψ) = atan2(B) + asin(R/|B|), x = √(|B|² − R²), N x = J ω² θ″(ψ) + ½mgL cos θ.
+struct Following {
+    double theta, x, force;
+};
+
+Following following(const Problem& p, double angle) {
+    const auto theta = [&](double psi) {
+        const Vec2 disc = p.cam->centre + p.cam->eccentricity * unit(psi);
+        return std::atan2(disc.y, disc.x) + std::asin(p.cam->radius / norm(disc));
+    };
+    const double h = 2e-3, m = p.beam.line_density() * p.beam.length, j = m * p.beam.length * p.beam.length / 3;
+    // Sixth order: 1/90, −3/20, 3/2, −49/18.
+    const double bend =
+        ((theta(angle + 3 * h) + theta(angle - 3 * h)) / 90 - 3 * (theta(angle + 2 * h) + theta(angle - 2 * h)) / 20 +
+         3 * (theta(angle + h) + theta(angle - h)) / 2 - 49 * theta(angle) / 18) /
+        (h * h);
+    Following f;
+    f.theta = theta(angle);
+    const Vec2 disc = p.cam->centre + p.cam->eccentricity * unit(angle);
+    f.x = std::sqrt(dot(disc, disc) - p.cam->radius * p.cam->radius);
+    f.force = (j * p.cam->speed * p.cam->speed * bend + 0.5 * m * p.gravity * p.beam.length * std::cos(f.theta)) / f.x;
+    return f;
+}
+
+Problem riding(ModelKind kind, double speed, double phase) {
+    Problem p;
+    p.beam.model = kind;
+    p.cam->speed = speed;
+    p.cam->phase = phase;
+    p.initial.shape = InitialShape::resting;
+    return p;
+}
+
+TEST(Resting, ForceOfAHeldRodIsThatOfWeightAndInertiaFromTheStart) {
+    for (double speed : {-8.0, 1.0, 5.0})
+        for (double phase : {0.0, 1.0, 3.0}) {
+            Problem p = riding(ModelKind::rigid, speed, phase);
+            p.contact.model = ContactModel::restitution;
+            const std::vector<double> times{0, 0.01, 0.1};
+            const std::vector<double> force = series(p, "contact_force", times);
+            for (std::size_t k = 0; k < times.size(); ++k) {
+                const double closed = following(p, phase - speed * times[k]).force;
+                EXPECT_NEAR(force[k], closed, 1e-8 * closed) << speed << " " << phase << " " << times[k];
+            }
+        }
+}
+
+TEST(Resting, CompliantContactStartsPressedByTheSameForceAndDoesNotRing) {
+    for (double speed : {1.0, 5.0}) {
+        Problem p = riding(ModelKind::rigid, speed, 1);
+        p.contact.stiffness = 1e11;
+        p.contact.damping = DampingLaw::none;  // ringing would stay
+        std::vector<double> times;
+        for (int k = 0; k <= 50; ++k) times.push_back(1e-4 * k);
+        const std::vector<double> force = series(p, "contact_force", times);
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            // Penetration lowers the rod by δ = (N/K)^⅔ = 1e-7 m: as much of R and D.
+            const double closed = following(p, 1 - speed * times[k]).force;
+            EXPECT_NEAR(force[k], closed, 5e-6 * closed) << speed << " at " << times[k];
+        }
+    }
+}
+
+TEST(Resting, FlexibleBeamOnATurningCamDoesNotRing) {
+    // Without the inertia of the ride in its first shape the force would swing by 2e-3 of itself.
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
+        Problem p = riding(kind, 5, 0);
+        p.contact.damping = DampingLaw::none;
+        std::vector<double> times;
+        for (int k = 0; k <= 40; ++k) times.push_back(5e-4 * k);
+        const std::vector<double> force = series(p, "contact_force", times);
+        for (std::size_t k = 1; k + 1 < times.size(); ++k)
+            EXPECT_NEAR(force[k - 1] - 2 * force[k] + force[k + 1], 0, 3e-6 * force[k])
+                << name(kind) << " " << times[k];
+    }
+}
+
+TEST(Resting, CarriesTheTorqueOfTheHub) {
+    Problem p = riding(ModelKind::rigid, 0, 0);
+    p.contact.model = ContactModel::restitution;
+    p.hub.drive = ConstantTorque{-0.3};
+    const Following free = following(p, 0);
+    EXPECT_NEAR(series(p, "contact_force", {0})[0], free.force + 0.3 / free.x, 1e-9);
+    // The other way round without weight, it lies on the other side of the cam.
+    p.hub.drive = ConstantTorque{+5};
+    p.contact.model = ContactModel::compliant;
+    p.cam->centre = {0, 0.25};
+    p.gravity = 0;
+    const std::vector<double> theta = series(p, "theta", {0, 0.05});
+    EXPECT_LT(theta[0], std::numbers::pi / 2);
+    EXPECT_NEAR(theta[0], theta[1], 1e-9);
+}
+
+TEST(Resting, LiesOnTopOfACamOnEitherSideOfTheHub) {
+    Problem right = riding(ModelKind::first_order, 0, 0), left = right;
+    left.cam->centre = {-0.25, 0};
+    left.cam->phase = std::numbers::pi;
+    const double a = series(right, "theta", {0.1})[0], b = series(left, "theta", {0.1})[0];
+    EXPECT_NEAR(a + b, std::numbers::pi, 1e-9);
+    EXPECT_NEAR(series(right, "contact_force", {0.1})[0], series(left, "contact_force", {0.1})[0], 1e-6);
+}
+
+TEST(Resting, LiesUnderTheCamWhenPushedUp) {
+    Problem p = riding(ModelKind::first_order, 0, 0);
+    p.gravity = 0;
+    p.hub.drive = ConstantTorque{0.3};
+    EXPECT_LT(series(p, "theta", {0.05})[0], 0);
+    p.hub.drive = FreeDrive{};
+    p.gravity = -9.81;
+    EXPECT_LT(series(p, "theta", {0.05})[0], 0);
+}
+
+TEST(Resting, OnACamTooFastToFollowIsLeftBehindAtOnce) {
+    for (const ContactModel model : {ContactModel::compliant, ContactModel::restitution}) {
+        Problem p = riding(ModelKind::rigid, 40, 2);
+        p.contact.model = model;
+        ASSERT_LT(following(p, 2).force, 0);
+        const Result r = run(p, 0.02);
+        ASSERT_FALSE(r.impacts.empty());
+        ASSERT_TRUE(r.impacts[0].t_end.has_value());
+        EXPECT_LT(*r.impacts[0].t_end, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
