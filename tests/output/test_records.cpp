@@ -37,7 +37,7 @@ TEST(ImpactsJson, HasTheNamesInTheirOrderAndNullWhereUndefined) {
       "v_n_after": null,
       "v_t_after": null,
       "duration": null,
-      "force_peak": 0.0,
+      "force_peak": null,
       "penetration_peak": 0.0,
       "impulse_n": 0.0,
       "impulse_t": 0.0,
@@ -78,8 +78,8 @@ TEST(ImpactsCsv, HasTheSameNamesAndEmptyCells) {
         impacts_csv(one_collision()),
         "t_start,t_end,x,cam_angle,v_n_before,v_t_before,v_n_after,v_t_after,duration,force_peak,penetration_peak,"
         "impulse_n,impulse_t,restitution,energy_lost,collision\n"
-        "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,0,0,0,0,0.69999999999999996,0,0\n"
-        "1.25,,0,0,0,0,,,,0,0,0,0,,0,1\n");
+        "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,,0,0,0,0.69999999999999996,0,0\n"
+        "1.25,,0,0,0,0,,,,,0,0,0,,0,1\n");
 }
 
 TEST(Impacts, AreWrittenByTheirEnding) {
