@@ -223,6 +223,25 @@ void Canvas::clip(const Box& b, const std::function<void()>& draw) {
     cairo_restore(handles_->cr);
 }
 
+std::string Canvas::drawable(std::string_view plain) const {
+    PangoLayout* layout = fonts_.handles().layout;
+    std::string out;
+    const char* end = plain.data() + plain.size();
+    for (const char* at = plain.data(); at < end; at = g_utf8_next_char(at)) {
+        const gunichar character = g_utf8_get_char_validated(at, end - at);
+        if (character >= gunichar(-2)) break;  // not UTF-8: the reader refuses it long before
+        const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
+        // Joiners and selectors only tell pictographs how to look.
+        if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
+        if (character >= 0x80) {
+            prepare(layout, escape(one), {});
+            if (pango_layout_get_unknown_glyphs_count(layout) > 0) continue;
+        }
+        out += one;
+    }
+    return out;
+}
+
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
     PangoLayout* layout = fonts_.handles().layout;
     prepare(layout, markup, style);

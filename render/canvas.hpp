@@ -72,6 +72,8 @@ class Canvas {
     // What `draw` draws shows within the box only.
     void clip(const Box& box, const std::function<void()>& draw);
 
+    // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
+    std::string drawable(std::string_view plain) const;
     Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
     const Fonts& fonts() const { return fonts_; }
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left

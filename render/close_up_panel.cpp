@@ -36,7 +36,14 @@ class CloseUpPanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w * 0.62, plot_.h}, "Contact close-up");
+        const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
+            plain{.size = 21 * u, .weight = Weight::medium};
+        const double room = plot_.w - canvas.measure("penetration 000\u00A0µm", plain).w - 16 * u;
+        for (const char* heading : {"Contact close-up", "Contact"}) {  // the reading stands beside it
+            if (canvas.measure(heading, bold).w > room) continue;
+            draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, heading);
+            break;
+        }
         canvas.rectangle(plot_);
         canvas.fill(mix(p.paper, p.grid, 0.35));
         if (!motion().problem.cam) return;
@@ -191,7 +198,8 @@ class CloseUpPanel final : public Panel {
             {plot_.right(), box_.y + 26 * u}, (deep ? "penetration " : "gap ") + amount,
             {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium, .align = Align::right});
         const std::string count = counted(pose.t);
-        if (!count.empty())
+        const double room = plot_.w - canvas.measure("beam", {.size = 17 * u}).w - 40 * u;
+        if (!count.empty() && canvas.measure(count, {.size = 17 * u}).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count,
                         {.size = 17 * u, .color = p.ink, .align = Align::right, .halo = mix(p.paper, p.grid, 0.35)});
         if (near.touching && near.friction != 0)

@@ -67,10 +67,11 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     if (const auto& b = places.title; b && !setup.title.empty()) {
         TextStyle style{.size = 40 * u, .color = facts.palette->ink, .weight = Weight::semibold};
         // A long title becomes smaller, down to two thirds; then it is cut.
-        const double natural = canvas.measure(escape(setup.title), style).w;
+        const std::string title = escape(canvas.drawable(setup.title));
+        const double natural = canvas.measure(title, style).w;
         if (natural > b->w) style.size *= std::max(2.0 / 3, 0.999 * b->w / natural);
         style.max_width = b->w;
-        canvas.text({b->x, b->y + 38 * u}, escape(setup.title), style);
+        canvas.text({b->x, b->y + 38 * u}, title, style);
     }
     if (const auto& b = places.parameters) {
         const TextStyle style{.size = 21 * u, .color = facts.palette->muted};

@@ -190,8 +190,11 @@ Layout layout(int width, int height, const std::vector<PanelSpec>& side, int mem
     return std::move(f.out);
 }
 
-Layout layout(int width, int height, const LayoutNode& grid) {
+Layout layout(int width, int height, const LayoutNode& wanted) {
     Frame f = frame(width, height);
+    LayoutNode grid = wanted;
+    // What stands side by side in a wide picture stands one below the other in a tall one.
+    if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) grid.kind = LayoutNode::Kind::rows;
     place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
     // A picture too small for its grid shows what it can: the mechanism.
     if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});

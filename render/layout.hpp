@@ -59,8 +59,9 @@ struct Layout {
 // width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
 // with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable.
 Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1);
-// The user's own grid; panels that come out too small to read are left out.
-Layout layout(int width, int height, const LayoutNode& grid);
+// The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
+// become rows.
+Layout layout(int width, int height, const LayoutNode& wanted);
 
 // The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
 Box plot_area(const Box& box, double unit);

@@ -220,7 +220,7 @@ void MechanismPanel::label(Canvas& canvas) const {
         canvas.move_to({x, y - 8 * u_});
         canvas.line_to({x + 30 * u_, y - 8 * u_});
         canvas.stroke({facts_.member_color(m), 6 * u_, {}, Cap::butt});
-        canvas.text({x + 42 * u_, y}, escape(facts_.motion(m).label),
+        canvas.text({x + 42 * u_, y}, escape(canvas.drawable(facts_.motion(m).label)),
                     {.size = 24 * u_,
                      .color = palette_.ink,
                      .weight = Weight::semibold,
@@ -538,7 +538,7 @@ void MechanismPanel::callout(const Scene& s) const {
         if (s.frame < c.first || s.frame > c.last || member_ != 0) continue;
         const TextStyle style{
             .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
-        const Box size = s.canvas.measure(escape(c.text), style);
+        const Box size = s.canvas.measure(escape(s.canvas.drawable(c.text)), style);
         const Vec2 foot =
             s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tips_[static_cast<std::size_t>(s.frame)]);
         // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
@@ -554,7 +554,7 @@ void MechanismPanel::callout(const Scene& s) const {
         s.canvas.rounded(plate, 8 * u_);
         s.canvas.fill_keeping_path(palette_.paper);
         s.canvas.stroke({palette_.ink, 1.6 * u_});
-        s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_}, escape(c.text), style);
+        s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_}, escape(s.canvas.drawable(c.text)), style);
         break;
     }
 }

@@ -15,8 +15,9 @@ namespace {
 // of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
 constexpr double kChartRate = 4000;  // [Hz]
 constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
-constexpr double kFinePoints = 40000;  // more of them where time runs slowly
-constexpr int kFineSteps = 8;          // between two frames
+constexpr double kFinePoints = 40000;                   // more of them where time runs slowly
+constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still's instant
+constexpr int kFineSteps = 8;                           // between two frames
 
 double chart_rate(double duration) {
     const double seconds = std::max(duration, 1e-12);
@@ -110,6 +111,8 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion) {
     const double t = instant_of(at, motion);
     out.frames = {t};
     out.chart = rows(0, t, chart_rate(t));
+    // The collision that a still shows may be milliseconds long.
+    merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;
     return out;
 }

@@ -168,6 +168,28 @@ TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
     for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, smallest(PanelKind::strip).y * l.unit - 1);
 }
 
+TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
+    using enum LayoutNode::Kind;
+    const LayoutNode two = grid(columns, {leaf({.kind = PanelKind::mechanism}), leaf(strip(ChannelKind::theta))});
+    const Layout l = layout(1080, 1920, two);
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_EQ(l.panels[0].box.x, l.panels[1].box.x);
+    EXPECT_GT(l.panels[1].box.y, l.panels[0].box.bottom());
+}
+
+// What no typeface has would be drawn as a box: the picture is the one without it.
+TEST(Panels, PictographsLeaveNoBoxes) {
+    FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;
+    for (FilmSetup* setup : {&plain, &decorated}) {
+        setup->width = 960, setup->height = 540;
+        setup->view.style = Style::flat;
+    }
+    plain.title = "Fall θ₀ = 45°";
+    decorated.title = "Fall\U0001F680 θ₀ = 45°\U0001F44D\uFE0F";
+    Film a(std::move(plain)), b(std::move(decorated));
+    EXPECT_EQ(drawn(a, 2), drawn(b, 2));
+}
+
 TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(1), "");
     EXPECT_EQ(speed_text(0.02), "1/50 speed");
