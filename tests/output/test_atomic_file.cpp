@@ -155,6 +155,7 @@ TEST(ReadFile, SaysWhatItCannotRead) {
 TEST(Interrupt, FirstSignalOnlyRaisesTheFlag) {
     Scratch scratch;
     const int code = exit_code_of([&] {
+        signal(SIGINT, SIG_DFL);  // whoever runs the tests in the background may have it ignored
         install_handlers();
         AtomicFile file(scratch / "a.txt");
         if (interrupted()) return 1;
@@ -168,6 +169,7 @@ TEST(Interrupt, FirstSignalOnlyRaisesTheFlag) {
 TEST(Interrupt, SecondSignalRemovesWhatIsHalfWrittenAndEndsWith130) {
     Scratch scratch;
     const int code = exit_code_of([&] {
+        signal(SIGTERM, SIG_DFL);
         install_handlers();
         write_file(scratch / "done.txt", "whole");
         AtomicFile file(scratch / "a.txt"), other(scratch / "b.txt");

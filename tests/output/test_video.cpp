@@ -191,6 +191,7 @@ TEST(Film, SaysSoAndLeavesNothingWhenTheDiskIsFull) {
 TEST(Film, SecondSignalLeavesNothing) {
     Scratch scratch;
     const int code = exit_code_of([&] {
+        signal(SIGINT, SIG_DFL);
         install_handlers();
         VideoWriter film(scratch / "a.mp4", small_film());
         for (int i = 0; i < 10; ++i) film.write(moving_square(64, 48, i));
