@@ -18,6 +18,7 @@ constexpr int kInstants = 1000;  // at which θ is compared
 constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
 constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
 constexpr double kSpare = 50;           // the reference may take this many times the longest run
+constexpr int kModelShapes = 6;         // models are compared with at least so many shapes
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -153,6 +154,13 @@ class Assessment {
         return variant;
     }
 
+    // One damping ratio a shape: the last serves those that are added.
+    static void set_modes(Problem& problem, int modes) {
+        problem.beam.modes = modes;
+        std::vector<double>& ratios = problem.beam.damping_ratio;
+        if (ratios.size() > 1) ratios.resize(static_cast<std::size_t>(modes), double(ratios.back()));
+    }
+
     // ---- the tables ------------------------------------------------------------------------------
 
     // The reference is the eighth-order Runge–Kutta method at the tightest tolerance; its own error is what a
@@ -225,10 +233,7 @@ class Assessment {
             about(fmt::format("{} shapes", ladder[i]),
                   0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
             Problem variant = problem_;
-            variant.beam.modes = ladder[i];
-            if (variant.beam.damping_ratio.size() > 1)
-                variant.beam.damping_ratio.resize(static_cast<std::size_t>(ladder[i]),
-                                                  variant.beam.damping_ratio.back());
+            set_modes(variant, ladder[i]);
             ModesRow row;
             row.modes = ladder[i];
             if (!truth) {
@@ -249,8 +254,8 @@ class Assessment {
         std::reverse(out_.modes.begin(), out_.modes.end());
     }
 
-    // All models with the scene's shapes, against the highest that the time allows for; where that is `exact` for a
-    // shorter motion only, the comparison is over the shorter motion.
+    // All models with enough shapes that these do not matter (the bases differ), against the highest that the time
+    // allows for; where that is `exact` for a shorter motion only, the comparison is over the shorter motion.
     void models() {
         const ModelKind descending[] = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
                                         ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
@@ -261,6 +266,7 @@ class Assessment {
             about(fmt::format("model {}", name(descending[i])), 0.75 + 0.15 * static_cast<double>(i) / 6);
             Problem variant = problem_;
             variant.beam.model = descending[i];
+            set_modes(variant, std::max(problem_.beam.modes, kModelShapes));
             if (descending[i] == ModelKind::exact || descending[i] == ModelKind::second_order)
                 variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
             ModelRow row;
@@ -356,9 +362,7 @@ class Assessment {
         }
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
-        chosen.beam.modes = r.modes;
-        if (chosen.beam.damping_ratio.size() > 1)
-            chosen.beam.damping_ratio.resize(static_cast<std::size_t>(r.modes), chosen.beam.damping_ratio.back());
+        set_modes(chosen, r.modes);
         about("recommendation", 0.97);
         std::vector<double> seconds;
         try {
