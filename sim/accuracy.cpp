@@ -257,13 +257,16 @@ class Assessment {
     // All models with enough shapes that these do not matter (the bases differ), against the highest that the time
     // allows for; where that is `exact` for a shorter motion only, the comparison is over the shorter motion.
     void models() {
-        const ModelKind descending[] = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
-                                        ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
+        if (request_.models.empty())
+            request_.models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
+                               ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
+        const std::vector<ModelKind>& descending = request_.models;
         if (problem_.beam.model == ModelKind::rigid) return;
         std::optional<Run> truth;
         out_.models_until = out_.until;
-        for (std::size_t i = 0; i < std::size(descending); ++i) {
-            about(fmt::format("model {}", name(descending[i])), 0.75 + 0.15 * static_cast<double>(i) / 6);
+        for (std::size_t i = 0; i < descending.size(); ++i) {
+            about(fmt::format("model {}", name(descending[i])),
+                  0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
             Problem variant = problem_;
             variant.beam.model = descending[i];
             set_modes(variant, std::max(problem_.beam.modes, kModelShapes));
@@ -275,7 +278,8 @@ class Assessment {
             if (!truth) truth = longest(variant, limit, row);
             if (truth) {
                 if (row.note.empty())
-                    measure(row, variant, *truth, out_.models_until, limit, i < 2 ? 1 : request_.repeats);
+                    measure(row, variant, *truth, out_.models_until, limit,
+                            variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
                 if (out_.models.empty() || !out_.models.back().error) out_.best_model = descending[i];
             }
             out_.models.push_back(std::move(row));

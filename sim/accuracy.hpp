@@ -14,13 +14,14 @@
 namespace beamcam::sim {
 
 struct AccuracyRequest {
-    double end_time = 0;          // [s], > 0
-    double target = 1e-4;         // the error that the recommendation is for [rad], > 0
-    int repeats = 5;              // of each timing, >= 1
-    double longest_run = 2;       // a single simulation that takes longer is left out [s]
-    std::vector<double> rtols;    // of the work–precision diagram; empty: 1e-3 … 1e-12
-    std::vector<Method> methods;  // empty: all
-    std::vector<int> modes;       // empty: a ladder up to 20
+    double end_time = 0;            // [s], > 0
+    double target = 1e-4;           // the error that the recommendation is for [rad], > 0
+    int repeats = 5;                // of each timing, >= 1
+    double longest_run = 2;         // a single simulation that takes longer is left out [s]
+    std::vector<double> rtols;      // of the work–precision diagram; empty: 1e-3 … 1e-12
+    std::vector<Method> methods;    // empty: all
+    std::vector<int> modes;         // empty: a ladder up to 20
+    std::vector<ModelKind> models;  // from the highest down; empty: all
 };
 
 struct Timing {                            // [s]

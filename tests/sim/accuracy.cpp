@@ -85,6 +85,7 @@ TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
     request.methods = {Method::rk8};
     request.rtols = {1e-8};
     request.modes = {1};
+    request.models = {ModelKind::zeroth_order};
     p.beam.modes = 1;
     p.beam.model = ModelKind::zeroth_order;
     Request plain;
