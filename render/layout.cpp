@@ -194,7 +194,13 @@ Layout layout(int width, int height, const LayoutNode& wanted) {
     Frame f = frame(width, height);
     LayoutNode grid = wanted;
     // What stands side by side in a wide picture stands one below the other in a tall one.
-    if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) grid.kind = LayoutNode::Kind::rows;
+    if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {
+        grid.kind = LayoutNode::Kind::rows;
+        // Three panels above each other need more of the height than of the width.
+        for (LayoutNode& child : grid.children)
+            if (child.kind == LayoutNode::Kind::rows)
+                child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
+    }
     place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
     // A picture too small for its grid shows what it can: the mechanism.
     if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});

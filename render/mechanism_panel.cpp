@@ -534,8 +534,12 @@ void MechanismPanel::force_arrow(const Scene& s) const {
 
 // Words at the contact, on a plate beside it.
 void MechanismPanel::callout(const Scene& s) const {
-    for (const Callout& c : facts_.setup->callouts) {
-        if (s.frame < c.first || s.frame > c.last || member_ != 0) continue;
+    if (member_ != 0) return;
+    const Callout* last = nullptr;  // a later one takes the place of those before
+    for (const Callout& c : facts_.setup->callouts)
+        if (s.frame >= c.first && s.frame <= c.last && (!last || c.first >= last->first)) last = &c;
+    if (last) {
+        const Callout& c = *last;
         const TextStyle style{
             .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
         const Box size = s.canvas.measure(escape(s.canvas.drawable(c.text)), style);
@@ -555,7 +559,6 @@ void MechanismPanel::callout(const Scene& s) const {
         s.canvas.fill_keeping_path(palette_.paper);
         s.canvas.stroke({palette_.ink, 1.6 * u_});
         s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_}, escape(s.canvas.drawable(c.text)), style);
-        break;
     }
 }
 

@@ -190,6 +190,15 @@ TEST(Panels, PictographsLeaveNoBoxes) {
     EXPECT_EQ(drawn(a, 2), drawn(b, 2));
 }
 
+TEST(Panels, TheLatestWordsTakeThePlaceOfThoseBefore) {
+    FilmSetup both = everything(), later = everything();
+    both.callouts = {{5, 40, "first touch"}, {20, 30, "second touch"}};
+    later.callouts = {{20, 30, "second touch"}};
+    Film a(std::move(both)), b(std::move(later));
+    EXPECT_EQ(drawn(a, 25), drawn(b, 25));
+    EXPECT_NE(drawn(a, 10), drawn(b, 10));
+}
+
 TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(1), "");
     EXPECT_EQ(speed_text(0.02), "1/50 speed");
