@@ -85,8 +85,16 @@ void Manifest::require_replaceable(const fs::path& file) {
                              "; move it, choose another name, or replace it with --force");
 }
 
-void Manifest::record(const fs::path& file) {
-    unsaved_[directory_of(file)][file.filename().string()] = {sha256_of_file(file), fs::file_size(file)};
+std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
+    const MadeFiles known = load(directory_of(file));
+    const auto made = known.find(file.filename().string());
+    if (made == known.end()) return std::nullopt;
+    return Entry{made->second, is_unchanged(file, made->second)};
+}
+
+void Manifest::record(const fs::path& file, const std::string& version, const std::string& scene) {
+    unsaved_[directory_of(file)][file.filename().string()] = {sha256_of_file(file), fs::file_size(file), version,
+                                                              scene};
     if (++unsaved_count_ >= kSaveEvery) save();
 }
 

@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "output/errors.hpp"
@@ -29,8 +31,15 @@ class Manifest {
     void require_replaceable(const std::filesystem::path& file);
 
     // Call after the file is in its place. Saved every few files and by `save`.
-    void record(const std::filesystem::path& file);
+    // Version and scene, for files that cannot say themselves where they came from.
+    void record(const std::filesystem::path& file, const std::string& version = "", const std::string& scene = "");
     void save();
+
+    // What the manifest beside a file says of it; nothing when it is not listed.
+    struct Entry : MadeFile {
+        bool unchanged = true;
+    };
+    static std::optional<Entry> find(const std::filesystem::path& file);
 
   private:
     const MadeFiles& known_in(const std::filesystem::path& directory);

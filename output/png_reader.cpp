@@ -46,12 +46,14 @@ class Decoder {
     Decoder(const Decoder&) = delete;
     Decoder& operator=(const Decoder&) = delete;
 
-    std::map<std::string, std::string> metadata() {
+    PngFacts facts() {
         if (!guarded(&Decoder::read_header)) fail();
         png_textp text = nullptr;
         const int count = png_get_text(png_, info_, &text, nullptr);
-        std::map<std::string, std::string> found;
-        for (int i = 0; i < count; ++i) found[text[i].key] = text[i].text != nullptr ? text[i].text : "";
+        PngFacts found{static_cast<int>(png_get_image_width(png_, info_)),
+                       static_cast<int>(png_get_image_height(png_, info_)),
+                       {}};
+        for (int i = 0; i < count; ++i) found.metadata[text[i].key] = text[i].text != nullptr ? text[i].text : "";
         return found;
     }
 
@@ -145,8 +147,6 @@ PngKind png_kind(const fs::path& file) {
 
 Raster read_png(const fs::path& file) { return Decoder(file, read_file(file)).pixels(); }
 
-std::map<std::string, std::string> read_png_metadata(const fs::path& file) {
-    return Decoder(file, read_file(file)).metadata();
-}
+PngFacts read_png_facts(const fs::path& file) { return Decoder(file, read_file(file)).facts(); }
 
 }  // namespace beamcam::output

@@ -19,7 +19,11 @@ PngKind png_kind(const std::filesystem::path& file);
 // Throws IoError: unreadable, damaged, cut off, larger than kLargestSide.
 Raster read_png(const std::filesystem::path& file);
 
-// Keyword → text (UTF-8) of what stands before the pixels; those are not decoded.
-std::map<std::string, std::string> read_png_metadata(const std::filesystem::path& file);
+// What stands before the pixels; those are not decoded.
+struct PngFacts {
+    int width = 0, height = 0;                    // [px]
+    std::map<std::string, std::string> metadata;  // keyword → text (UTF-8)
+};
+PngFacts read_png_facts(const std::filesystem::path& file);
 
 }  // namespace beamcam::output

@@ -221,7 +221,11 @@ std::string manifest_json(const MadeFiles& files) {
     Json json;
     json["format"] = kManifestFormat;
     json["files"] = Json::object();
-    for (const auto& [name, made] : files) json["files"][name] = {{"sha256", made.sha256}, {"size", made.size}};
+    for (const auto& [name, made] : files) {
+        Json& entry = json["files"][name] = {{"sha256", made.sha256}, {"size", made.size}};
+        if (!made.version.empty()) entry["version"] = made.version;
+        if (!made.scene.empty()) entry["scene"] = made.scene;
+    }
     return text_of(json);
 }
 
@@ -235,7 +239,11 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
         if (!entry.is_object()) return {};
         const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
         if (!digest.is_string() || !size.is_number_unsigned()) return {};
-        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>()};
+        const auto word = [&entry](const char* key) {
+            const Json value = entry.value(key, Json());
+            return value.is_string() ? value.get<std::string>() : std::string();
+        };
+        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>(), word("version"), word("scene")};
     }
     return files;
 }

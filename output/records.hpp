@@ -43,7 +43,8 @@ std::string accuracy_json(const sim::Accuracy& accuracy);
 // What beamcam knows of a file it made.
 struct MadeFile {
     std::string sha256;
-    std::uintmax_t size = 0;  // [bytes]
+    std::uintmax_t size = 0;     // [bytes]
+    std::string version, scene;  // of the program, and what it was made from, where the file itself cannot say so
     bool operator==(const MadeFile&) const = default;
 };
 using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory

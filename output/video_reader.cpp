@@ -1,6 +1,9 @@
 #include "output/video_reader.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <utility>
+#include <vector>
 
 #include "output/video_library.hpp"
 #include "output/video_reader_module.hpp"
@@ -77,6 +80,23 @@ bool VideoReader::next(Raster& picture) {
         throw IoError("cannot read " + impl_->file.string() + ": the film ends after " + std::to_string(impl_->read) +
                       " of its " + std::to_string(impl_->facts.frames) + " frames; make or copy it again");
     return false;
+}
+
+VideoAbilities video_abilities() {
+    const BeamcamVideoReaderModule& module = reader_module();
+    VideoAbilities found{module.versions(), {}};
+    const std::pair<const char*, std::vector<const char*>> wanted[] = {
+        {"H.264 (libx264)", {"libx264"}},
+        {"VP9 (libvpx)", {"libvpx-vp9"}},
+        {"AV1 (libsvtav1, libaom)", {"libsvtav1", "libaom-av1"}},
+        {"ProRes", {"prores_ks"}},
+        {"FFV1", {"ffv1"}},
+        {"GIF", {"gif"}},
+        {"APNG", {"apng"}}};
+    for (const auto& [name, any] : wanted)
+        found.encoders[name] =
+            std::any_of(any.begin(), any.end(), [&](const char* encoder) { return module.has_encoder(encoder) != 0; });
+    return found;
 }
 
 }  // namespace beamcam::output

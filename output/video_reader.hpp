@@ -41,4 +41,11 @@ class VideoReader {
     std::unique_ptr<Impl> impl_;
 };
 
+// What the FFmpeg libraries of this machine can do. Throws MissingCodec.
+struct VideoAbilities {
+    std::string versions;                  // "libavcodec 59.37.100, …"
+    std::map<std::string, bool> encoders;  // of those that beamcam's outputs use
+};
+VideoAbilities video_abilities();
+
 }  // namespace beamcam::output

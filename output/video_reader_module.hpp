@@ -25,6 +25,8 @@ struct BeamcamVideoReaderModule {
     // The next picture as 4·width·height bytes R, G, B, A. `*got` is 0 after the last one.
     BeamcamVideoStatus (*next)(BeamcamVideoReader*, std::uint8_t* rgba, int* got, BeamcamVideoError*);
     void (*close)(BeamcamVideoReader*);
+    const char* (*versions)();             // of the libraries, in words
+    int (*has_encoder)(const char* name);  // by FFmpeg's name
 };
 
 const BeamcamVideoReaderModule* beamcam_video_reader_module();

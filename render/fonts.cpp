@@ -17,17 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FontFile {
+struct KnownFile {
     const char* name;
     const char* package;  // Debian's
 };
 
-constexpr std::array kFiles{FontFile{"Inter-Regular.otf", "fonts-inter"}, FontFile{"Inter-Medium.otf", "fonts-inter"},
-                            FontFile{"Inter-SemiBold.otf", "fonts-inter"},
-                            FontFile{"STIXGeneral-Regular.otf", "fonts-stix"},
-                            FontFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
-constexpr std::array kCjkFiles{FontFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
-                               FontFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
+constexpr std::array kFiles{KnownFile{"Inter-Regular.otf", "fonts-inter"}, KnownFile{"Inter-Medium.otf", "fonts-inter"},
+                            KnownFile{"Inter-SemiBold.otf", "fonts-inter"},
+                            KnownFile{"STIXGeneral-Regular.otf", "fonts-stix"},
+                            KnownFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
+constexpr std::array kCjkFiles{KnownFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
+                               KnownFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
 
 std::vector<fs::path> folders() {
     if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
@@ -35,20 +35,26 @@ std::vector<fs::path> folders() {
             "/usr/share/fonts/truetype/inter", "/usr/local/share/fonts"};
 }
 
-fs::path locate(const FontFile& file) {
-    std::string tried;
+// Empty when it is nowhere.
+fs::path find(const KnownFile& file) {
     for (const fs::path& folder : folders()) {
         std::error_code unreadable;
         if (fs::is_regular_file(folder / file.name, unreadable)) return folder / file.name;
-        tried += (tried.empty() ? "" : ", ") + folder.string();
     }
+    return {};
+}
+
+fs::path locate(const KnownFile& file) {
+    if (fs::path found = find(file); !found.empty()) return found;
+    std::string tried;
+    for (const fs::path& folder : folders()) tried += (tried.empty() ? "" : ", ") + folder.string();
     throw FontError(
         fmt::format("font {} not found (looked in {}); install the Debian package {}, or set "
                     "BEAMCAM_FONT_DIR to a folder that holds it",
                     file.name, tried, file.package));
 }
 
-void add(FcConfig* config, const FontFile& file) {
+void add(FcConfig* config, const KnownFile& file) {
     const std::string path = locate(file).string();
     if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(path.c_str())))
         throw FontError(
@@ -78,6 +84,12 @@ bool needs_cjk(std::string_view utf8) {
     return false;
 }
 
+std::vector<FontFile> font_files() {
+    std::vector<FontFile> files;
+    for (const KnownFile& file : kFiles) files.push_back({file.name, file.package, find(file)});
+    return files;
+}
+
 Fonts::Handles::~Handles() {
     if (layout) g_object_unref(layout);
     if (context) g_object_unref(context);
@@ -93,9 +105,9 @@ Fonts::Fonts(bool cjk) : handles_(std::make_unique<Handles>()) {
     Handles& h = *handles_;
     h.config = FcConfigCreate();  // empty: no system file is read
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
-    for (const FontFile& file : kFiles) add(h.config, file);
+    for (const KnownFile& file : kFiles) add(h.config, file);
     if (cjk)
-        for (const FontFile& file : kCjkFiles) add(h.config, file);
+        for (const KnownFile& file : kCjkFiles) add(h.config, file);
 
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
     if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");

@@ -6,13 +6,23 @@
 // alone when that is set. Throws FontError, naming the Debian package, when one is missing.
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace beamcam::render {
 
 // True when the text has characters that only the Chinese-Japanese-Korean face has.
 bool needs_cjk(std::string_view utf8);
+
+// A file of these typefaces, and the Debian package that brings it; `path` is empty when it is not there.
+struct FontFile {
+    std::string name, package;
+    std::filesystem::path path;
+};
+std::vector<FontFile> font_files();
 
 // One per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk).
 class Fonts {

@@ -21,10 +21,7 @@ constexpr Planned kPlanned[] = {
     {"command", "figure", "`beamcam simulate` writes the numbers to plot"},
     {"command", "paper", "`beamcam render` films the paper's scene"},
     {"command", "stress", "compare runs with --set solver.rtol=…"},
-    {"command", "test", "compare the tables of `beamcam simulate`"},
-    {"command", "info", "see the file's metadata with ffprobe"},
     {"command", "concat", "render the film in one run"},
-    {"command", "doctor", "`beamcam --version` tells what was built"},
     {"command", "cache", "nothing is cached yet"},
     {"command", "sweep", "run beamcam once for each value with --set"},
 };

@@ -51,8 +51,8 @@ class Findings {
 // Reads the keys of one object; each is asked for once, and `finish` tells of those nobody asked for.
 class Fields {
   public:
-    Fields(Findings& findings, const Node* object, std::string path)
-        : findings_(findings), object_(object), path_(std::move(path)) {
+    Fields(Findings& findings, const Node* object, std::string path, std::string root = "the scene")
+        : findings_(findings), object_(object), path_(std::move(path)), root_(std::move(root)) {
         if (object_ && object_->kind != Node::Kind::object) {
             fail(*object_, "", fmt::format("{} must be an object {{ … }}, not {}", what(), shown(*object_)));
             object_ = nullptr;
@@ -210,7 +210,7 @@ class Fields {
         }
     }
     const Node* node() const { return object_; }
-    std::string what() const { return path_.empty() ? "the scene" : path_; }
+    std::string what() const { return path_.empty() ? root_ : path_; }
 
   private:
     std::string wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
@@ -230,7 +230,7 @@ class Fields {
 
     Findings& findings_;
     const Node* object_;
-    std::string path_;
+    std::string path_, root_;
     std::vector<std::string> known_;
 };
 

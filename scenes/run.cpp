@@ -69,6 +69,7 @@ class Runner {
 
     void go() {
         started_ = Clock::now();
+        if (options_.capture) return hand_over();
         require_room();
         make_directories();
         require_encoder();
@@ -86,6 +87,12 @@ class Runner {
     }
 
   private:
+    // The run of a command that compares: the same pixels, but no files.
+    void hand_over() {
+        result_ = std::move(options_.capture->result);
+        for (const Pictures& p : plan_.pictures) draw(p);
+    }
+
     // ---- files -----------------------------------------------------------------------------
 
     fs::path path_of(const std::string& file) const {
@@ -135,7 +142,12 @@ class Runner {
     }
 
     void wrote(const fs::path& file, const std::string& what) {
-        manifest_.record(file);
+        // Most pictures and films carry their scene inside.
+        static constexpr std::string_view kSilent[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp"};
+        if (std::find(std::begin(kSilent), std::end(kSilent), file.extension().string()) != std::end(kSilent))
+            manifest_.record(file, std::string(kVersion), to_json(scene_));
+        else
+            manifest_.record(file);
         progress_.end();
         if (!options_.quiet) fmt::print(stderr, "wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
     }
@@ -357,7 +369,7 @@ class Runner {
         stop_if_interrupted();
         render::Film film = film_of(p);
         std::unique_ptr<output::VideoWriter> video;
-        if (p.kind == Pictures::Kind::video) {
+        if (p.kind == Pictures::Kind::video && !options_.capture) {
             output::VideoOptions options = video_options(p);
             if (options.codec == output::Codec::gif) options.palette = palette_of(film);
             video = std::make_unique<output::VideoWriter>(path_of(p.file), options);
@@ -370,6 +382,11 @@ class Runner {
         const std::map<std::string, std::string> meta = video ? std::map<std::string, std::string>() : metadata();
 
         auto put = [&](long k, const render::Image& image) {
+            if (options_.capture) {
+                options_.capture->picture(p, k, image);
+                const std::lock_guard lock(mutex);
+                return progress_.reach(static_cast<double>(++done));
+            }
             if (video) {
                 gate.pass(k, [&] {
                     video->write(image);
@@ -409,6 +426,7 @@ class Runner {
 
     void finish(const Pictures& p, output::VideoWriter* video, long count) {
         stop_if_interrupted();
+        if (options_.capture) return progress_.end();
         if (video) {
             video->finish();
             progress_.reach(static_cast<double>(count));

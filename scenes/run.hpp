@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "scenes/capture.hpp"
 #include "scenes/plan.hpp"
 #include "scenes/progress.hpp"
 
@@ -18,6 +19,7 @@ struct RunOptions {
     bool quiet = false;  // no word about what was written
     bool verbose = false;
     ProgressStyle progress = ProgressStyle::automatic;
+    Capture* capture = nullptr;  // absent: simulate, and write files
 };
 
 // Signals asked to stop: nothing half-written is left.

@@ -1,4 +1,4 @@
-// The parts of a scene, each read from its place in the tree. Only reader.cpp calls these.
+// The parts of a scene, each read from its place in the tree. Only reader.cpp and baselines.cpp call these.
 #pragma once
 
 #include "scenes/fields.hpp"

@@ -1,5 +1,5 @@
-// The only file that sees FFmpeg: encoders and containers through libavcodec and libavformat 59 to 61 (FFmpeg 5 to 7).
-// Built as a module of its own; video.cpp loads it through video_module.hpp.
+// One of the two files that see FFmpeg (the other: reader.cpp): encoders and containers through libavcodec and
+// libavformat 59 to 61 (FFmpeg 5 to 7). Built as a module of its own; video.cpp loads it through video_module.hpp.
 #include "output/video_module.hpp"
 
 extern "C" {

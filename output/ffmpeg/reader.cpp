@@ -235,7 +235,18 @@ BeamcamVideoStatus next(BeamcamVideoReader* reader, std::uint8_t* rgba, int* got
 
 void close(BeamcamVideoReader* reader) noexcept { delete reader; }
 
-constexpr BeamcamVideoReaderModule kModule = {kBeamcamVideoReaderVersion, open, next, close};
+const char* versions() noexcept {
+    static char text[128] = "";
+    const auto part = [](unsigned version, int shift) { return version >> shift & 0xff; };
+    const unsigned c = avcodec_version(), f = avformat_version(), s = swscale_version();
+    std::snprintf(text, sizeof text, "libavcodec %u.%u.%u, libavformat %u.%u.%u, libswscale %u.%u.%u", part(c, 16),
+                  part(c, 8), part(c, 0), part(f, 16), part(f, 8), part(f, 0), part(s, 16), part(s, 8), part(s, 0));
+    return text;
+}
+
+int has_encoder(const char* name) noexcept { return avcodec_find_encoder_by_name(name) != nullptr ? 1 : 0; }
+
+constexpr BeamcamVideoReaderModule kModule = {kBeamcamVideoReaderVersion, open, next, close, versions, has_encoder};
 
 }  // namespace
 

@@ -36,10 +36,12 @@ int act(const Arguments& args) {
     return 0;
 }
 
-struct Nothing {};
+struct SchemaArguments {
+    bool baselines = false;
+};
 
-int print_schema(const Nothing&) {
-    print_data(schema_text());
+int print_schema(const SchemaArguments& args) {
+    print_data(args.baselines ? baselines_schema_text() : schema_text());
     return 0;
 }
 
@@ -56,7 +58,9 @@ void add_init(Grammar& grammar) {
 
 void add_schema(Grammar& grammar) {
     CLI::App* app = grammar.app.add_subcommand("schema", "Print the JSON Schema of scenes, for editors");
-    grammar.bind(app, std::make_shared<Nothing>(), print_schema);
+    auto args = std::make_shared<SchemaArguments>();
+    app->add_flag("--baselines", args->baselines, "That of the baselines of `beamcam test`");
+    grammar.bind(app, args, print_schema);
 }
 
 }  // namespace beamcam::scenes

@@ -90,7 +90,7 @@ TEST(PngReader, GivesThePixelsThatWereWritten) {
 TEST(PngReader, GivesTheMetadataWithoutDecodingPixels) {
     Scratch scratch;
     write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, {{"beamcam-scene", "{\"ω\": 1}"}, {"Title", ""}}});
-    const auto found = read_png_metadata(scratch / "a.png");
+    const auto found = read_png_facts(scratch / "a.png").metadata;
     EXPECT_EQ(found.at("beamcam-scene"), "{\"ω\": 1}");
     EXPECT_EQ(found.at("Title"), "");
 }

@@ -1,0 +1,20 @@
+// Stands in for both ends of a run: gives what was simulated and takes the pictures, for commands that compare instead
+// of writing files.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "render/image.hpp"
+#include "scenes/plan.hpp"
+#include "sim/simulate.hpp"
+
+namespace beamcam::scenes {
+
+struct Capture {
+    sim::Result result;  // of the plan's simulation: what was integrated once for several plans; taken by the run
+    // Frame numbers count from 0 in each output; several threads call this at once, in any order.
+    std::function<void(const Pictures&, long frame, const render::Image&)> picture;
+};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,26 @@
+#include <algorithm>
+
+#include "scenes/cli.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/provenance.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+int act(const Common& common) {
+    const std::vector<Check> checks = examine_machine();
+    print_data(common.json ? to_json(checks) : to_text(checks));
+    return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.ok; }) ? kDone : kMissingPart;
+}
+
+}  // namespace
+
+void add_doctor(Grammar& grammar) {
+    auto args = std::make_shared<Common>();
+    CLI::App* app = grammar.app.add_subcommand(
+        "doctor", "What this machine has for pictures and films, and which package brings what is missing (then 5)");
+    app->add_flag("--json", args->json, "As JSON");
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

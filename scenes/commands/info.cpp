@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include "output/errors.hpp"
+#include "scenes/cli.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/provenance.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::vector<std::string> files;
+    bool scene = false;
+};
+
+int act(const Arguments& args) {
+    if (args.scene && args.files.size() != 1) throw UsageError("--scene prints one scene; name one file");
+    for (const std::string& file : args.files) {
+        const Provenance found = provenance_of(file);
+        if (!args.scene) {
+            print_data(args.common.json ? to_json(found) : to_text(found));
+            continue;
+        }
+        const std::string scene = runnable_scene(found.scene);
+        if (scene.empty())
+            throw output::IoError(fmt::format(
+                "{} carries no scene: beamcam did not make it, or something that handled it since dropped what "
+                "it said of itself",
+                file));
+        print_data(scene);
+    }
+    return kDone;
+}
+
+}  // namespace
+
+void add_info(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand("info", "Where a picture, film, figure or table came from");
+    app->add_option("FILE", args->files, "Files that beamcam made")->required()->type_name("");
+    app->add_flag("--scene", args->scene, "Print the scene out of it: `beamcam run` makes the same from that");
+    app->add_flag("--json", args->common.json, "As JSON");
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "output/atomic_file.hpp"
+#include "output/manifest.hpp"
+#include "scenes/cli.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/regression.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    Common common;
+    std::string baselines;
+    std::vector<std::string> update, only, tolerance;
+    std::optional<std::string> report, junit;
+    bool add_digest = false, strict = false;
+};
+
+RegressionOptions options_of(const Arguments& args) {
+    if (!args.update.empty() && !args.only.empty())
+        throw UsageError("--update and --only exclude each other; --update runs nothing but what it names");
+    if (!args.update.empty() && args.add_digest)
+        throw UsageError(
+            "--update and --add-digest exclude each other: one replaces what is expected, the other adds to it");
+    RegressionOptions options;
+    options.only = args.only;
+    options.update = args.update;
+    options.add_digest = args.add_digest;
+    for (const std::string& text : args.tolerance) apply_tolerance(options.tolerance, text);
+    if (args.report) options.report = *args.report;
+    options.run = run_options(args.common, "");
+    return options;
+}
+
+// Refused before any work if it stands in the way.
+void need_room(const Arguments& args, output::Manifest& manifest) {
+    if (args.report) manifest.require_replaceable(fs::path(*args.report) / "index.html");
+    if (args.junit) manifest.require_replaceable(*args.junit);
+}
+
+void write_own(output::Manifest& manifest, const fs::path& file, const std::string& text) {
+    output::write_file(file, text);
+    manifest.record(file);
+}
+
+void write_reports(const Arguments& args, const RegressionResult& result, output::Manifest& manifest) {
+    const std::string title = fs::path(args.baselines).filename().string();
+    if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), args.strict));
+    if (args.report) {
+        output::ensure_directory(*args.report);
+        const fs::path page = fs::path(*args.report) / "index.html";
+        write_own(manifest, page, to_html(result, title));
+        say(args.common, fmt::format("wrote {}", page.string()));
+    }
+    manifest.save();
+}
+
+void tell(const Arguments& args, const RegressionResult& result) {
+    if (args.common.json)
+        print_data(to_json(result));
+    else
+        print_data(to_text(result, args.common.quiet));
+    std::size_t counts[4] = {};
+    for (const EntryResult& entry : result.entries) ++counts[static_cast<std::size_t>(entry.verdict())];
+    say(args.common,
+        fmt::format(
+            "{} entries: {} identical, {} equivalent, {} different, {} missing; {} simulations, {} pictures, {:.2f} s",
+            result.entries.size(), counts[0], counts[1], counts[2], counts[3], result.simulations, result.pictures,
+            result.seconds));
+    if (result.changed)
+        say(args.common, fmt::format("{} was changed: look at what it accepts now, and keep it only if it is right",
+                                     args.baselines));
+}
+
+int act(const Arguments& args) {
+    const RegressionOptions options = options_of(args);
+    output::Manifest manifest(args.common.force);
+    need_room(args, manifest);
+    const RegressionResult result = test_regression(args.baselines, options);
+    write_reports(args, result, manifest);
+    tell(args, result);
+    bool fine = !result.changed;
+    for (const EntryResult& entry : result.entries)
+        fine = fine && entry.verdict() <= (args.strict ? Verdict::identical : Verdict::equivalent);
+    return fine ? kDone : kDiffers;
+}
+
+}  // namespace
+
+void add_test(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand(
+        "test", "Render and simulate again what a file of baselines lists; ends with 7 when something differs");
+    app->add_option("BASELINES", args->baselines, "The baselines, a JSON file; - is standard input")
+        ->required()
+        ->type_name("");
+    app->add_option("--only", args->only, "Test these entries only")->type_name("NAME...");
+    app->add_option("--update", args->update,
+                    "Replace what these entries expect by what they are now (ends with 7, for somebody to look)")
+        ->type_name("NAME...");
+    app->add_flag("--add-digest", args->add_digest,
+                  "Accept the digests of this machine beside the others, where pictures are equivalent (ends with 7)");
+    app->add_flag("--strict", args->strict, "What is only equivalent fails too");
+    app->add_option("--tolerance", args->tolerance,
+                    "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("KEY=X,...");
+    app->add_option("--report", args->report, "Folder for a page with actual and difference pictures")
+        ->type_name("DIR");
+    app->add_option("--junit", args->junit, "Report for continuous integration, .xml")->type_name("FILE");
+    app->add_option("-j,--jobs", args->common.threads, "Threads that draw (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
+        ->type_name("STYLE");
+    app->add_flag("--json", args->common.json, "As JSON");
+    app->add_flag("--force", args->common.force, "Replace reports that beamcam did not make");
+    add_quiet(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,48 @@
+#include "scenes/fingerprint.hpp"
+
+#include <fmt/format.h>
+
+#include "output/sha256.hpp"
+#include "render/fonts.hpp"
+#include "render/lit.hpp"
+#include "render/versions.hpp"
+
+namespace beamcam::scenes {
+
+std::string Fingerprint::id() const {
+    output::Sha256 hash;
+    for (const auto& [part, version] : parts) hash.update(part + "=" + version + "\n");
+    return hash.hex().substr(0, 12);
+}
+
+Fingerprint flat_fingerprint() {
+    Fingerprint found;
+    for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
+    for (const render::FontFile& font : render::font_files())
+        found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    return found;
+}
+
+Fingerprint lit_fingerprint() {
+    Fingerprint found = flat_fingerprint();
+    found.parts["OpenGL"] = render::make_lit_renderer(16, 16)->name();
+    found.parts["processor"] = processor_path();
+    return found;
+}
+
+std::string processor_path() {
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    std::string path;
+    if (__builtin_cpu_supports("avx512f")) path += " avx512f";
+    if (__builtin_cpu_supports("avx2")) path += " avx2";
+    if (__builtin_cpu_supports("fma")) path += " fma";
+    return "x86-64" + (path.empty() ? " without avx2 and fma" : path);
+#elif defined(__aarch64__)
+    return "aarch64";
+#else
+    return "another processor";
+#endif
+}
+
+}  // namespace beamcam::scenes

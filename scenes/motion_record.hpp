@@ -1,0 +1,46 @@
+// The motion behind a baseline: a small table up to the last instant that the entry looks at, and the impacts by then.
+// Kept beside the reference pictures, compared impact by impact.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/table_reader.hpp"
+#include "scenes/baselines.hpp"
+#include "scenes/comparison.hpp"
+#include "sim/simulate.hpp"
+
+namespace beamcam::scenes {
+
+using ImpactFields = std::vector<std::pair<std::string, std::optional<double>>>;  // in the order of the file
+
+struct MotionRecord {
+    output::NamedTable table;
+    std::vector<ImpactFields> impacts;
+};
+
+// The table that is recorded behind a picture: angle and deflection, in 200 steps up to the last instant it looks at.
+sim::TableRequest motion_behind_picture(const sim::Problem& problem, double until);
+
+// What of the run belongs to the entry. An impact that lasts beyond `until` counts with what is known at its touch.
+MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
+
+// motion.csv and impacts.json in a folder.
+void write_record(const std::filesystem::path& folder, const sim::Table& table, const std::vector<sim::Impact>& impacts,
+                  double until);
+// Nothing when the folder has none. Throws IoError when what it has is damaged.
+std::optional<MotionRecord> read_record(const std::filesystem::path& folder);
+
+struct MotionVerdict {
+    Verdict verdict = Verdict::identical;
+    std::vector<std::string> lines;  // what moved, the worst first; empty when identical
+};
+
+// Up to `horizon` differences within the tolerance are equivalent; beyond it nothing is comparable, and all are.
+MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance,
+                      double horizon);
+
+}  // namespace beamcam::scenes
