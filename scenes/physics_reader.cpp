@@ -295,6 +295,7 @@ void read_solver(Findings& findings, const Node* node, sim::Solver& solver) {
     using sim::Method;
     f.choice<Method>("method",
                      {{name(Method::automatic), Method::automatic},
+                      {name(Method::exponential), Method::exponential},
                       {name(Method::rk8), Method::rk8},
                       {name(Method::cvode_adams), Method::cvode_adams},
                       {name(Method::cvode_bdf), Method::cvode_bdf},

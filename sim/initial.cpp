@@ -206,8 +206,11 @@ Eigen::VectorXd rod_on_cam(const System& system) {
 
 }  // namespace
 
-InitialState initial_state(const Problem& problem) {
-    System system(problem);
+InitialState initial_state(const Problem& problem) { return initial_state(System(problem)); }
+
+InitialState initial_state(const System& of) {
+    System system(of);
+    const Problem& problem = of.problem();
     const int n = system.coordinates();
     InitialState state;
     state.y.assign(static_cast<std::size_t>(system.size), 0.0);

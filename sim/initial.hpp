@@ -14,5 +14,7 @@ struct InitialState {
 
 // Throws StepFailure when no equilibrium is found. MODEL.md §11.
 InitialState initial_state(const Problem& problem);
+// The same with a system of that problem at hand, which is copied.
+InitialState initial_state(const System& of);
 
 }  // namespace beamcam::sim

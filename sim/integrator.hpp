@@ -23,7 +23,25 @@ struct Ode {
 };
 
 // Sorts of segments that can be taken down as numbers and evaluated again (trajectory.hpp).
-enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2 };
+enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2, exponential = 3 };
+
+// What a long step promises about everything inside it; all are bounds of magnitudes.
+struct MotionBounds {
+    double spin = 0, spin_acceleration = 0;  // Θ̇ [rad/s], Θ̈ [rad/s²]
+    double deflection_speed = 0;             // ∂v/∂t anywhere on the beam [m/s]
+    double deflection_acceleration = 0;      // [m/s²]
+    double slope_speed = 0;                  // ∂²v/∂x∂t [1/s]
+    double angle_low = 0, angle_high = 0;    // of the hub angle [rad]
+    double rate_low = 0, rate_high = 0;      // of its rate [rad/s]
+};
+
+// What a step in contact knows of the contact at its start, at its nodes and at its end, in this order.
+struct TouchSamples {
+    static constexpr int kCount = 10;
+    enum class Ending { open, release, clamp };  // why the step ends where it does
+    double t[kCount], gap[kCount], gap_rate[kCount], force[kCount], x[kCount];
+    Ending ending = Ending::open;
+};
 
 class Segment {
   public:
@@ -32,6 +50,12 @@ class Segment {
     virtual void value(double t, double* y) const = 0;
     // Appends the numbers that `value` goes by, besides t0 and t1, to `out`; `none`: they are not at hand.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
+    // Steps that may span many periods of vibration tell how far they can be trusted between looks; null for
+    // steps that resolve the fastest vibration.
+    virtual const MotionBounds* bounds() const { return nullptr; }
+    // Steps that solve for the contact force at nodes tell it; null for others. No event of the normal force lies
+    // inside such a step.
+    virtual const TouchSamples* touch() const { return nullptr; }
     double t0 = 0, t1 = 0;
 };
 
@@ -46,6 +70,7 @@ class StoredSegment : public Segment {
 std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem);
 std::unique_ptr<StoredSegment> make_stored_rk8(int size);
 std::unique_ptr<StoredSegment> make_stored_taylor(int size);
+std::unique_ptr<StoredSegment> make_stored_exponential(const Problem& problem);
 
 struct StepFailure : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -17,20 +17,26 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
 
     // Products of two shapes oscillate with 2β_n: three nodes a mode and a margin reach rounding.
     const Quadrature rule = gauss_legendre(3 * n + 24, length);
-    Eigen::VectorXd y(n), y1(n), y2(n);
-    for (Eigen::Index k = 0; k < rule.x.size(); ++k) {
-        const double x = rule.x[k], w = rho * rule.w[k];
-        shapes.evaluate(x, y.data(), y1.data(), y2.data());
-        m.U += w * (a + x) * y;  // (S8)
-        m.W += w * y;            // (S9)
-        m.K += beam.bending_stiffness() * rule.w[k] * y2.cwiseAbs2();
-        m.M.noalias() += w * y * y.transpose();  // (S10)
-        const double stiffening = a * (length - x) + 0.5 * (length * length - x * x);
-        m.D.noalias() += w * stiffening * y1 * y1.transpose();    // (S11)
-        m.G.noalias() += w * (length - x) * y1 * y1.transpose();  // (S12)
-        m.P0.noalias() += w * y1 * y1.transpose();
-        m.P1.noalias() += w * x * y1 * y1.transpose();
-        m.P2.noalias() += w * x * x * y1 * y1.transpose();
+    // Shapes at the nodes, one column each; the integrals are products with them.
+    const Eigen::Index nodes = rule.x.size();
+    Eigen::MatrixXd y(n, nodes), y1(n, nodes), y2(n, nodes);
+    for (Eigen::Index k = 0; k < nodes; ++k)
+        shapes.evaluate(rule.x[k], y.col(k).data(), y1.col(k).data(), y2.col(k).data());
+    const Eigen::ArrayXd x = rule.x.array(), w = rho * rule.w.array();
+    m.U.noalias() = y * (w * (a + x)).matrix();  // (S8)
+    m.W.noalias() = y * w.matrix();              // (S9)
+    m.K.noalias() = beam.bending_stiffness() * (y2.cwiseAbs2() * rule.w);
+    const auto product = [&](const Eigen::MatrixXd& f, const Eigen::ArrayXd& weight, Eigen::MatrixXd& out) {
+        out.noalias() = f * weight.matrix().asDiagonal() * f.transpose();
+        out = 0.5 * (out + out.transpose()).eval();
+    };
+    product(y, w, m.M);                                                               // (S10)
+    product(y1, w * (a * (length - x) + 0.5 * (length * length - x.square())), m.D);  // (S11)
+    product(y1, w * (length - x), m.G);                                               // (S12)
+    if (beam.model == ModelKind::paper) {
+        product(y1, w, m.P0);
+        product(y1, w * x, m.P1);
+        product(y1, w * x.square(), m.P2);
     }
     if (basis == Basis::hub_beam) {
         // The hub turns by α = y′(0)·q inside the frame; the root sits at (a − ½aα², aα) (S13).
@@ -111,6 +117,32 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
     bq_ = gq_ = Eigen::VectorXd::Zero(modes_);
     tables_ = tables;
     build_damping(problem);
+}
+
+bool ModalModel::foreshortening() const { return tables_->foreshortening; }
+const ModalMatrices& ModalModel::matrices() const { return tables_->m; }
+const Eigen::MatrixXd& ModalModel::inertia_matrix() const { return tables_->B; }
+const Shapes& ModalModel::shapes() const { return tables_->shapes; }
+
+void ModalModel::shortening_matrix(double x, double* h) const {
+    Local here;
+    tables_->shapes.evaluate(x, here.y, here.y1, here.y2, here.y3);
+    const auto n = static_cast<std::size_t>(modes_);
+    for (std::size_t j = 0; j < n; ++j) {
+        const double b4j = tables_->beta4[j];
+        for (std::size_t i = 0; i < n; ++i) {
+            const double b4 = tables_->beta4[i];
+            const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+            const double value =
+                i == j
+                    ? 0.25 *
+                          (x * (here.y1[i] * here.y1[i] - 2 * here.y2[i] * here.y[i] + here.y3[i] * here.y3[i] / b4) +
+                           3 * here.y1[i] * here.y[i] - here.y2[i] * here.y3[i] / b4)
+                    : tables_->difference(r, c) * (b4 * here.y[i] * here.y1[j] - here.y3[i] * here.y2[j] +
+                                                   here.y2[i] * here.y3[j] - b4j * here.y1[i] * here.y[j]);
+            h[j * n + i] = value - tables_->root(r, c);
+        }
+    }
 }
 
 void ModalModel::state_changed() {

@@ -40,6 +40,16 @@ class ModalModel final : public Model {
     void linearize(double* mass, double* stiffness, double* centrifugal) const override;
     double frequency(int i) const override;
 
+    // For integrators that exploit the form of the equations.
+    ModelKind kind() const { return kind_; }
+    bool coupled() const { return coupled_; }  // U ≠ 0
+    bool foreshortening() const;
+    const ModalMatrices& matrices() const;
+    const Eigen::MatrixXd& inertia_matrix() const;  // B of (S14)
+    const Shapes& shapes() const;
+    // H(x) = ∫₀ˣφ′φ′ᵀ (S5a), column-major N².
+    void shortening_matrix(double x, double* h) const;
+
   private:
     struct Tables;
     // Shapes at one x, and ∂u/∂q there: what `point` and `jacobian` share.

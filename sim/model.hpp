@@ -45,6 +45,8 @@ class Model {
     // The state that everything below refers to; both arrays of `size` numbers, kept by copy.
     void set(const double* xi, const double* rate);
 
+    const double* coordinates() const { return xi_; }  // as set
+
     // f ← generalized forces of gravity, elasticity, damping and velocity (everything but contact
     // and torque), and the inertia for the solves below. False: the inertia is not positive.
     virtual bool assemble(double* f) = 0;
@@ -63,6 +65,9 @@ class Model {
     virtual double bending_moment(double x) const = 0;  // EI κ [N m]
     virtual Energies energies() const = 0;
     double damping_power() const;  // q̇ᵀ C_d q̇ [W]
+    bool damped() const { return damped_; }
+    // Diagonal of C_d [kg/s], N numbers; null when undamped or when C_d is full.
+    const double* diagonal_damping() const { return damped_ && damping_diagonal_ ? damping_->data() : nullptr; }
 
     double hub_angle() const;                           // θ of the set state
     double hub_rate() const;                            // θ̇

@@ -95,6 +95,8 @@ const char* name(Method method) {
     switch (method) {
         case Method::automatic:
             return "auto";
+        case Method::exponential:
+            return "exponential";
         case Method::rk8:
             return "rk8";
         case Method::cvode_adams:

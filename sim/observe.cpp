@@ -13,7 +13,8 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxPieces = 24;  // looks a step at most
+constexpr int kMaxPieces = 24;       // looks at most, at a step that resolves the vibration
+constexpr double kMostPieces = 1e5;  // and at one that spans many periods
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Calls offer(t, f(t)) at the maxima of f between samples values[i] = f(time(i)), i = 0…count, that could
@@ -42,9 +43,52 @@ void each_maximum(F&& f, Time&& time, const double* values, int count, const dou
     }
 }
 
+// The polynomial through the samples of a step (barycentric formula).
+class Sampled {
+  public:
+    Sampled(const double* t, const double* f) : t_(t), f_(f) {
+        const double span = t[kCount - 1] - t[0];
+        for (int i = 0; i < kCount; ++i) {
+            weight_[i] = 1;
+            for (int j = 0; j < kCount; ++j)
+                if (j != i) weight_[i] *= span / (t[i] - t[j]);
+        }
+    }
+    double operator()(double at) const {
+        double above = 0, below = 0;
+        for (int i = 0; i < kCount; ++i) {
+            if (at == t_[i]) return f_[i];
+            const double w = weight_[i] / (at - t_[i]);
+            above += w * f_[i];
+            below += w;
+        }
+        return above / below;
+    }
+
+  private:
+    static constexpr int kCount = TouchSamples::kCount;
+    const double *t_, *f_;
+    double weight_[kCount];
+};
+
+// The largest value of sign·f from its samples at the ends and nodes of a step, where it could exceed `best`.
+double sampled_peak(const double* t, const double* f, double sign, double best) {
+    constexpr int kCount = TouchSamples::kCount;
+    int top = 0;
+    for (int i = 1; i < kCount; ++i)
+        if (sign * f[i] > sign * f[top]) top = i;
+    const double highest = sign * f[top];
+    if (top == 0 || top == kCount - 1) return highest;
+    // Between neighbours it rises by less than they differ.
+    const double rise = highest - std::min(sign * f[top - 1], sign * f[top + 1]);
+    if (highest + rise < best) return highest;
+    const Sampled curve(t, f);
+    return std::max(highest, find_peak([&](double at) { return sign * curve(at); }, t[top - 1], t[top + 1]).second);
+}
+
 }  // namespace
 
-Eye::Eye(const Problem& problem) : system_(problem), y_(static_cast<std::size_t>(system_.size)) {}
+Eye::Eye(const System& system) : system_(system), y_(static_cast<std::size_t>(system_.size)) {}
 
 void Eye::look(double t, const double* y) {
     t_ = t;
@@ -67,6 +111,11 @@ const System::Books& Eye::books() {
         books_known_ = true;
     }
     return books_;
+}
+
+void Eye::gap_is(double gap) {
+    books_ = system_.books(t_, y_.data(), gap);
+    books_known_ = true;
 }
 
 double Eye::value(Channel channel) {
@@ -191,8 +240,12 @@ Pose Eye::pose(int stations) {
 
 // ---- recorder --------------------------------------------------------------------------------
 
-Recorder::Recorder(const Problem& problem, const Request& request, double end)
-    : problem_(problem), request_(request), eye_(problem), y_(static_cast<std::size_t>(eye_.system().size)), end_(end) {
+Recorder::Recorder(const System& system, const Request& request, double end)
+    : problem_(system.problem()),
+      request_(request),
+      eye_(system),
+      y_(static_cast<std::size_t>(eye_.system().size)),
+      end_(end) {
     const auto ordered = [](const std::vector<double>& times) {
         Cursor cursor;
         cursor.order.resize(times.size());
@@ -235,7 +288,8 @@ void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
 int Recorder::pieces(const Stretch& s) {
     // Steps of high order span a good part of the fastest period: look a few times a radian.
     const double radians = (s.to - s.from) * eye_.system().highest_frequency();
-    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, double(kMaxPieces)));
+    const double most = s.segment->bounds() ? kMostPieces : kMaxPieces;
+    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, most));
 }
 
 template <class F>
@@ -276,6 +330,11 @@ void Recorder::sample(const Stretch& s) {
 }
 
 void Recorder::turning_points(const Stretch& s) {
+    if (!request_.turning_points) return;
+    if (const MotionBounds* b = s.segment->bounds()) {
+        const bool turns = b->rate_low <= 0 && b->rate_high >= 0, crosses = b->angle_low <= 0 && b->angle_high >= 0;
+        if (!turns && !crosses) return;
+    }
     const auto at = [&](double t, double& theta, double& rate) {
         s.segment->value(t, y_.data());
         eye_.system().place(t, y_.data());
@@ -319,6 +378,13 @@ void Recorder::turning_points(const Stretch& s) {
 void Recorder::contact_peaks(const Stretch& s) {
     if (!impact_open_) return;
     Impact& impact = result_.impacts.back();
+    if (const TouchSamples* samples = s.segment->touch()) {
+        const double before = impact.force_peak.value_or(0);
+        impact.force_peak = std::max(before, sampled_peak(samples->t, samples->force, 1, before));
+        impact.penetration_peak =
+            std::max(impact.penetration_peak, sampled_peak(samples->t, samples->gap, -1, impact.penetration_peak));
+        return;
+    }
     const auto contact_at = [&](double t) -> const ContactState& {
         s.segment->value(t, y_.data());
         eye_.look(t, y_.data());
@@ -403,15 +469,19 @@ void Recorder::stretch(const Stretch& s, Notes* made) {
         extrema(s);
     }
     eye_.system().search_again();
-    // In contact also inside the step, where only the dense output knows the force.
+    // In contact also inside the step, where only the dense output knows the force, unless nodes do.
     for (const double share : {1.0 / 3, 2.0 / 3, 1.0}) {
-        if (share < 1 && !impact_open_) continue;
+        if (share < 1 && (!impact_open_ || s.segment->touch())) continue;
         const double t = share < 1 ? s.from + share * (s.to - s.from) : s.to;
         s.segment->value(t, y_.data());
         eye_.look(t, y_.data());
+        if (const TouchSamples* samples = s.segment->touch())
+            eye_.gap_is(t == s.segment->t1 ? samples->gap[TouchSamples::kCount - 1]
+                                           : Sampled(samples->t, samples->gap)(t));
         ledger();
     }
     if (!made) return;
+    made->turning_points = request_.turning_points;
     made->apexes.assign(result_.apexes.begin() + static_cast<std::ptrdiff_t>(apexes), result_.apexes.end());
     made->theta_zero.assign(result_.theta_zero.begin() + static_cast<std::ptrdiff_t>(zeros), result_.theta_zero.end());
     if (impact_open_) {
@@ -429,8 +499,13 @@ void Recorder::stretch(const Stretch& s, const Notes& known) {
     eye_.system().search_again();
     extrema(s);
     eye_.system().search_again();
-    result_.apexes.insert(result_.apexes.end(), known.apexes.begin(), known.apexes.end());
-    result_.theta_zero.insert(result_.theta_zero.end(), known.theta_zero.begin(), known.theta_zero.end());
+    if (request_.turning_points && known.turning_points) {
+        result_.apexes.insert(result_.apexes.end(), known.apexes.begin(), known.apexes.end());
+        result_.theta_zero.insert(result_.theta_zero.end(), known.theta_zero.begin(), known.theta_zero.end());
+    } else {
+        turning_points(s);
+        eye_.system().search_again();
+    }
     if (impact_open_) {
         result_.impacts.back().force_peak = known.force_peak;
         result_.impacts.back().penetration_peak = known.penetration_peak;
@@ -527,10 +602,10 @@ double end_of(const Request& request) {
     return end;
 }
 
-Audience::Audience(const Problem& problem, std::span<const Request> requests) : done_(requests.size(), 0) {
+Audience::Audience(const System& system, std::span<const Request> requests) : done_(requests.size(), 0) {
     recorders_.reserve(requests.size());
     for (const Request& request : requests) {
-        recorders_.emplace_back(problem, request, end_of(request));
+        recorders_.emplace_back(system, request, end_of(request));
         end_ = std::max(end_, recorders_.back().end());
     }
 }

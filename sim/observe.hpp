@@ -23,7 +23,7 @@ struct Stretch {
 // Channel values at one instant; remembers what it already worked out for that instant.
 class Eye {
   public:
-    explicit Eye(const Problem& problem);
+    explicit Eye(const System& system);
     void set_phase(const Phase& phase) { system_.set_phase(phase); }
     void set_start_energy(double total) { start_total_ = total; }
     void look(double t, const double* y);
@@ -31,6 +31,7 @@ class Eye {
     Pose pose(int stations);
     System& system() { return system_; }
     const System::Books& books();
+    void gap_is(double gap);  // known at this instant: the books need no look at the contact
     const ContactState& contact();
 
   private:
@@ -45,6 +46,7 @@ class Eye {
 
 // What a stretch adds to every result, whatever was asked for. Found once, told to every recorder.
 struct Notes {
+    bool turning_points = false;  // whether the next two were looked for
     std::vector<Apex> apexes;
     std::vector<ZeroCrossing> theta_zero;
     // So far: of the impact still open, of the energy ledger, and the largest bending energy [J].
@@ -62,7 +64,7 @@ struct Tally {
 // Records for one request, until its own end.
 class Recorder {
   public:
-    Recorder(const Problem& problem, const Request& request, double end);
+    Recorder(const System& system, const Request& request, double end);
 
     void begin(const Phase& phase, const std::vector<double>& y);
     void phase(const Phase& phase);
@@ -90,7 +92,7 @@ class Recorder {
     void sweep(const std::vector<double>& times, Cursor& cursor, const Stretch& s, F&& visit);
     int pieces(const Stretch& s);
 
-    const Problem& problem_;
+    Problem problem_;
     const Request& request_;
     Result result_;
     Eye eye_;
@@ -108,7 +110,7 @@ class Audience {
     // The tally where the integration stands. Asked for after a stretch was looked at.
     using TallySource = std::function<Tally()>;
 
-    Audience(const Problem& problem, std::span<const Request> requests);
+    Audience(const System& system, std::span<const Request> requests);
     double end() const { return end_; }  // the furthest that anybody looks [s]
 
     void begin(const Phase& phase, const std::vector<double>& y);

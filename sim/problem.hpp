@@ -143,7 +143,7 @@ struct Initial {
     InitialShape shape = InitialShape::straight;
 };
 
-enum class Method { automatic, rk8, cvode_adams, cvode_bdf, arkode_erk };
+enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
 struct Solver {
     Method method = Method::automatic;
     double rtol = 1e-8;   // 1e-13…1e-2

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "sim/exponential.hpp"
 #include "sim/initial.hpp"
 #include "sim/numerics.hpp"
 #include "sim/observe.hpp"
@@ -53,6 +54,7 @@ enum class EventKind { none, touch, release, clamp, grip, lift };
 
 constexpr int kMaxLooks = 16;         // into one step, for events
 constexpr double kMostPieces = 1e5;   // of one step, for touches
+constexpr long kMostLooks = 100000;   // of the advancement through one step
 constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
@@ -66,16 +68,14 @@ class Run {
           progress_(progress),
           keep_(keep),
           dynamics_(problem),
-          scout_(problem),
-          audience_(problem, requests),
+          scout_(dynamics_),
+          audience_(dynamics_, requests),
           end_(audience_.end()) {
         const Solver& solver = problem.solver;
         // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
         // many impacts stays within the ledger's bound of ten times rtol.
         const double share = solver.method == Method::automatic ? 1.0 / 3 : 1;
-        const bool rk8 = solver.method == Method::automatic || solver.method == Method::rk8;
-        integrator_ = rk8 ? make_rk8(dynamics_, share * solver.rtol, share * solver.atol)
-                          : make_sundials(solver.method, dynamics_, solver.rtol, solver.atol);
+        integrator_ = make_integrator(solver, share * solver.rtol, share * solver.atol);
         y_.resize(static_cast<std::size_t>(dynamics_.size));
         probe_y_.resize(y_.size());
     }
@@ -94,8 +94,23 @@ class Run {
     Counters counters() const { return tally().counters; }
 
   private:
+    std::unique_ptr<Integrator> make_integrator(const Solver& solver, double rtol, double atol) {
+        switch (solver.method) {
+            case Method::automatic:
+            case Method::exponential:
+                return make_exponential(dynamics_, rtol, atol);
+            case Method::rk8:
+                return make_rk8(dynamics_, rtol, atol);
+            case Method::cvode_adams:
+            case Method::cvode_bdf:
+            case Method::arkode_erk:
+                break;
+        }
+        return make_sundials(solver.method, dynamics_, rtol, atol);
+    }
+
     void integrate() {
-        const InitialState start = initial_state(problem_);
+        const InitialState start = initial_state(dynamics_);
         y_ = start.y;
         t_ = 0;
         kinks_ = dynamics_.drive().kinks();
@@ -186,6 +201,7 @@ class Run {
     }
 
     Event touch_in(const Segment& segment) {
+        if (const MotionBounds* bounds = segment.bounds()) return touch_by_advance(segment, *bounds);
         // Far away: what the gap can lose in this step is less than it is at both ends.
         const double h = segment.t1 - segment.t0;
         segment.value(segment.t1, probe_y_.data());
@@ -196,18 +212,24 @@ class Run {
                      speed0 = scout_.gap_speed_bound(segment.t0, probe_y_.data());
         if (std::min(gap0, gap1) > 2 * h * (std::max(speed0, speed1) + h * problem_.gravity)) return {};
 
+        // A long step may carry the beam through the cam and out again: no piece moves it by more than half a radius.
+        const double travel = h * std::max(speed0, speed1) / (0.5 * problem_.cam->radius);
+        const int count = std::max(pieces(segment), static_cast<int>(std::min(std::ceil(travel), kMostPieces)));
+        return touch_between(segment, segment.t1, count);
+    }
+
+    // Looks at `count` equal pieces from the start of the segment to `end`, and at the valleys between.
+    Event touch_between(const Segment& segment, double end, int count) {
+        const double h = end - segment.t0;
         const bool everywhere = problem_.beam.model == ModelKind::exact;
         const auto probe = [&](double t) {
             const ContactState c = contact_at(segment, t, everywhere);
             return Guard{t, c.gap, c.gap_rate};
         };
-        // A long step may carry the beam through the cam and out again: no piece moves it by more than half a radius.
-        const double travel = h * std::max(speed0, speed1) / (0.5 * problem_.cam->radius);
-        const int count = std::max(pieces(segment), static_cast<int>(std::min(std::ceil(travel), kMostPieces)));
         const ContactState first = contact_at(segment, segment.t0, true);
         Guard a{segment.t0, first.gap, first.gap_rate};
         for (int i = 1; i <= count; ++i) {
-            const double t = i == count ? segment.t1 : segment.t0 + h * i / count;
+            const double t = i == count ? end : segment.t0 + h * i / count;
             const Guard b = probe(t);
             if (i == 1 && segment.t0 == phase_start_ && b.value <= 0) {
                 // It starts on the surface and is below it soon: where was it above?
@@ -221,6 +243,80 @@ class Run {
             a = b;
         }
         return {};
+    }
+
+    // |g̈| within the bounds, while the disc is no deeper than half its radius: the terms of (S44) one by one.
+    double gap_acceleration_bound(const MotionBounds& b) {
+        const Cam& cam = *problem_.cam;
+        const double reach = std::fabs(problem_.hub.radius) + scout_.model().length();
+        const double near = 0.5 * cam.radius, arm = cam.eccentricity * std::fabs(cam.speed);
+        const double speed = b.spin * reach + b.deflection_speed + arm;  // |w|, w = ṙ − Ḃ
+        const double turn = b.spin + b.slope_speed;                      // |ṙ′|
+        const double slide = 2 * (turn * (reach + cam.radius) + speed);  // |ẋ|, the beam nearly straight
+        const double point = b.deflection_acceleration + b.spin_acceleration * reach + 2 * b.spin * b.deflection_speed +
+                             b.spin * b.spin * reach + b.deflection_speed * b.slope_speed;  // |r̈|
+        return (speed + slide) * speed / near + point + turn * slide + cam.eccentricity * cam.speed * cam.speed;
+    }
+
+    // Conservative advancement: from an open gap g with rate ġ nothing can touch before g + ġτ − ½Mτ² vanishes,
+    // M ≥ |g̈|; so no touch is lost, however short. Once g + ġτ + ½Mτ² has a root the gap falls all the way to
+    // it: Newton's method.                                                                         (S56)
+    Event touch_by_advance(const Segment& segment, const MotionBounds& bounds) {
+        const double h = segment.t1 - segment.t0;
+        segment.value(segment.t0, probe_y_.data());
+        const double reach = std::fabs(problem_.hub.radius) + scout_.model().length();
+        const double speed =
+            bounds.spin * reach + bounds.deflection_speed + problem_.cam->eccentricity * std::fabs(problem_.cam->speed);
+        if (scout_.gap_lower_bound(segment.t0, probe_y_.data()) > h * speed) return {};
+
+        const double most = gap_acceleration_bound(bounds);
+        double t = segment.t0;
+        ContactState c = scout_.contact(t, probe_y_.data(), true);
+        if (t == phase_start_) {
+            if (!(c.gap_rate > kRestSpeed)) {
+                // It hardly leaves: look closely at first.
+                t = std::min(segment.t1, t + 1 / (scout_.highest_frequency() + bounds.spin + 1 / h));
+                const Event event = touch_between(segment, t, 4);
+                if (event.kind != EventKind::none) return event;
+                c = contact_at(segment, t, true);
+            }
+            c.gap = std::max(c.gap, 0.0);  // rounding of the release
+        }
+        for (long looks = 0; looks < kMostLooks; ++looks) {
+            if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return {EventKind::touch, t};
+            const double falls = c.gap_rate * c.gap_rate - 2 * most * c.gap;
+            if (c.gap_rate < 0 && falls > 0) {
+                const double latest = t - (c.gap_rate + std::sqrt(falls)) / most;
+                return falling(segment, t, c, latest);
+            }
+            const double safe = (c.gap_rate + std::sqrt(c.gap_rate * c.gap_rate + 2 * most * c.gap)) / most;
+            const double next = t + std::max(safe, 1e-15 * t);
+            if (next >= segment.t1) return {};
+            t = next;
+            c = contact_at(segment, t, false);
+        }
+        return touch_between(segment, segment.t1, kMaxLooks);
+    }
+
+    // The gap falls from t on and vanishes before `latest`, which may lie beyond the segment.
+    Event falling(const Segment& segment, double t, ContactState c, double latest) {
+        double low = t, high = latest;
+        for (int i = 0; i < 60; ++i) {
+            double next = t - c.gap / c.gap_rate;
+            if (!(next > low && next < high)) next = 0.5 * (low + high);
+            if (next >= segment.t1) {
+                next = segment.t1;
+                c = contact_at(segment, next, false);
+                if (c.gap > 0) return {};
+            } else {
+                c = contact_at(segment, next, false);
+            }
+            if (next == t || c.gap == 0 || std::fabs(c.gap) < 1e-16 * problem_.cam->radius)
+                return {EventKind::touch, next};
+            (c.gap > 0 ? low : high) = next;
+            t = next;
+        }
+        return {EventKind::touch, t};
     }
 
     // Halving towards the start until the gap is open.
@@ -289,6 +385,16 @@ class Run {
     }
 
     Event event_in_contact(const Segment& segment) {
+        if (const TouchSamples* samples = segment.touch()) {
+            switch (samples->ending) {
+                case TouchSamples::Ending::open:
+                    return {};
+                case TouchSamples::Ending::release:
+                    return {EventKind::release, segment.t1};
+                case TouchSamples::Ending::clamp:
+                    return {EventKind::clamp, segment.t1};
+            }
+        }
         const double h = segment.t1 - segment.t0;
         const int count = pieces(segment);
         const auto release = [&](double t) { return watch(segment, t).release; };
@@ -645,7 +751,7 @@ std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory,
     require_valid(problem);
     return timed([&] {
         return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
-            Audience audience(problem, all);
+            Audience audience(System(problem), all);
             trajectory.play(problem, audience);
             return audience.results();
         });

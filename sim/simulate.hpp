@@ -87,6 +87,7 @@ struct Request {
     std::vector<PoseRequest> poses;
     std::vector<PointRequest> points;
     std::vector<Channel> extrema;  // located on the dense output
+    bool turning_points = true;    // apexes and zero crossings of θ, which need a look at every ripple
     bool horizon = false;          // until when θ is reproducible; costs a second run
 };
 

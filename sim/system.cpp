@@ -41,10 +41,35 @@ System::System(const Problem& problem)
     size = controlled + kLedgerSize;
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     x_last_ = 0.5 * model_->length();
+    if (problem.beam.model != ModelKind::exact)
+        for (int i = 0; i + 1 < n_; ++i)  // β² = ω√(ρA/EI); no shape exceeds 3β²
+            curvature_.push_back(3 * model_->frequency(i) *
+                                 std::sqrt(problem.beam.line_density() / problem.beam.bending_stiffness()));
     // Slower than the lowest vibration, or than the swing of a rigid beam.
     settle_ = n_ > 1 ? 0.1 * model_->frequency(0)
                      : 10 * std::sqrt(std::max(1e-3, std::fabs(problem.gravity)) / model_->length());
 }
+
+System::System(const System& other)
+    : Ode(other),
+      problem_(other.problem_),
+      model_(other.model_->clone()),
+      drive_(other.drive_),
+      law_(other.law_),
+      phase_(other.phase_),
+      n_(other.n_),
+      bristle_(other.bristle_),
+      bristle_lags_(other.bristle_lags_),
+      offset_(other.offset_),
+      mu_(other.mu_),
+      mu_static_(other.mu_static_),
+      slip_speed_(other.slip_speed_),
+      bristle_stiffness_(other.bristle_stiffness_),
+      bristle_damping_(other.bristle_damping_),
+      highest_frequency_(other.highest_frequency_),
+      curvature_(other.curvature_),
+      x_last_(other.x_last_),
+      settle_(other.settle_) {}
 
 CamPose System::cam(double t) const {
     const Cam& cam = *problem_.cam;
@@ -70,23 +95,38 @@ void System::place(double t, const double* y) {
     model_->set(xi, rate);
 }
 
+// So straight that only one foot exists wherever the disc is: |v″| times its distance stays below a half.
+bool System::nearly_straight() const {
+    if (n_ > 1 && curvature_.empty()) return false;
+    double curvature = 0;
+    for (int i = 1; i < n_; ++i)
+        curvature += curvature_[static_cast<std::size_t>(i - 1)] * std::fabs(model_->coordinates()[i]);
+    const double far =
+        model_->length() + std::fabs(problem_.hub.radius) + norm(problem_.cam->centre) + problem_.cam->eccentricity;
+    return curvature * far < 0.5;
+}
+
 // The foot of the perpendicular from B: a root of r′·(r − B) with r″·(r − B) + r′·r′ > 0          (S24)
 Vec2 System::foot(Vec2 disc, bool search, ContactState& c) {
     const double length = model_->length();
     ++gap_evaluations;
     if (search || search_next_) {
         search_next_ = false;
-        // Nearest of a few points of the beam, then Newton: more points for more curved shapes.
-        const int points = problem_.beam.model == ModelKind::exact ? 4 * n_ + 13 : 2 * n_ + 9;
-        double best = std::numeric_limits<double>::infinity();
-        for (int i = 0; i <= points; ++i) {
-            const double x = length * i / points;
-            model_->point(x, at_);
-            const Vec2 d = at_.r - disc;
-            const double distance = dot(d, d);
-            if (distance < best) {
-                best = distance;
-                x_last_ = x;
+        if (nearly_straight()) {
+            x_last_ = std::clamp(dot(disc, unit(model_->coordinates()[0])) - problem_.hub.radius, 0.0, length);
+        } else {
+            // Nearest of a few points of the beam, then Newton: more points for more curved shapes.
+            const int points = problem_.beam.model == ModelKind::exact ? 4 * n_ + 13 : 2 * n_ + 9;
+            double best = std::numeric_limits<double>::infinity();
+            for (int i = 0; i <= points; ++i) {
+                const double x = length * i / points;
+                model_->point(x, at_);
+                const Vec2 d = at_.r - disc;
+                const double distance = dot(d, d);
+                if (distance < best) {
+                    best = distance;
+                    x_last_ = x;
+                }
             }
         }
     }
@@ -381,14 +421,28 @@ void System::acceleration(double t, const double* y, double* acc) {
     std::copy_n(dy + n_, n_, acc);
 }
 
-System::Books System::books(double t, const double* y) {
+System::Books System::open_books(double t, const double* y) {
     place(t, y);
     const double* ledger = y + controlled;
     Books b;
     b.energies = model_->energies();
     b.loss_structural = ledger[kLossStructural];
+    b.loss_contact = ledger[kNormalWork];
+    b.loss_friction = ledger[kFrictionWork];
     b.work_cam = ledger[kWorkCam];
     b.work_drive = ledger[kWorkDrive];
+    return b;
+}
+
+System::Books System::books(double t, const double* y, double gap) {
+    Books b = open_books(t, y);
+    b.contact = law_.stored_energy(-gap);
+    b.loss_contact -= b.contact;
+    return b;
+}
+
+System::Books System::books(double t, const double* y) {
+    Books b = open_books(t, y);
     double normal = 0, bristle = 0;
     if (phase_.touching) {
         const ContactState c = contact_placed(t, y, false);
@@ -400,8 +454,8 @@ System::Books System::books(double t, const double* y) {
     }
     // What went into the contact is stored or lost (S38).
     b.contact = normal + bristle;
-    b.loss_contact = ledger[kNormalWork] - normal;
-    b.loss_friction = ledger[kFrictionWork] - bristle;
+    b.loss_contact -= normal;
+    b.loss_friction -= bristle;
     return b;
 }
 

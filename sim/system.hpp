@@ -62,6 +62,8 @@ struct ContactState {
 class System final : public Ode {
   public:
     explicit System(const Problem& problem);
+    // Another observer of the same problem: tables are shared, the state is its own.
+    System(const System& other);
 
     // The next look at the contact searches the whole beam.
     void set_phase(const Phase& phase) {
@@ -104,6 +106,8 @@ class System final : public Ode {
         }
     };
     Books books(double t, const double* y);
+    // The same in contact without friction's bristle, where the gap is known.
+    Books books(double t, const double* y, double gap);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
 
@@ -152,6 +156,8 @@ class System final : public Ode {
     // Forces and inertia of the model; false when the inertia that must answer is not positive.
     bool assemble(double* f);
     double bending_reach(const double* coordinates) const;
+    bool nearly_straight() const;
+    Books open_books(double t, const double* y);
 
     Problem problem_;
     std::unique_ptr<Model> model_;
@@ -163,6 +169,7 @@ class System final : public Ode {
     double offset_ = 0;
     double mu_ = 0, mu_static_ = 0, slip_speed_ = 1e-3, bristle_stiffness_ = 0, bristle_damping_ = 0;
     double highest_frequency_ = 0;
+    std::vector<double> curvature_;  // bounds of |φ_i″| [1/m²]; empty for `exact`
     double x_last_ = 0;
     double settle_ = 0, free_gap_acceleration_ = 0;
     double answer_[kMaxSize] = {};

@@ -28,7 +28,7 @@ void put(std::vector<double>& out, const Tally& t) {
 
 void put(std::vector<double>& out, const Notes& n) {
     const std::optional<double> peak = n.force_peak;
-    for (double value : {double(peak.has_value()), peak.value_or(0), n.penetration_peak, n.energy_scale,
+    for (double value : {double(n.turning_points), double(peak.has_value()), peak.value_or(0), n.penetration_peak, n.energy_scale,
                          n.energy_residual_max, n.largest_elastic})
         out.push_back(value);
     out.push_back(static_cast<double>(n.apexes.size()));
@@ -104,6 +104,7 @@ Tally tally_of(Numbers& n) {
 
 Notes notes_of(Numbers& n) {
     Notes notes;
+    notes.turning_points = n.flag();
     const bool has_peak = n.flag();
     const double peak = n.next();
     if (has_peak) notes.force_peak = peak;
@@ -309,6 +310,8 @@ std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Probl
             return make_stored_rk8(size);
         case SegmentKind::taylor:
             return make_stored_taylor(size);
+        case SegmentKind::exponential:
+            return make_stored_exponential(problem);
     }
     throw std::invalid_argument("the trajectory has a segment of unknown kind");
 }

@@ -1,0 +1,63 @@
+#include "sim/contact_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/modal_model.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// β|x − centre| up to which the expansion to sixth order is exact to rounding of what the mode contributes: a seventh
+// of a unit leaves (1/7)⁷/7! = 2e-10 of the highest mode. An expansion is kept while the contact stays within a third
+// of it.
+constexpr double kTrusted = 0.15, kKept = 0.05;
+
+}  // namespace
+
+ContactExpansion::ContactExpansion(std::shared_ptr<const ModalForm> form, System& system)
+    : form_(std::move(form)),
+      system_(system),
+      n_(static_cast<std::size_t>(form_->n)),
+      offset_(system.offset()),
+      radius_(form_->radius),
+      y_((kOrder + 1) * n_),
+      turned_(kOrder * n_),
+      shorten_(n_ * n_) {
+    const Cam& cam = *system.problem().cam;
+    disc_ = cam.radius;
+    rim_ = cam.speed * cam.radius;
+    range_ = 0.1 * form_->length;
+    for (const double beta : form_->beta) range_ = std::min(range_, kTrusted / beta);
+}
+
+void ContactExpansion::centre(double x) {
+    if (x_ >= 0 && std::fabs(x - x_) < kKept / kTrusted * range_) return;
+    x_ = x;
+    if (n_ == 0) return;
+    const auto& model = dynamic_cast<const ModalModel&>(system_.model());
+    double* y = y_.data();
+    model.shapes().evaluate(x, y, y + n_, y + 2 * n_, y + 3 * n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+        const double b4 = std::pow(form_->beta[i], 4);
+        for (std::size_t m = 4; m <= kOrder; ++m) y[m * n_ + i] = b4 * y[(m - 4) * n_ + i];
+    }
+    for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t m = 0; m < kOrder; ++m) turned_[i * kOrder + m] = y[m * n_ + i];
+    if (form_->shortening) model.shortening_matrix(x, shorten_.data());  // symmetric
+}
+
+void ContactExpansion::normal_rows(const Touch<Lanes>& touch, const Lanes* hq, Lanes* jn) const {
+    const Lanes& x = touch.dx;
+    Lanes c[kOrder];
+    c[0] = touch.ny;
+    for (int m = 1; m < kOrder; ++m) c[m] = c[m - 1] * x * (1.0 / m);
+    c[1] -= touch.nx * touch.w0;
+    c[2] -= touch.nx * touch.w1;
+    c[3] -= touch.nx * touch.w2;
+    product(n_, kOrder, turned_.data(), c, jn);
+    if (!form_->shortening) return;
+    for (std::size_t i = 0; i < n_; ++i) jn[i] -= touch.nx * (hq[i] + form_->h[i] * touch.shift);
+}
+
+}  // namespace beamcam::sim

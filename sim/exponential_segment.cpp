@@ -1,0 +1,302 @@
+#include "sim/exponential_segment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace beamcam::sim {
+
+template <class Visit>
+void ExponentialSegment::each_number(Visit&& visit) {
+    const auto lanes = [&](Lanes& l) {
+        for (int k = 0; k < kNodes; ++k) {
+            double value = l[k];
+            visit(value);
+            l[k] = value;
+        }
+    };
+    for (double* one : {&h, &theta0, &p0, &boundary0}) visit(*one);
+    for (std::vector<double>* all : {&q0, &v0, &end})
+        for (double& one : *all) visit(one);
+    for (std::vector<Lanes>* all : {&q, &v, &f})
+        for (Lanes& one : *all) lanes(one);
+    lanes(spin);
+    lanes(push);
+    for (double& one : ledger0) visit(one);
+    const auto flag = [&](bool& on) {
+        double value = on;
+        visit(value);
+        on = value != 0;
+    };
+    flag(books);
+    if (books)
+        for (Lanes& one : rate) lanes(one);
+    flag(touching);
+    if (!touching) return;
+    for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.x})
+        for (double& one : *all) visit(one);
+    double ending = static_cast<int>(samples.ending);
+    visit(ending);
+    samples.ending = static_cast<TouchSamples::Ending>(static_cast<int>(ending));
+}
+
+SegmentKind ExponentialSegment::numbers(std::vector<double>& out) const {
+    // Only read, by this visitor.
+    const_cast<ExponentialSegment*>(this)->each_number([&](const double& value) { out.push_back(value); });
+    return SegmentKind::exponential;
+}
+
+void ExponentialSegment::load(double begin, double end_time, std::span<const double> numbers) {
+    t0 = begin;
+    t1 = end_time;
+    std::size_t next = 0;
+    each_number([&](double& value) {
+        if (next == numbers.size()) throw std::invalid_argument("a segment of the trajectory is too short");
+        value = numbers[next++];
+    });
+    if (next != numbers.size()) throw std::invalid_argument("a segment of the trajectory is too long");
+    changed();
+}
+
+namespace {
+
+class StoredExponential final : public StoredSegment {
+  public:
+    explicit StoredExponential(const Problem& problem)
+        : system_(problem), segment_(form(system_), system_.drive(), system_.size) {}
+    void load(double begin, double end, std::span<const double> numbers) override {
+        t0 = begin;
+        t1 = end;
+        segment_.load(begin, end, numbers);
+    }
+    void value(double t, double* y) const override { segment_.value(t, y); }
+    const MotionBounds* bounds() const override { return segment_.bounds(); }
+    const TouchSamples* touch() const override { return segment_.touch(); }
+
+  private:
+    static std::shared_ptr<const ModalForm> form(System& system) {
+        auto made = ModalForm::of(system);
+        if (!made) throw std::invalid_argument("the trajectory does not belong to this problem");
+        return made;
+    }
+    System system_;
+    ExponentialSegment segment_;
+};
+
+}  // namespace
+
+std::unique_ptr<StoredSegment> make_stored_exponential(const Problem& problem) {
+    return std::make_unique<StoredExponential>(problem);
+}
+
+ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law,
+                                       int state_size)
+    : form_(std::move(modal_form)), drive_(drive_law), n_(static_cast<std::size_t>(form_->n)) {
+    controlled_ = static_cast<std::size_t>(state_size) - kLedgerSize;
+    q0.resize(n_);
+    v0.resize(n_);
+    q.resize(n_);
+    v.resize(n_);
+    f.resize(n_);
+    end.resize(static_cast<std::size_t>(state_size));
+    taylor_.resize(n_ * kNodes);
+}
+
+double ExponentialSegment::spin_at(double p, const double* x) const {
+    double quadratic = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < n_; ++j) row += form_->inertia[i * n_ + j] * x[j];
+        quadratic += row * x[i];
+    }
+    return p / (form_->J + quadratic);
+}
+
+// Derivatives of the forcing at the start of the step or at a node.
+void ExponentialSegment::expand(int at) const {
+    if (expanded_ == at) return;
+    expanded_ = at;
+    const Collocation& gauss = Collocation::get();
+    double inverse = 1;
+    for (std::size_t j = 0; j < kNodes; ++j, inverse /= h)
+        for (std::size_t i = 0; i < n_; ++i)
+            taylor_[i * kNodes + j] = inverse * sum(gauss.derive[static_cast<std::size_t>(at)][j] * f[i]);
+}
+
+void ExponentialSegment::value(double t, double* y) const {
+    if (t == t1) {
+        std::copy(end.begin(), end.end(), y);
+        return;
+    }
+    const Collocation& gauss = Collocation::get();
+    const double s = (t - t0) / h;
+    int at = 0;
+    while (at < kNodes && gauss.point[static_cast<std::size_t>(at) + 1] <= s) ++at;
+    expand(at);
+    const double tau = (s - gauss.point[static_cast<std::size_t>(at)]) * h;
+    double* rates = y + 1 + n_;
+    for (std::size_t i = 0; i < n_; ++i) {
+        const Oscillator& o = form_->oscillators[i];
+        double r[kResponse];
+        respond(o, tau, r);
+        const double qa = at == 0 ? q0[i] : q[i][at - 1], va = at == 0 ? v0[i] : v[i][at - 1];
+        double x = (r[0] + 2 * o.gamma * r[1]) * qa + r[1] * va, dx = r[0] * va - o.omega * o.omega * r[1] * qa;
+        const double* taylor = taylor_.data() + i * kNodes;
+        for (int j = 0; j < kNodes; ++j) {
+            x += taylor[j] * r[2 + j];
+            dx += taylor[j] * r[1 + j];
+        }
+        y[1 + i] = x;
+        rates[1 + i] = dx;
+    }
+    Lanes weights;
+    gauss.weights_to(s, weights);
+    if (form_->prescribed) {
+        const HubMotion hub = drive_.motion(t);
+        y[0] = hub.angle;
+        rates[0] = hub.rate;
+    } else {
+        y[0] = theta0 + h * sum(weights * spin);
+        rates[0] = spin_at(p0 + h * sum(weights * push), y + 1);
+    }
+    for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
+    std::copy_n(ledger0, kLedgerSize, y + controlled_);
+    if (books) ledger_at(t, s, weights, y);
+}
+
+// Between two nodes the amplitude √(q² + (q̇/ω)²) of a mode changes by at most ∫|f|/ω, and by twice the static
+// deflection |f|/ω²; polynomials between nodes stay near their nodal values (Lebesgue's constant of Gauss nodes
+// is 3: kMargin of the spread is added).                                                                 (S53)
+const MotionBounds* ExponentialSegment::bounds() const {
+    if (bounds_known_) return &bounds_;
+    bounds_known_ = true;
+    MotionBounds& b = bounds_;
+    b = {};
+    constexpr double kMargin = 1, kNodeGap = 0.1;  // half of the widest distance of nodes over the step
+    const double shape = 3 + 3 * std::fabs(form_->radius) / form_->length;
+    double turn = 0, turn_rate = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        const double w = form_->oscillators[i].omega;
+        const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
+        const double force = 1.5 * largest(f[i]);
+        double amplitude = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
+        amplitude += force / w * std::min(kNodeGap * h, 2 / w);
+        b.deflection_speed += shape * w * amplitude;
+        b.deflection_acceleration +=
+            shape * (w * w * amplitude + force + 2 * form_->oscillators[i].gamma * w * amplitude);
+        b.slope_speed += shape * form_->beta[i] * w * amplitude;
+        turn += std::fabs(form_->h[i]) * amplitude;
+        turn_rate += std::fabs(form_->h[i]) * w * amplitude;
+    }
+    double low = spin[0], high = spin[0];
+    for (int k = 1; k < kNodes; ++k) {
+        low = std::min(low, spin[k]);
+        high = std::max(high, spin[k]);
+    }
+    const double spread = kMargin * (high - low) + 1e-6 * std::max(std::fabs(low), std::fabs(high));
+    low -= spread;
+    high += spread;
+    b.spin = std::max(std::fabs(low), std::fabs(high));
+    b.spin_acceleration = form_->prescribed ? 4 * (high - low) / h : 2 * largest(push) / form_->J;
+    b.rate_low = low - turn_rate;
+    b.rate_high = high + turn_rate;
+    const double first = form_->prescribed ? drive_.motion(t0).angle : theta0;
+    b.angle_low = first + std::min(0.0, low) * h - turn;
+    b.angle_high = first + std::max(0.0, high) * h + turn;
+    return &bounds_;
+}
+
+// ∫₀ g q̇ up to s for a polynomial g(z), z = 2s − 1, where the nodes do not resolve q̇: the particular solution is a
+// polynomial too, and the free oscillation v_h is integrated by parts against g.                             (S54)
+double ExponentialSegment::work_on(std::size_t i, const double* g, double s, const double* y) const {
+    const Oscillator& o = form_->oscillators[i];
+    const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
+    double particular[kNodes] = {}, speed[kNodes] = {}, derived[kNodes];
+    for (std::size_t j = 0; j < kNodes; ++j) derived[j] = sum(Collocation::get().monomial[j] * f[i]);
+    double c = 1 / w2, before = 0;
+    for (int k = 0; k < kNodes; ++k) {
+        for (int j = 0; j < kNodes; ++j) particular[j] += c * derived[j];
+        for (int j = 0; j + 1 < kNodes; ++j) derived[j] = (j + 1) * derived[j + 1] * (2 / h);
+        derived[kNodes - 1] = 0;
+        for (int j = 0; j < kNodes; ++j) speed[j] += c * derived[j];
+        const double next = -(2 * o.gamma * c + before) / w2;
+        before = c;
+        c = next;
+    }
+    const auto integral = [&](double z, double x, double dx) {
+        double power[2 * kNodes];
+        power[0] = 1;
+        for (int j = 1; j < 2 * kNodes; ++j) power[j] = power[j - 1] * z;
+        double total = 0, qp = 0, vp = 0;
+        for (int a = 0; a < kNodes; ++a) {
+            qp += particular[a] * power[a];
+            vp += speed[a] * power[a];
+            for (int b = 0; b < kNodes; ++b) total += g[a] * speed[b] * power[a + b + 1] / (a + b + 1);
+        }
+        total *= 0.5 * h;
+        double poly[kNodes];
+        std::copy_n(g, kNodes, poly);
+        double low = dx - vp, high = x - qp, sign = 1;  // V₀ = v_h, V₁ = q_h, V_{k+1} = −(V_{k−1} + 2γV_k)/ω²
+        for (int k = 0; k < kNodes; ++k) {
+            double value = 0;
+            for (int j = 0; j < kNodes; ++j) value += poly[j] * power[j];
+            total += sign * value * high;
+            sign = -sign;
+            for (int j = 0; j + 1 < kNodes; ++j) poly[j] = (j + 1) * poly[j + 1] * (2 / h);
+            poly[kNodes - 1] = 0;
+            const double next = -(low + 2 * o.gamma * high) / w2;
+            low = high;
+            high = next;
+        }
+        return total;
+    };
+    return integral(2 * s - 1, x1, dx1) - integral(-1, q0[i], v0[i]);
+}
+
+// Loss of one mode up to s: what its energy lost and the forcing put in, ∫2γmv² = m{E(0) − E(t) + ∫f v},
+// E = ½(v² + ω²q²).                                                                                       (S54)
+double ExponentialSegment::structural_loss(std::size_t i, double s, const double* y) const {
+    const Oscillator& o = form_->oscillators[i];
+    const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
+    const double fell = 0.5 * (v0[i] * v0[i] - dx1 * dx1 + w2 * (q0[i] * q0[i] - x1 * x1));
+    if (o.omega * h < kResolved) return form_->mass * fell;
+    double force[kNodes];
+    for (std::size_t j = 0; j < kNodes; ++j) force[j] = sum(Collocation::get().monomial[j] * f[i]);
+    return form_->mass * (fell + work_on(i, force, s, y));
+}
+
+// Work of the torque on the vibration α̇ that the nodes do not resolve.
+double ExponentialSegment::torque_on_vibration(double s, const double* y) const {
+    const Collocation& gauss = Collocation::get();
+    Lanes torque;
+    for (int k = 0; k < kNodes; ++k) torque[k] = drive_.torque(t0 + h * gauss.c[k]);
+    double polynomial[kNodes], work = 0;
+    for (std::size_t j = 0; j < kNodes; ++j) polynomial[j] = sum(gauss.monomial[j] * torque);
+    for (std::size_t i = 0; i < n_; ++i)
+        if (form_->oscillators[i].omega * h >= kResolved) work += form_->h[i] * work_on(i, polynomial, s, y);
+    return work;
+}
+
+double ExponentialSegment::drive_boundary(double t, const double* y) const {
+    if (!form_->prescribed) return 0;
+    const HubMotion hub = drive_.motion(t);
+    double momentum = form_->J * hub.rate, follow = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < n_; ++j) row += form_->inertia[i * n_ + j] * y[1 + j];
+        momentum += row * y[1 + i] * hub.rate + form_->U[i] * y[2 + n_ + i];
+        follow += form_->U[i] * y[1 + i];
+    }
+    return hub.rate * momentum - hub.acceleration * follow;
+}
+
+void ExponentialSegment::ledger_at(double t, double s, const Lanes& weights, double* y) const {
+    double* ledger = y + controlled_;
+    for (int k = 0; k < kLedgerSize; ++k) ledger[k] = ledger0[k] + h * sum(weights * rate[k]);
+    if (form_->damped)
+        for (std::size_t i = 0; i < n_; ++i) ledger[kLossStructural] += structural_loss(i, s, y);
+    if (drive_.has_torque()) ledger[kWorkDrive] += torque_on_vibration(s, y);
+    if (form_->prescribed) ledger[kWorkDrive] += drive_boundary(t, y) - boundary0;
+}
+
+}  // namespace beamcam::sim

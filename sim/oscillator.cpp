@@ -1,0 +1,102 @@
+#include "sim/oscillator.hpp"
+
+#include <cmath>
+
+namespace beamcam::sim {
+
+// With g_j the responses (g₋₁ = s, g₋₂ = ṡ, ġ_j = g_{j−1}) the equation of motion itself is the recursion     (S52)
+//   g_{j−1} + 2γ g_j + ω² g_{j+1} = τ^{j+1}/(j+1)!,
+// stable upwards where ωτ is large and downwards, from the series of the last two, where it is small.
+void respond(const Oscillator& o, double tau, double* r) {
+    const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+    const double turning = o.gamma == 0 ? o.omega : std::sqrt(w2 - o.gamma * o.gamma);
+    double s, ds;
+    if (turning * tau < 1e-4) {
+        // Down to no stiffness at all: decay is as slow.
+        const double z = turning * tau, decay = std::exp(-o.gamma * tau);
+        s = tau * (1 - z * z / 6) * decay;
+        ds = (1 - 0.5 * z * z) * decay - o.gamma * s;
+    } else {
+        const double decay = o.gamma == 0 ? 1 : std::exp(-o.gamma * tau);
+        s = decay * std::sin(turning * tau) / turning;
+        ds = decay * std::cos(turning * tau) - o.gamma * s;
+    }
+    r[0] = ds;
+    r[1] = s;
+    double power[kNodes + 3];  // τʲ/j!
+    power[0] = 1;
+    for (int j = 1; j < kNodes + 3; ++j) power[j] = power[j - 1] * (tau / j);
+    if (o.omega * tau >= 2) {
+        const double inverse = 1 / w2;
+        for (int j = -1; j + 1 < kNodes; ++j) r[3 + j] = (power[j + 1] - damping * r[2 + j] - r[1 + j]) * inverse;
+        return;
+    }
+    // Series of the last two: g_j = Σ_k a_k τ^{j+2+k}/(j+2+k)!, a₀ = 1, a₁ = −2γ, a_k = −2γ a_{k−1} − ω² a_{k−2}.
+    for (const int j : {kNodes - 1, kNodes - 2}) {
+        double term = power[j + 2], before = 0, a = 1, total = 0;
+        for (int k = 0; k < 24; ++k) {
+            total += a * term;
+            const double next = -damping * a - w2 * before;
+            before = a;
+            a = next;
+            term *= tau / (j + 3 + k);
+            if (std::fabs(a * term) + std::fabs(before * term) < 1e-18 * std::fabs(total)) break;
+        }
+        r[2 + j] = total;
+    }
+    for (int j = kNodes - 2; j > 0; --j) r[1 + j] = power[j + 1] - damping * r[2 + j] - w2 * r[3 + j];
+}
+
+void StepTable::build(const std::vector<Oscillator>& oscillators, double length) {
+    const Collocation& gauss = Collocation::get();
+    h = length;
+    rows.resize(oscillators.size());
+    // Scaled derivatives: derive/hʲ times the responses.
+    double inverse[kNodes];
+    inverse[0] = 1;
+    for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    for (std::size_t i = 0; i < oscillators.size(); ++i) {
+        const Oscillator& o = oscillators[i];
+        Row& row = rows[i];
+        const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+        // From point to point, each by the expansion at its start.
+        double qq = 1, qv = 0, vq = 0, vv = 1;
+        Lanes q{}, v{};
+        for (std::size_t k = 0; k <= kNodes; ++k) {
+            const double to = k < kNodes ? gauss.c[static_cast<int>(k)] : 1;
+            double r[kResponse];
+            sim::respond(o, (to - gauss.point[k]) * h, r);
+            const double a = r[0] + damping * r[1], b = r[1], c = -w2 * r[1], d = r[0];
+            Lanes q1 = a * q + b * v, v1 = c * q + d * v;
+            for (std::size_t j = 0; j < kNodes; ++j) {
+                q1 += (inverse[j] * r[2 + j]) * gauss.derive[k][j];
+                v1 += (inverse[j] * r[1 + j]) * gauss.derive[k][j];
+            }
+            q = q1;
+            v = v1;
+            const double qq1 = a * qq + b * vq, qv1 = a * qv + b * vv;
+            vq = c * qq + d * vq;
+            vv = c * qv + d * vv;
+            qq = qq1;
+            qv = qv1;
+            if (k == kNodes) break;
+            const int lane = static_cast<int>(k);
+            row.qq[lane] = qq;
+            row.qv[lane] = qv;
+            row.vq[lane] = vq;
+            row.vv[lane] = vv;
+            for (std::size_t l = 0; l < kNodes; ++l) {
+                row.q[l][lane] = q[static_cast<int>(l)];
+                row.v[l][lane] = v[static_cast<int>(l)];
+            }
+        }
+        row.end_q = q;
+        row.end_v = v;
+        row.end_qq = qq;
+        row.end_qv = qv;
+        row.end_vq = vq;
+        row.end_vv = vv;
+    }
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,34 @@
+// The exact response of q̈ + 2γq̇ + ω²q = f(t) to a forcing that is a polynomial: at one instant, and tabulated at the
+// nodes of a collocation step for a forcing given by its nodal values. MODEL.md §12.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/collocation.hpp"
+
+namespace beamcam::sim {
+
+struct Oscillator {
+    double omega = 0;  // ω [rad/s], >= 0
+    double gamma = 0;  // γ [1/s], 0 <= γ <= ω/2
+};
+
+// r[0] = ṡ, r[1] = s, r[2+j] = ∫₀^τ s(τ−u) uʲ/j! du for j = 0…7, where s is the response to a unit impulse (S52).
+inline constexpr int kResponse = 2 + kNodes;
+void respond(const Oscillator& oscillator, double tau, double* r);
+
+// What a step of length h does to the oscillators: rows for the eight nodes, and for the end.
+struct StepTable {
+    struct Row {  // of one oscillator: q ← qq q₀ + qv v₀ + Σ f_l q[l],  v ← vq q₀ + vv v₀ + Σ f_l v[l]
+        Lanes qq, qv, vq, vv;
+        std::array<Lanes, kNodes> q, v;
+        Lanes end_q, end_v;  // over l
+        double end_qq, end_qv, end_vq, end_vv;
+    };
+    double h = 0;
+    std::vector<Row> rows;
+    void build(const std::vector<Oscillator>& oscillators, double length);
+};
+
+}  // namespace beamcam::sim
