@@ -99,7 +99,7 @@ TEST(Info, ReadsFiguresOfBothVectorFormats) {
     EXPECT_EQ(shell(folder, "$BEAMCAM info a.pdf").code, 6);
 }
 
-TEST(Doctor, NamesThePackageOfWhatIsMissing) {
+TEST(GlDoctor, NamesThePackageOfWhatIsMissing) {
     const Folder folder;
     const Finished whole = shell(folder, "$BEAMCAM doctor");
     EXPECT_EQ(whole.code, 0) << whole.out;
