@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,16 @@ constexpr std::array kFiles{KnownFile{"Inter-Regular.otf", "fonts-inter"}, Known
 constexpr std::array kCjkFiles{KnownFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
                                KnownFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
 
+constexpr std::array kPrintFiles{KnownFile{"LiberationSans-Regular.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSans-Bold.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSerif-Italic.ttf", "fonts-liberation"}};
+constexpr std::array kPrintCjkFiles{KnownFile{"DroidSansFallbackFull.ttf", "fonts-droid-fallback"}};
+
 std::vector<fs::path> folders() {
     if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
     return {"/usr/share/fonts/opentype/inter", "/usr/share/fonts/opentype/stix", "/usr/share/fonts/opentype/noto",
-            "/usr/share/fonts/truetype/inter", "/usr/local/share/fonts"};
+            "/usr/share/fonts/truetype/inter", "/usr/share/fonts/truetype/liberation",
+            "/usr/share/fonts/truetype/liberation2", "/usr/share/fonts/truetype/droid", "/usr/local/share/fonts"};
 }
 
 // Empty when it is nowhere.
@@ -84,8 +91,13 @@ bool needs_cjk(std::string_view utf8) {
     return false;
 }
 
-std::vector<FontFile> font_files() {
+std::vector<FontFile> font_files(Typefaces typefaces) {
     std::vector<FontFile> files;
+    if (typefaces == Typefaces::print) {
+        for (const KnownFile& file : kPrintFiles) files.push_back({file.name, file.package, find(file)});
+        for (const KnownFile& file : kPrintCjkFiles) files.push_back({file.name, file.package, find(file)});
+        return files;
+    }
     for (const KnownFile& file : kFiles) files.push_back({file.name, file.package, find(file)});
     return files;
 }
@@ -100,14 +112,24 @@ Fonts::Handles::~Handles() {
     if (config) FcConfigDestroy(config);
 }
 
-Fonts::Fonts(bool cjk) : handles_(std::make_unique<Handles>()) {
+std::string missing_glyphs(std::string_view utf8) {
+    if (needs_cjk(utf8))
+        return fmt::format("no font of the figure can write \"{}\"; install the Debian package fonts-droid-fallback",
+                           utf8);
+    return fmt::format("no font of the figure can write \"{}\"; use other characters, or install the Debian packages "
+                       "fonts-liberation and fonts-droid-fallback",
+                       utf8);
+}
+
+Fonts::Fonts(bool cjk, Typefaces typefaces) : handles_(std::make_unique<Handles>()) {
     keep_system_settings_out();
     Handles& h = *handles_;
     h.config = FcConfigCreate();  // empty: no system file is read
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
-    for (const KnownFile& file : kFiles) add(h.config, file);
+    const bool print = typefaces == Typefaces::print;
+    for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintFiles) : kFiles) add(h.config, file);
     if (cjk)
-        for (const KnownFile& file : kCjkFiles) add(h.config, file);
+        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles) add(h.config, file);
 
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
     if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");

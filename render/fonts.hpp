@@ -17,17 +17,25 @@ namespace beamcam::render {
 // True when the text has characters that only the Chinese-Japanese-Korean face has.
 bool needs_cjk(std::string_view utf8);
 
+// Figures for print have TrueType faces instead, which every publisher takes embedded: Liberation Sans, Liberation
+// Serif for symbols, Droid Sans Fallback for Chinese.
+enum class Typefaces { screen, print };
+
+// The message of an error: what lacks which character, and the Debian package to install.
+std::string missing_glyphs(std::string_view utf8);
+
 // A file of these typefaces, and the Debian package that brings it; `path` is empty when it is not there.
 struct FontFile {
     std::string name, package;
     std::filesystem::path path;
 };
-std::vector<FontFile> font_files();
+std::vector<FontFile> font_files(Typefaces typefaces = Typefaces::screen);
 
-// One per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk).
+// One per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk), in print Droid Sans Fallback
+// (fonts-droid-fallback).
 class Fonts {
   public:
-    explicit Fonts(bool cjk = false);
+    explicit Fonts(bool cjk = false, Typefaces typefaces = Typefaces::screen);
     ~Fonts();
     Fonts(Fonts&&) noexcept;
     Fonts& operator=(Fonts&&) noexcept;

@@ -13,13 +13,6 @@ struct Planned {
 constexpr Planned kPlanned[] = {
     {"outputs.type", "apng", "write a \"video\" whose \"file\" ends in .apng"},
     {"outputs.type", "gif", "write a \"video\" whose \"file\" ends in .gif"},
-    {"outputs.type", "figure", "write a \"trajectory\" and plot it, or a \"still\""},
-    {"outputs", "figure", "remove it"},
-    {"outputs", "lang", "remove it: texts are English"},
-    {"file", ".svg", "name a .png file"},
-    {"file", ".pdf", "name a .png file"},
-    {"command", "figure", "`beamcam simulate` writes the numbers to plot"},
-    {"command", "paper", "`beamcam render` films the paper's scene"},
     {"command", "stress", "compare runs with --set solver.rtol=…"},
     {"command", "concat", "render the film in one run"},
     {"command", "cache", "nothing is cached yet"},

@@ -195,6 +195,12 @@ Json output_json(const Output& any) {
             out["at"] = instant(s.at);
             return out;
         }
+        Json operator()(const FigureOutput& f) const {
+            Json out = {{"type", "figure"},  {"file", f.file}, {"figure", f.figure},
+                        {"column", f.column}, {"dpi", f.dpi},   {"lang", f.lang == Lang::zh ? "zh" : "en"}};
+            if (f.width) out["width"] = *f.width;
+            return out;
+        }
         Json operator()(const TrajectoryOutput& t) const {
             Json out = {{"type", "trajectory"}, {"file", t.file}};
             for (const sim::Channel& channel : t.channels) out["channels"].push_back(name(channel));
@@ -272,6 +278,15 @@ std::string to_json(const Plan& plan, const Scene& scene) {
         }
         stages.push_back(std::move(stage));
     }
+    for (const Study& study : plan.studies)
+        stages.push_back({{"stage", "simulate"},
+                          {"model", name(study.problem.beam.model)},
+                          {"modes", study.problem.beam.model == sim::ModelKind::rigid ? 0 : study.problem.beam.modes},
+                          {"until", study.request.end_time},
+                          {"because", study.because},
+                          {"horizon", study.request.horizon}});
+    for (const FigureFile& f : plan.figures)
+        stages.push_back({{"stage", "figure"}, {"file", f.file}, {"output", f.output}, {"figure", f.figure}});
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];
         Json channels = Json::array();

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "output/video.hpp"
+#include "render/figure/style.hpp"
+#include "scenes/figures/recipes.hpp"
 #include "scenes/files.hpp"
 #include "scenes/film_times.hpp"
 #include "scenes/reader.hpp"
@@ -259,6 +261,63 @@ StillOutput read_still(const OutputContext& context, Fields& f) {
     return still;
 }
 
+// Reasons: narrower no label fits, wider no sheet is; below 50 dpi nothing is legible.
+constexpr double kNarrowestFigure = 0.03, kWidestFigure = 1;  // [m]
+constexpr double kCoarsest = 50, kFinest = 2400;              // [dpi]
+
+void read_figure_name(const OutputContext& context, Fields& f, std::string& out) {
+    const Node* node = f.require("figure", "\"free-fall\"");
+    if (!node) return;
+    if (node->kind != Node::Kind::string)
+        return f.fail(*node, "figure", fmt::format("{} must be a figure's name in quotes, not {}", f.path("figure"), shown(*node)));
+    const Recipe* recipe = recipe_named(node->text);
+    if (!recipe) {
+        std::vector<std::string> known;
+        for (const Recipe& r : recipes()) known.emplace_back(r.name);
+        return f.fail(*node, "figure",
+                      fmt::format("{} = {} is not a figure{}", f.path("figure"), in_quotes(node->text),
+                                  suggestion_or_list(node->text, known)));
+    }
+    out = recipe->name;
+    if (context.findings.any()) return;  // judged when the physics is known
+    if (const auto refusal = recipe->refusal(context.scene))
+        f.fail(*node, "figure", fmt::format("{} = \"{}\": {}", f.path("figure"), recipe->name, *refusal));
+}
+
+FigureOutput read_figure(const OutputContext& context, Fields& f) {
+    FigureOutput figure;
+    read_figure_name(context, f, figure.figure);
+    figure.file = figure.figure.empty() ? context.scene.name + ".pdf" : figure.figure + ".pdf";
+    read_file(f, figure.file, {".pdf", ".svg", ".png"}, false);
+    if (const Node* node = f.take("column")) {
+        const std::vector<std::string> known = render::figure::column_names();
+        if (node->kind == Node::Kind::string && render::figure::column_named(node->text))
+            figure.column = node->text;
+        else
+            f.fail(*node, "column",
+                   fmt::format("{} = {} is not known{}", f.path("column"), shown(*node),
+                               suggestion_or_list(node->kind == Node::Kind::string ? node->text : "", known)));
+    }
+    double width = 0;
+    if (const Node* node = f.take("width"); node && f.value(*node, "width", dim::kLength, width)) {
+        if (!(width >= kNarrowestFigure && width <= kWidestFigure))
+            f.fail(*node, "width",
+                   fmt::format("{} = {} is outside {:g} … {:g} mm; a plain number is in metres, \"90 mm\" says its unit",
+                               f.path("width"), shown(*node), kNarrowestFigure * 1e3, kWidestFigure * 1e3));
+        else
+            figure.width = width;
+    }
+    if (const Node* node = f.take("dpi")) {
+        if (node->kind != Node::Kind::number || !(node->number >= kCoarsest && node->number <= kFinest))
+            f.fail(*node, "dpi",
+                   fmt::format("{} = {} must be a number in {:g} … {:g}", f.path("dpi"), shown(*node), kCoarsest, kFinest));
+        else
+            figure.dpi = node->number;
+    }
+    f.choice<Lang>("lang", {{"en", Lang::en}, {"zh", Lang::zh}}, figure.lang);
+    return figure;
+}
+
 void read_channels(const OutputContext& context, Fields& f, std::vector<sim::Channel>& out) {
     const Node* node = f.take("channels");
     if (!node) return;
@@ -355,6 +414,7 @@ std::optional<Output> read_output(const OutputContext& context, const Node& node
             {{"video", [](const OutputContext& c, Fields& g) -> Output { return read_video(c, g); }},
              {"frames", [](const OutputContext& c, Fields& g) -> Output { return read_frames(c, g); }},
              {"still", [](const OutputContext& c, Fields& g) -> Output { return read_still(c, g); }},
+             {"figure", [](const OutputContext& c, Fields& g) -> Output { return read_figure(c, g); }},
              {"trajectory", [](const OutputContext& c, Fields& g) -> Output { return read_trajectory(c, g); }},
              {"impacts", [](const OutputContext& c, Fields& g) -> Output { return read_impacts(c, g); }},
              {"summary", [](const OutputContext& c, Fields& g) -> Output { return read_summary(c, g); }}},

@@ -48,11 +48,13 @@ std::vector<sim::Channel> channels_of(const Picture& picture, const FrameSpan& s
 // Collects what the outputs want of the one simulation.
 class Planner {
   public:
-    explicit Planner(const Scene& scene) : scene_(scene) {}
+    explicit Planner(const Scene& scene) : scene_(scene), studies_(scene.problem, simulation_.request) {}
 
     Plan make() {
         for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
             std::visit([&](const auto& output) { want(output, i); }, scene_.outputs[i]);
+        if (!studies_.main_because().empty()) look_until(studies_.main_until(), studies_.main_because());
+        plan_.studies = studies_.take();
         if (needed_) plan_.simulation = std::move(simulation_);
         note_skipped();
         return std::move(plan_);
@@ -133,6 +135,11 @@ class Planner {
         want_pictures(std::move(p), still.at.kind == Instant::Kind::time ? still.at.t : scene_.end_time);
     }
     double film_end(const FrameSpan& span) const { return span.to.value_or(scene_.end_time); }
+    void want(const FigureOutput& figure, std::size_t index) {
+        const Recipe* recipe = recipe_named(figure.figure);
+        if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure.figure);
+        plan_.figures.push_back({index, figure.file, figure.figure, recipe->prepare(scene_, figure.lang, studies_)});
+    }
     void want(const TrajectoryOutput& table, std::size_t index) {
         std::vector<sim::Channel> channels = table.channels.empty() ? all_channels(scene_.problem) : table.channels;
         const sim::Channel t{ChannelKind::t, 0};
@@ -159,6 +166,8 @@ class Planner {
     void note_skipped() {
         const bool compares =
             std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
+        if (!needed_ && !compares && !plan_.studies.empty())
+            return skip("simulation of the scene itself", "its figures look at variants of it");
         if (!needed_)
             return skip(compares ? "simulation of the scene itself" : "simulation",
                         compares ? "only compared motions are shown" : "no output looks at the motion");
@@ -168,7 +177,7 @@ class Planner {
         if (!scene_.problem.cam) skip("contact", "the scene has no cam");
         note_unread_channels();
         if (plan_.pictures.empty())
-            skip("pictures, fonts and OpenGL", "no output is a picture");
+            skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");
         else if (!plan_.needs_gl())
             skip("OpenGL", "every view is flat");
         if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
@@ -195,6 +204,7 @@ class Planner {
     const Scene& scene_;
     Plan plan_;
     Simulation simulation_;
+    Studies studies_;
     bool needed_ = false;
 };
 

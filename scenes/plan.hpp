@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/studies.hpp"
 #include "scenes/scene.hpp"
 #include "sim/simulate.hpp"
 
@@ -51,6 +53,11 @@ struct Pictures {
     std::size_t chart = 0;             // index into Request::tables: what the panels show
     std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
 };
+struct FigureFile {
+    std::size_t output = 0;
+    std::string file, figure;
+    FigureMaker make;  // from the results of the simulation, then of the studies
+};
 struct TableFile {
     std::size_t output = 0;
     std::string file;
@@ -73,7 +80,9 @@ struct Plan {
     std::optional<Simulation> simulation;
     // Until when a first run has to find impacts, because pictures that are not settled look at them.
     std::optional<double> impacts_until;
+    std::vector<Study> studies;  // other physics than the scene's that figures compare it with
     std::vector<Pictures> pictures;
+    std::vector<FigureFile> figures;
     std::vector<TableFile> tables;
     std::vector<ImpactsFile> impacts;
     std::vector<SummaryFile> summaries;

@@ -102,6 +102,9 @@ std::string to_text(const Plan& plan, const Scene& scene) {
                                          motion.request.end_time, motion.label, p.file));
         line(kind_name(p.kind), picture_words(p, plan.times(p)));
     }
+    for (const Study& study : plan.studies)
+        line("simulate", simulation_words({study.request, study.because}, study.problem));
+    for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}", f.file, f.figure));
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];
         line("table", fmt::format("{}: {} rows of {} channels", t.file, table.times.size(), table.channels.size()));

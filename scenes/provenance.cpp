@@ -193,6 +193,10 @@ std::vector<Check> examine_machine() {
                           fmt::format("install the Debian package {}", font.package)});
     examine(checks, "pictures", "OpenGL", "install the Debian package libosmesa6; flat views need none",
             [] { return render::make_lit_renderer(16, 16)->name(); });
+    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
+        checks.push_back({"figures", "font " + font.name, !font.path.empty(),
+                          font.path.empty() ? "not found" : font.path.string(),
+                          fmt::format("install the Debian package {}", font.package)});
     examine_films(checks);
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
     examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return lit_fingerprint().id(); });

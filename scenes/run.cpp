@@ -23,6 +23,7 @@
 #include "output/video.hpp"
 #include "render/film.hpp"
 #include "scenes/fan_out.hpp"
+#include "scenes/figures/make.hpp"
 #include "scenes/files.hpp"
 #include "scenes/version.hpp"
 
@@ -81,6 +82,7 @@ class Runner {
         simulate();
         write_tables();
         write_records();
+        write_figures();
         for (const Pictures& p : plan_.pictures) draw(p);
         manifest_.save();
         if (options_.verbose) tell_times();
@@ -115,6 +117,8 @@ class Runner {
                 for (std::size_t k = 0; k < frames_of(p); ++k)
                     add(numbered_file(p.file, p.first_frame + static_cast<long>(k)));
         }
+        for (const FigureFile& f : plan_.figures)
+            for (const std::string& file : files_of(figure_output(f))) add(file);
         for (const TableFile& t : plan_.tables) add(t.file);
         for (const ImpactsFile& i : plan_.impacts) add(i.file);
         for (const SummaryFile& s : plan_.summaries) add(s.file);
@@ -249,6 +253,31 @@ class Runner {
         times_.simulate = seconds_since(start);
         if (!options_.quiet)
             for (const std::string& warning : result_.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
+
+    const FigureOutput& figure_output(const FigureFile& f) const {
+        return std::get<FigureOutput>(scene_.outputs[f.output]);
+    }
+
+    // Variants of the scene are integrated side by side; each figure then reads what it asked for.
+    void write_figures() {
+        if (plan_.figures.empty()) return;
+        const auto start = Clock::now();
+        const std::vector<sim::Result> others =
+            simulate_studies(plan_.studies, thread_count(), progress_, options_.quiet);
+        times_.simulate += seconds_since(start);
+        Results results{&result_};
+        for (const sim::Result& other : others) results.push_back(&other);
+        for (const FigureFile& f : plan_.figures) {
+            stop_if_interrupted();
+            const auto begun = Clock::now();
+            const FigureOutput& how = figure_output(f);
+            for (const auto& [file, bytes] : figure_files(f.make(results), how, scene_of_figure(scene_, how))) {
+                output::write_file(path_of(file), bytes);
+                wrote(path_of(file), file == how.file ? f.figure : "");
+            }
+            times_.write += seconds_since(begun);
+        }
     }
 
     // What a failed run reached is worth looking at, under a name that no script takes for the result.

@@ -13,6 +13,7 @@ const char* type_name(const Output& output) {
         const char* operator()(const VideoOutput&) const { return "video"; }
         const char* operator()(const FramesOutput&) const { return "frames"; }
         const char* operator()(const StillOutput&) const { return "still"; }
+        const char* operator()(const FigureOutput&) const { return "figure"; }
         const char* operator()(const TrajectoryOutput&) const { return "trajectory"; }
         const char* operator()(const ImpactsOutput&) const { return "impacts"; }
         const char* operator()(const SummaryOutput&) const { return "summary"; }

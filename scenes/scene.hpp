@@ -125,7 +125,18 @@ struct SummaryOutput {
     std::string file;  // .json
     bool horizon = false;
 };
-using Output = std::variant<VideoOutput, FramesOutput, StillOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
+enum class Lang { en, zh };
+struct FigureOutput {
+    std::string file;                 // .pdf, .svg or .png
+    std::string figure;               // its name, see figures/recipes.hpp
+    std::string column = "elsevier";  // a journal's, see render/figure/style.hpp
+    std::optional<double> width;      // [m]; absent: the column's
+    Lang lang = Lang::en;
+    double dpi = 300;                      // of .png
+    std::string data_file, caption_file;  // beside it; only the command line asks for them
+};
+using Output = std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput,
+                            SummaryOutput>;
 
 const std::string& file_of(const Output& output);
 const char* type_name(const Output& output);  // "video", "frames", …

@@ -53,11 +53,26 @@ void add_test(Grammar& grammar);
 void add_info(Grammar& grammar);
 void add_doctor(Grammar& grammar);
 void add_accuracy(Grammar& grammar);
+void add_figure(Grammar& grammar);
+void add_paper(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
     add_run,    add_render, add_simulate, add_modes, add_check, add_plan,   add_init,
     add_schema, add_hash,   add_diff,     add_test,  add_info,  add_doctor, add_accuracy,
+    add_run,
+    add_render,
+    add_simulate,
+    add_modes,
+    add_check,
+    add_plan,
+    add_init,
+    add_schema,
+    add_hash,
+    add_diff,
+    add_accuracy,
+    add_figure,
+    add_paper,
 };
 
 // ---- options that several commands share --------------------------------------------------------

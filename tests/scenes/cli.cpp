@@ -21,7 +21,7 @@ using ::testing::StartsWith;
 TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;
     EXPECT_THAT(shell(folder, "$BEAMCAM --version").out, StartsWith("beamcam "));
-    for (const char* command : {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema"}) {
+    for (const char* command : {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "figure", "paper"}) {
         const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
         EXPECT_EQ(help.code, 0);
         EXPECT_THAT(help.out, HasSubstr("Usage"));
@@ -57,13 +57,20 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "simulate s.json --summary a.json --impacts a.json",
                                   "run s.json --progress loud",
                                   "modes s.json --speed 5mm",
-                                  "figure s.json"}) {
+                                  "figure s.json -o a.pdf",
+                                  "figure s.json schematic",
+                                  "figure s.json shematic -o a.pdf",
+                                  "figure s.json schematic -o a.eps",
+                                  "figure s.json schematic -o a.pdf --column brill",
+                                  "figure s.json schematic -o a.pdf --width 3",
+                                  "figure s.json schematic -o a.pdf --data a.txt",
+                                  "paper"}) {
         const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
         EXPECT_EQ(finished.code, 2) << arguments << "\n" << finished.err;
         EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << arguments;
         EXPECT_THAT(finished.out, IsEmpty()) << arguments;
     }
-    EXPECT_THAT(shell(folder, "$BEAMCAM figure s.json").err, HasSubstr("not available in this version"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json").err, HasSubstr("not available in this version"));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }

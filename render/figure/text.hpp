@@ -1,0 +1,34 @@
+// Labels as data: a small markup that is drawn, written as LaTeX and written plainly from one source.
+//
+//   $θ$ / rad          letters between dollars are italic symbols, digits and signs stay upright
+//   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
+//   $\dot{θ}$          a dot above, \ddot two
+//   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ stand for themselves.
+//
+// Unbalanced markup throws std::invalid_argument: labels are written by programmers. `plain_text` makes any user's
+// text safe.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beamcam::render::figure {
+
+struct Run {
+    std::string text;
+    bool symbol = false;  // italic
+    bool bold = false;
+    int script = 0;  // −1 below, +1 above
+    int dots = 0;    // above the run
+    bool operator==(const Run&) const = default;
+};
+
+std::vector<Run> parse_markup(std::string_view markup);
+std::string to_latex(std::string_view markup);
+std::string to_plain(std::string_view markup);
+
+// Any text as markup of itself.
+std::string plain_text(std::string_view text);
+
+}  // namespace beamcam::render::figure

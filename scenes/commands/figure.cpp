@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "render/figure/style.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/plan.hpp"
+#include "scenes/run.hpp"
+#include "scenes/source.hpp"
+#include "scenes/suggest.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::string scene, figure, file, column = "elsevier", lang = "en";
+    std::optional<std::string> width, data, caption;
+    double dpi = 300;
+};
+
+// Names that the scene has, and why it has not the others.
+std::string list(const Scene& scene, Lang lang) {
+    std::string text;
+    for (const Recipe& recipe : recipes()) {
+        const auto refusal = recipe.refusal(scene);
+        text += fmt::format("{:<15} {}{}\n", recipe.name, recipe.title.in(lang),
+                            refusal ? fmt::format(" (not of this scene: {})", *refusal) : "");
+    }
+    return text;
+}
+
+FigureOutput wanted(const Arguments& args, const Recipe& recipe) {
+    if (args.file == "-") throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg or .png");
+    need_ending("-o", args.file, {".pdf", ".svg", ".png"});
+    FigureOutput figure;
+    figure.file = args.file;
+    figure.figure = recipe.name;
+    figure.column = args.column;
+    figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+    figure.dpi = args.dpi;
+    if (args.width) {
+        figure.width = quantity_argument("--width", *args.width, dimension::kLength);
+        if (!(*figure.width >= 0.03 && *figure.width <= 1))
+            throw UsageError(fmt::format("--width {}: a figure is 30 … 1000 mm wide; a plain number is in metres, "
+                                         "\"90 mm\" says its unit",
+                                         *args.width));
+    }
+    if (args.data) {
+        if (*args.data == "-") throw UsageError("--data -: name a file that ends in .csv");
+        need_ending("--data", *args.data, {".csv"});
+        figure.data_file = *args.data;
+    }
+    if (args.caption) {
+        if (*args.caption == "-") throw UsageError("--caption -: name a file that ends in .txt, .md or .tex");
+        need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
+        figure.caption_file = *args.caption;
+    }
+    return figure;
+}
+
+int act(const Arguments& args) {
+    Scene scene = read_or_refuse(args.scene, args.common);
+    if (args.figure.empty()) {
+        if (!args.file.empty())
+            throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
+        print_data(list(scene, args.lang == "zh" ? Lang::zh : Lang::en));
+        return 0;
+    }
+    const Recipe* recipe = recipe_named(args.figure);
+    if (!recipe) {
+        std::vector<std::string> known;
+        for (const Recipe& r : recipes()) known.emplace_back(r.name);
+        throw UsageError(
+            fmt::format("there is no figure {}{}", in_quotes(args.figure), suggestion_or_list(args.figure, known)));
+    }
+    if (args.file.empty())
+        throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
+    if (const auto refusal = recipe->refusal(scene))
+        throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
+    scene.outputs = {wanted(args, *recipe)};
+    if (args.common.dry_run)
+        show_plan(scene, args.common.json);
+    else
+        run(plan(scene), scene, run_options(args.common, ""));
+    return 0;
+}
+
+}  // namespace
+
+void add_figure(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
+    add_scene(*app, args->scene, args->common);
+    app->add_option("NAME", args->figure, "Which figure; none: list those of the scene")->type_name("");
+    app->add_option("-o,--output", args->file, "File to make: .pdf, .svg or .png")->type_name("FILE");
+    app->add_option("--column", args->column, "Width and letters of a journal's column")
+        ->check(CLI::IsMember(render::figure::column_names()))
+        ->type_name("COLUMN");
+    app->add_option("--width", args->width, "Another width than the column's, for example 120mm")->type_name("W");
+    app->add_option("--lang", args->lang, "Language of labels and caption: en or zh")
+        ->check(CLI::IsMember({"en", "zh"}))
+        ->type_name("LANG");
+    app->add_option("--dpi", args->dpi, "Dots per inch of a .png")->check(CLI::Range(50, 2400))->type_name("N");
+    app->add_option("--data", args->data, "Write the plotted numbers too, .csv")->type_name("FILE");
+    app->add_option("--caption", args->caption, "Write the caption too, plain and LaTeX, .txt or .tex")->type_name("FILE");
+    add_work(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

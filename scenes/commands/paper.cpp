@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "output/atomic_file.hpp"
+#include "output/errors.hpp"
+#include "output/interrupt.hpp"
+#include "output/manifest.hpp"
+#include "render/figure/style.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/embedded.hpp"
+#include "scenes/figures/findings.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/reader.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    Common common;
+    std::string directory, column, lang = "en";
+    double dpi = 300;
+    bool data = false;
+};
+
+struct Job {
+    Scene scene;
+    FigureOutput how;
+    FigureMaker make;
+};
+
+constexpr const char* kEndings[] = {".png", ".svg", ".pdf"};
+
+std::string with_ending(const std::string& file, const char* ending) {
+    return fs::path(file).replace_extension(ending).string();
+}
+
+// Every figure of the scenes that come with the program; one set of studies for all of them.
+std::vector<Job> jobs_of(const Arguments& args, Studies& studies) {
+    std::vector<Job> jobs;
+    for (const EmbeddedScene& embedded : paper_scenes()) {
+        Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true}, args.common.overrides);
+        if (!reading.scene) throw SceneError(reading.report());
+        for (const Output& output : reading.scene->outputs) {
+            const auto* figure = std::get_if<FigureOutput>(&output);
+            if (!figure) continue;
+            FigureOutput how = *figure;
+            how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+            if (!args.column.empty()) how.column = args.column;
+            how.dpi = args.dpi;
+            Scene alone = *reading.scene;
+            alone.outputs = {output};
+            const Recipe* recipe = recipe_named(how.figure);
+            jobs.push_back({alone, how, recipe->prepare(*reading.scene, how.lang, studies)});
+        }
+    }
+    std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.how.file < b.how.file; });
+    return jobs;
+}
+
+std::vector<std::string> files_of(const Arguments& args, const std::vector<Job>& jobs) {
+    std::vector<std::string> files{"findings.md", "captions.md"};
+    for (const Job& job : jobs) {
+        for (const char* ending : kEndings) files.push_back(with_ending(job.how.file, ending));
+        if (args.data) files.push_back(with_ending(job.how.file, ".csv"));
+    }
+    return files;
+}
+
+class Writer {
+  public:
+    Writer(const Arguments& args) : args_(args), manifest_(args.common.force) {}
+
+    // Refuses before any work what would be refused after it.
+    void prepare(const std::vector<std::string>& files) {
+        output::ensure_directory(args_.directory);
+        for (const std::string& file : files) {
+            const fs::path path = fs::path(args_.directory) / file;
+            std::error_code ignored;
+            if (fs::is_directory(path, ignored))
+                throw output::IoError(fmt::format("{} is a directory; choose another -o", path.string()));
+            manifest_.require_replaceable(path);
+        }
+    }
+    void write(const std::string& file, const std::string& bytes) {
+        if (output::interrupted()) throw Stopped();
+        const fs::path path = fs::path(args_.directory) / file;
+        output::write_file(path, bytes);
+        manifest_.record(path);
+        ++count_;
+    }
+    void finish() {
+        manifest_.save();
+        say(args_.common, fmt::format("wrote {} files to {}", count_, args_.directory));
+    }
+
+  private:
+    const Arguments& args_;
+    output::Manifest manifest_;
+    int count_ = 0;
+};
+
+int act(const Arguments& args) {
+    const RunOptions options = run_options(args.common, args.directory);
+    Studies studies;
+    const std::vector<Job> jobs = jobs_of(args, studies);
+    const auto findings = prepare_findings(studies);
+    const std::vector<Study> all = studies.take();
+    if (args.common.dry_run) {
+        for (const Study& s : all)
+            fmt::print("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model), s.request.end_time, s.because,
+                       s.request.horizon ? ", and again for its reproducible horizon" : "");
+        for (const std::string& file : files_of(args, jobs)) fmt::print("write     {}\n", file);
+        return 0;
+    }
+    Writer writer(args);
+    writer.prepare(files_of(args, jobs));
+    const int threads =
+        options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    Progress progress(resolve(options.progress));
+    const std::vector<sim::Result> made = simulate_studies(all, threads, progress, args.common.quiet);
+    Results results;
+    for (const sim::Result& result : made) results.push_back(&result);
+
+    std::string captions;
+    for (const Job& job : jobs) {
+        const render::figure::Figure figure = job.make(results);
+        for (const char* ending : kEndings) {
+            FigureOutput how = job.how;
+            how.file = with_ending(job.how.file, ending);
+            for (const auto& [file, bytes] : figure_files(figure, how, scene_of_figure(job.scene, how))) writer.write(file, bytes);
+        }
+        if (args.data) writer.write(with_ending(job.how.file, ".csv"), render::figure::data_csv(figure));
+        captions += fmt::format("## {}\n\n{}\n", fs::path(job.how.file).stem().string(), caption_text(figure, "captions.md"));
+    }
+    writer.write("captions.md", captions);
+    writer.write("findings.md", findings_markdown(findings(results)));
+    writer.finish();
+    return 0;
+}
+
+}  // namespace
+
+void add_paper(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand(
+        "paper", "Make every figure of the paper as .png, .svg and .pdf, their captions, and the table of findings");
+    app->add_option("-o,--output", args->directory, "Directory of the files")->required()->type_name("DIR");
+    app->add_option("--column", args->column, "Width and letters of a journal's column")
+        ->check(CLI::IsMember(render::figure::column_names()))
+        ->type_name("COLUMN");
+    app->add_option("--lang", args->lang, "Language of labels and captions: en or zh")
+        ->check(CLI::IsMember({"en", "zh"}))
+        ->type_name("LANG");
+    app->add_option("--dpi", args->dpi, "Dots per inch of the .png files")->check(CLI::Range(50, 2400))->type_name("N");
+    app->add_flag("--data", args->data, "Write the plotted numbers too, as .csv");
+    add_set(*app, args->common);
+    add_quiet(*app, args->common);
+    add_work(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,270 @@
+// Contact from near: one collision with its sub-impacts, the energy ledger, and where on beam and cam contact happens.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/figures/recipes.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Axis;
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Scale;
+using render::figure::Series;
+using sim::ChannelKind;
+
+constexpr int kFine = 40001;     // rows over the scene: impacts last a thousandth of it
+constexpr int kCurve = 8001;
+
+// The collision with most impacts among the first few: the close-up shows sub-impacts where there are some.
+const sim::Collision* chosen(const sim::Result& result) {
+    return result.collisions.empty() ? nullptr : &result.collisions.front();
+}
+
+FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
+    const double end = scene.end_time;
+    const std::size_t study = studies.of(scene.problem, end, "collision");
+    const std::size_t table =
+        studies.table(study, {0, end, kFine}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::gap});
+    return [=, problem = scene.problem](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[study];
+        const sim::Collision* c = chosen(result);
+        if (!c)
+            throw render::PictureError(
+                fmt::format("figure collision: nothing strikes the cam before {:g} s; raise time.end", end));
+        const double last = c->t_end.value_or(end), length = std::max(last - c->t_start, 1e-6);
+        const double from = std::max(0.0, c->t_start - 0.08 * length), to = std::min(end, last + 0.08 * length);
+        const sim::Table& t = result.tables[table];
+        Series force, depth;
+        force.label = en ? "force" : "接触力";
+        depth.label = en ? "penetration" : "侵入量";
+        const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
+                   &gap = column(t, ChannelKind::gap);
+        for (std::size_t i = 0; i < time.size(); ++i) {
+            if (time[i] < from || time[i] > to) continue;
+            force.x.push_back((time[i] - c->t_start) * 1e3);
+            force.y.push_back(n[i]);
+            depth.x.push_back((time[i] - c->t_start) * 1e3);
+            depth.y.push_back(-gap[i] * 1e6);
+        }
+        Figure figure;
+        figure.name = "collision";
+        figure.title = en ? "One collision in close-up" : "一次碰撞的细部";
+        Panel panel;
+        panel.legend = Legend::box;
+        panel.x.label = en ? "($t$ − $t_{1}$) / ms" : "($t$ − $t_{1}$) / ms";
+        panel.y.label = "$F$ / N";
+        panel.right = Axis{.label = "$δ$ / µm"};
+        depth.right = true;
+        depth.look = 1;
+        // Separated, the gap soon exceeds any penetration; the axis is the penetration's.
+        double deepest = 0;
+        for (const double v : depth.y)
+            if (std::isfinite(v)) deepest = std::max(deepest, v);
+        double strongest = 0;
+        for (const double v : force.y)
+            if (std::isfinite(v)) strongest = std::max(strongest, v);
+        if (deepest > 0) panel.right->from = -0.25 * deepest, panel.right->to = 1.1 * deepest;
+        if (strongest > 0) panel.y.from = -0.25 * strongest, panel.y.to = 1.1 * strongest;
+        panel.rules.push_back({.at = 0});
+        int count = 0;
+        for (const sim::Impact& hit : result.impacts) {
+            if (hit.collision != 0) continue;
+            ++count;
+            panel.spans.push_back({.from = (hit.t_start - c->t_start) * 1e3,
+                                   .to = (hit.t_end.value_or(end) - c->t_start) * 1e3,
+                                   .label = (en ? "impact " : "冲击 ") + std::to_string(count)});
+        }
+        panel.series = {force, depth};
+        figure.panels.push_back(std::move(panel));
+        figure.aspect = 0.62;
+        figure.caption = filled(
+            en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is negative "
+                 "where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision has {} impact{} "
+                 "(shaded); peak force {} N, energy lost {} J. "
+               : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s 起。该碰撞包含 {} 次{}"
+                 "冲击（阴影）；峰值力 {} N，能量损失 {} J。",
+            grouped(c->t_start, 6), c->count, en && c->count != 1 ? "s" : "", c->force_peak ? number(*c->force_peak, 4) : std::string("–"),
+            number(c->energy_lost, 3));
+        figure.caption += stated(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
+    const double end = scene.end_time;
+    const std::size_t study = studies.of(scene.problem, end, "energy");
+    const std::size_t table = studies.table(
+        study, {0, end, kCurve},
+        {ChannelKind::t, ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
+         ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact, ChannelKind::loss_friction,
+         ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});
+    return [=, problem = scene.problem](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[study];
+        const sim::Table& t = result.tables[table];
+        const std::vector<double>& time = column(t, ChannelKind::t);
+        Figure figure;
+        figure.name = "energy";
+        figure.title = en ? "Energy ledger" : "能量账目";
+        Panel ledger, closure;
+        ledger.letter = "a";
+        closure.letter = "b";
+        ledger.x.label = closure.x.label = "$t$ / s";
+        for (Panel* panel : {&ledger, &closure}) panel->x.from = 0, panel->x.to = end;
+        ledger.y.label = "$E$ / J";
+        closure.y.label = "|$ΔE$| / J";
+        closure.y.scale = Scale::logarithmic;
+        ledger.legend = Legend::box;
+        closure.legend = Legend::none;
+        ledger.share = 2.2;
+        int look = 0;
+        const auto sum = [&](std::initializer_list<ChannelKind> kinds) {
+            std::vector<double> total(time.size(), 0);
+            for (const ChannelKind kind : kinds) {
+                const std::vector<double>& v = column(t, kind);
+                // Without a cam the contact's channels are empty; they add nothing.
+                for (std::size_t i = 0; i < v.size(); ++i) total[i] += std::isfinite(v[i]) ? v[i] : 0;
+            }
+            return total;
+        };
+        const auto add = [&](Words words, std::vector<double> values, bool always) {
+            const bool zero = std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
+            if (zero && !always) return;
+            Series s;
+            s.label = words.in(lang);
+            s.look = look++;
+            s.x = time;
+            s.y = std::move(values);
+            s.weight = 0.75;
+            ledger.series.push_back(std::move(s));
+        };
+        using Kind = ChannelKind;
+        add({"kinetic", "动能"}, sum({Kind::energy_kinetic}), true);
+        add({"potential", "重力势能"}, sum({Kind::energy_potential}), true);
+        add({"bending and contact", "弯曲与接触能"}, sum({Kind::energy_elastic, Kind::energy_contact}), false);
+        add({"lost", "损失"}, sum({Kind::loss_structural, Kind::loss_contact, Kind::loss_friction}), false);
+        add({"work done on it", "外功"}, sum({Kind::work_cam, Kind::work_drive}), false);
+        std::vector<double> total = sum({Kind::energy_kinetic, Kind::energy_potential, Kind::energy_elastic, Kind::energy_contact, Kind::loss_structural,
+                                         Kind::loss_contact, Kind::loss_friction});
+        const std::vector<double> work = sum({Kind::work_cam, Kind::work_drive});
+        for (std::size_t i = 0; i < total.size(); ++i) total[i] -= work[i];
+        Series s;
+        s.label = en ? "sum − work" : "总和 − 外功";
+        s.look = 6;
+        s.solid = true;
+        s.x = time;
+        s.y = std::move(total);
+        ledger.series.push_back(std::move(s));
+        Series residual;
+        residual.x = time;
+        residual.weight = 0.75;
+        for (const double v : column(t, Kind::energy_residual)) residual.y.push_back(std::abs(v) > 0 ? std::abs(v) : std::nan(""));
+        const bool exact = std::none_of(residual.y.begin(), residual.y.end(), [](double v) { return std::isfinite(v); });
+        figure.panels = {ledger};
+        if (!exact) {
+            closure.series = {residual};
+            figure.panels.push_back(closure);
+        }
+        figure.stack = true;
+        figure.share_x = true;
+        figure.aspect = 1.05;
+        figure.caption =
+            en ? "Energy ledger: (a) kinetic, potential and stored energy, what structure, contact and friction lost, and the "
+                 "work of cam and drive; their balance is the black line. (b) Magnitude of the change of that balance, "
+                 "which the exact solution keeps at zero. "
+               : "能量账目：(a) 动能、势能、储能，结构、接触与摩擦的损失，以及凸轮与驱动的功；黑线为其平衡。(b) 该平衡变化量的绝对值，精确解中恒为零。";
+        figure.caption += stated(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
+    const double end = scene.end_time;
+    const std::size_t study = studies.of(scene.problem, end, "contact-places");
+    const std::size_t table = studies.table(
+        study, {0, end, kFine}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
+    return [=, problem = scene.problem](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[study];
+        const sim::Table& t = result.tables[table];
+        const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
+                   &x = column(t, ChannelKind::contact_x), &s = column(t, ChannelKind::contact_s);
+        Figure figure;
+        figure.name = "contact-places";
+        figure.title = en ? "Contact point on beam and cam" : "梁与凸轮上的接触点";
+        Series on_beam, on_cam;
+        on_beam.line = on_cam.line = false;
+        on_beam.every_point = on_cam.every_point = true;
+        double strongest = 0;
+        for (std::size_t i = 0; i < time.size(); ++i) {
+            if (!(n[i] > 0) || !std::isfinite(x[i] + s[i])) continue;
+            on_beam.x.push_back(time[i]);
+            on_cam.x.push_back(time[i]);
+            on_beam.y.push_back(x[i] * 1e3);
+            on_cam.y.push_back(s[i] / problem.cam->radius * 180 / M_PI);
+            on_beam.value.push_back(n[i]);
+            strongest = std::max(strongest, n[i]);
+        }
+        if (on_beam.x.empty())
+            throw render::PictureError(
+                fmt::format("figure contact-places: the beam does not touch the cam before {:g} s; raise time.end", end));
+        on_cam.value = on_beam.value;
+        // Strong contacts are drawn last, on top.
+        for (Series* series : {&on_beam, &on_cam}) {
+            std::vector<std::size_t> order(series->x.size());
+            for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::size_t a, std::size_t b) { return series->value[a] < series->value[b]; });
+            Series sorted = *series;
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                sorted.x[i] = series->x[order[i]];
+                sorted.y[i] = series->y[order[i]];
+                sorted.value[i] = series->value[order[i]];
+            }
+            *series = std::move(sorted);
+        }
+        Panel beam, cam;
+        beam.letter = "a";
+        cam.letter = "b";
+        beam.title = en ? "on the beam" : "梁上";
+        cam.title = en ? "on the cam" : "凸轮上";
+        beam.x.label = cam.x.label = "$t$ / s";
+        beam.y.label = "$x_{\\r{c}}$ / mm";
+        cam.y.label = en ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$/$R$ / °";
+        for (Panel* panel : {&beam, &cam}) {
+            panel->x.from = 0;
+            panel->x.to = end;
+            panel->legend = Legend::none;
+            panel->color_bar = render::figure::ColorBar{.label = "$F$ / N", .from = 0, .to = strongest};
+        }
+        beam.series = {on_beam};
+        cam.series = {on_cam};
+        figure.panels = {beam, cam};
+        figure.stack = true;
+        figure.share_x = true;
+        figure.aspect = 1.1;
+        figure.caption =
+            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from the mark of "
+                 "the disc (the ray from $C$ to $B$), coloured by the normal force. "
+               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ 起的角度）的位置，颜色表示法向力。";
+        figure.caption += stated(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+}  // namespace
+
+const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_cam, prepare_collision};
+const Recipe kEnergy{"energy", {"Energy ledger", "能量账目"}, no_refusal, prepare_energy};
+const Recipe kContactPlaces{"contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,130 @@
+#include "scenes/figures/make.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+
+#include "output/interrupt.hpp"
+#include "output/png.hpp"
+#include "render/error.hpp"
+#include "render/figure/text.hpp"
+#include "scenes/fan_out.hpp"
+#include "scenes/version.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace figure = render::figure;
+
+std::string ending(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+
+// https://reproducible-builds.org/specs/source-date-epoch
+std::int64_t creation_instant() {
+    const char* text = std::getenv("SOURCE_DATE_EPOCH");
+    const std::string_view given = text ? text : "";
+    std::int64_t instant = 0;
+    const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), instant);
+    constexpr std::int64_t kLatest = 253402300799;  // the end of the year 9999
+    const bool fine = error == std::errc{} && end == given.data() + given.size() && instant >= 0 && instant <= kLatest;
+    return fine ? instant : 0;
+}
+
+std::string whole_caption(const figure::Figure& f) {
+    return f.caption + (f.caption.ends_with("。") || f.caption.empty() ? "" : " ") + f.accuracy;
+}
+
+figure::Document document_of(const figure::Figure& f, const std::string& scene) {
+    figure::Document d;
+    d.title = f.title;
+    d.subject = figure::to_plain(whole_caption(f));
+    d.scene = scene;
+    d.creator = fmt::format("beamcam {}", kVersion);
+    d.created = creation_instant();
+    return d;
+}
+
+std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
+    const figure::Column* column = figure::column_named(how.column);
+    if (!column) throw render::PictureError(fmt::format("figure {}: there is no column \"{}\"", f.name, how.column));
+    const figure::Page page =
+        figure::page_of(f, *column, how.width ? std::optional(*how.width * 1e3) : std::nullopt);
+    const figure::Document document = document_of(f, scene);
+    const std::string kind = ending(how.file);
+    const figure::Medium medium = kind == ".pdf"   ? figure::Medium::pdf
+                                  : kind == ".svg" ? figure::Medium::svg
+                                                   : figure::Medium::png;
+    const render::Fonts fonts(figure::needs_chinese(f), render::Typefaces::print);
+    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.dpi}, fonts, document);
+    figure::draw(f, page, sheet);
+    if (medium != figure::Medium::png) return sheet.bytes();
+    return output::encode_png(sheet.image(), {how.dpi,
+                                              {{"Title", document.title},
+                                               {"Description", document.subject},
+                                               {"Software", document.creator},
+                                               {"beamcam-scene", scene},
+                                               {"beamcam-accuracy", figure::to_plain(f.accuracy)}}});
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const FigureOutput& how) {
+    std::vector<std::string> files{how.file};
+    if (!how.data_file.empty()) files.push_back(how.data_file);
+    if (!how.caption_file.empty()) files.push_back(how.caption_file);
+    return files;
+}
+
+std::string scene_of_figure(Scene scene, FigureOutput how) {
+    how.file = how.figure + ending(how.file);
+    scene.outputs = {how};
+    return to_json(scene);
+}
+
+std::string caption_text(const figure::Figure& f, const std::string& file) {
+    const std::string caption = whole_caption(f);
+    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", figure::to_latex(caption), f.name);
+    const std::string plain = figure::to_plain(caption) + "\n";
+    if (ending(file) == ".tex") return "% " + plain + latex;
+    return plain + "\n" + latex;
+}
+
+std::vector<std::pair<std::string, std::string>> figure_files(const figure::Figure& f, const FigureOutput& how,
+                                                              const std::string& scene) {
+    std::vector<std::pair<std::string, std::string>> files{{how.file, bytes_of(f, how, scene)}};
+    if (!how.data_file.empty()) files.emplace_back(how.data_file, figure::data_csv(f));
+    if (!how.caption_file.empty()) files.emplace_back(how.caption_file, caption_text(f, how.caption_file));
+    return files;
+}
+
+std::vector<sim::Result> simulate_studies(const std::vector<Study>& studies, int threads, Progress& progress, bool quiet) {
+    std::vector<sim::Result> results(studies.size());
+    if (studies.empty()) return results;
+    double total = 0;
+    for (const Study& study : studies) total += study.request.end_time;
+    progress.begin("simulate", total, "s");
+    std::mutex mutex;
+    std::vector<double> reached(studies.size(), 0);
+    Gate gate;
+    const auto one = [&](long k) {
+        const auto i = static_cast<std::size_t>(k);
+        results[i] = sim::simulate(studies[i].problem, studies[i].request, [&](double t) {
+            const std::lock_guard lock(mutex);
+            reached[i] = t;
+            double sum = 0;
+            for (const double r : reached) sum += r;
+            progress.reach(sum);
+            return !output::interrupted();
+        });
+    };
+    fan_out(static_cast<long>(studies.size()), threads, [&]() -> Worker { return one; }, gate);
+    progress.end();
+    for (std::size_t i = 0; !quiet && i < studies.size(); ++i)
+        for (const std::string& warning : results[i].warnings)
+            fmt::print(stderr, "warning: {}: {}\n", studies[i].because, warning);
+    return results;
+}
+
+}  // namespace beamcam::scenes

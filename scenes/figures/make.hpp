@@ -1,0 +1,32 @@
+// From a figure and the way it is wanted to the bytes of its files; and the simulations of studies, side by side.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/figure/figure.hpp"
+#include "scenes/figures/studies.hpp"
+#include "scenes/progress.hpp"
+#include "scenes/scene.hpp"
+
+namespace beamcam::scenes {
+
+// The names that a figure's output writes: the figure, then data and caption where asked for.
+std::vector<std::string> files_of(const FigureOutput& how);
+
+// Names and bytes of these files. `scene` is the resolved scene as JSON, which the figure carries. PDF and SVG hold the
+// instant of SOURCE_DATE_EPOCH, 1970 without it, so that the same figure has the same bytes.
+std::vector<std::pair<std::string, std::string>> figure_files(const render::figure::Figure& figure,
+                                                              const FigureOutput& how, const std::string& scene);
+
+// The scene as a figure carries it: its physics and this one figure, whatever its file is called.
+std::string scene_of_figure(Scene scene, FigureOutput how);
+
+// The caption with its accuracy statement: plain text, then LaTeX; `.tex`: LaTeX, the plain text as its comment.
+std::string caption_text(const render::figure::Figure& figure, const std::string& file);
+
+// One result a study, in their order, on several threads. Throws what sim::simulate throws.
+std::vector<sim::Result> simulate_studies(const std::vector<Study>& studies, int threads, Progress& progress, bool quiet);
+
+}  // namespace beamcam::scenes

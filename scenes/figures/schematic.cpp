@@ -1,0 +1,225 @@
+// The system with its symbols, to the scene's own scale. Integrates nothing.
+#include <cmath>
+#include <numbers>
+
+#include "scenes/figures/recipes.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Across;
+using render::figure::Figure;
+using render::figure::Panel;
+using render::figure::Shape;
+using render::figure::Up;
+using sim::Vec2;
+
+using Kind = Shape::Kind;
+
+constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2), kRed = render::rgb(0xD55E00),
+                        kGrey = render::rgb(0x777777), kSteel = render::rgb(0xE6E8EC);
+
+class Drawing {
+  public:
+    explicit Drawing(const sim::Problem& problem) : p_(problem) {
+        size_ = p_.beam.length + p_.hub.radius;
+        unit_ = size_;
+        theta_ = std::clamp(p_.initial.angle, -1.4, 1.4);
+        if (std::abs(theta_) < 0.15) theta_ = 0.15;
+    }
+
+    std::vector<Shape> shapes() {
+        if (p_.cam) cam();
+        frames();
+        beam();
+        hub();
+        angle();
+        gravity();
+        return std::move(out_);
+    }
+
+  private:
+    Shape& add(Shape shape) {
+        out_.push_back(std::move(shape));
+        return out_.back();
+    }
+    void line(Vec2 a, Vec2 b, render::Color color, double width = 0, std::vector<double> dash = {}) {
+        add({.kind = Kind::line, .points = {a, b}, .color = color, .width = width, .dash = std::move(dash)});
+    }
+    void arrow(Vec2 a, Vec2 b, render::Color color = kInk, double width = 0) {
+        add({.kind = Kind::arrow, .points = {a, b}, .color = color, .width = width});
+    }
+    void label(Vec2 at, const char* markup, Vec2 shift, render::Color color = kInk) {
+        add({.kind = Kind::label, .points = {at}, .color = color, .markup = markup, .shift = shift});
+    }
+    void dot(Vec2 at, render::Color color = kInk, double radius = 1.5) {
+        add({.kind = Kind::disc, .centre = at, .radius_points = radius, .color = color});
+    }
+    // Between the two points, with both heads.
+    void dimension(Vec2 a, Vec2 b, render::Color color = kGrey) {
+        const Vec2 middle = 0.5 * (a + b);
+        arrow(middle, a, color);
+        arrow(middle, b, color);
+    }
+
+    // The disc as it is, and magnified beside it with its symbols, which would not fit into it.
+    void cam() {
+        const sim::Cam& cam = *p_.cam;
+        const Vec2 c = cam.centre, b = c + cam.eccentricity * sim::unit(cam.phase);
+        disc(b, cam.radius);
+        dot(c);
+        label(c, "$C$", {-0.75, -0.8});
+        const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
+        line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
+        line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
+        dimension({0, low}, {c.x, low});
+        label({0.5 * c.x, low}, "$D$", {0, -0.85});
+
+        const double radius = 0.235 * unit_, zoom = radius / cam.radius;
+        const Vec2 centre{b.x + 1.2 * cam.radius + 1.35 * radius, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
+        // Common tangents, so that the eye follows.
+        const Vec2 way = centre - b;
+        const double turn = std::acos(std::clamp((cam.radius - radius) / norm(way), -1.0, 1.0));
+        for (const double side : {-1.0, 1.0}) {
+            const Vec2 n = sim::unit(std::atan2(way.y, way.x) + side * turn);
+            line(b + cam.radius * n, centre + radius * n, kGrey, 0, {3, 3});
+        }
+        disc(centre, radius);
+        detail(cam, centre, zoom);
+    }
+
+    void disc(Vec2 at, double radius) {
+        add({.kind = Kind::disc, .centre = at, .radius = radius, .color = kSteel});
+        add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
+    }
+
+    void detail(const sim::Cam& cam, Vec2 b, double zoom) {
+        const double radius = zoom * cam.radius;
+        const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
+        const Vec2 rim = b + radius * sim::unit(-0.72 * std::numbers::pi);
+        arrow(b, rim);
+        label(0.5 * (b + rim), "$R$", {0.75, -0.35});
+        if (cam.eccentricity > 0) {
+            const Vec2 along = sim::unit(cam.phase), across = sim::perp(along) * (0.30 * radius);
+            line(c, c + 1.15 * across, kGrey);
+            line(b, b + 1.15 * across, kGrey);
+            arrow(c + across - along * (0.2 * radius), c + across, kGrey);
+            arrow(b + across + along * (0.2 * radius), b + across, kGrey);
+            label(b + across + along * (0.2 * radius), "$e$", {0.6, 0.1});
+            label(b, "$B$", {0.85, -0.35});
+        }
+        dot(c);
+        dot(b, kInk, 1.2);
+        label(c, cam.eccentricity > 0 ? "$C$" : "$B$ = $C$", {-0.85, cam.eccentricity > 0 ? 0.2 : 0.9});
+        if (cam.speed == 0) return;
+        const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
+        add({.kind = Kind::turn, .centre = b, .radius = r, .from = -0.9 * way + 0.2, .to = 0.5 * way + 0.2, .color = kInk, .width = 0.8});
+        label(b + r * sim::unit(0.1), "$ω$", {-0.85, 0});
+    }
+
+    // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
+    void frames() {
+        const double reach = std::max(1.12 * size_ * std::cos(theta_), p_.cam ? p_.cam->centre.x + 1.5 * p_.cam->radius : 0.0);
+        arrow({-0.06 * unit_, 0}, {reach, 0});
+        label({reach, 0}, "$X$", {0.2, -0.9});
+        arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
+        label({0, 0.42 * unit_}, "$Y$", {-0.9, -0.2});
+        label({0, 0}, "$O$", {-0.9, -0.9});
+        const Vec2 i = sim::unit(theta_), j = sim::perp(i);
+        arrow({0, 0}, 1.16 * size_ * i, kGrey);
+        label(1.16 * size_ * i, "$x$′", {0.8, 0.0}, kGrey);
+        arrow({0, 0}, 0.26 * size_ * j, kGrey);
+        label(0.26 * size_ * j, "$y$′", {-0.9, 0.1}, kGrey);
+    }
+
+    // The deflected centre line: a clamped beam's sag, drawn far larger than it is.
+    Vec2 on_beam(double share) const {
+        const Vec2 i = sim::unit(theta_), j = sim::perp(i);
+        const double s = share, sag = -0.085 * size_ * (s * s * (6 - 4 * s + s * s)) / 3;
+        return (p_.hub.radius + s * p_.beam.length) * i + sag * j;
+    }
+
+    void beam() {
+        Shape curve{.kind = Kind::line, .color = kBlue, .width = 2.2};
+        for (int k = 0; k <= 60; ++k) curve.points.push_back(on_beam(k / 60.0));
+        add(curve);
+        const Vec2 i = sim::unit(theta_), j = sim::perp(i);
+        const double at = 0.70;
+        const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
+        arrow(foot + 0.0 * j, sagging, kRed, 0.9);
+        label(sagging, "$v$($x$, $t$)", {2.4, -0.7}, kRed);
+        // Length, beside the beam.
+        const Vec2 off = 0.12 * size_ * j;
+        line(p_.hub.radius * i + 0.25 * off, p_.hub.radius * i + 1.1 * off, kGrey);
+        line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off, kGrey);
+        dimension(p_.hub.radius * i + off, (p_.hub.radius + p_.beam.length) * i + off);
+        label((p_.hub.radius + 0.45 * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
+        dot(on_beam(1), kBlue, 1.4);
+    }
+
+    void hub() {
+        const double a = p_.hub.radius;
+        if (a > 0) {
+            add({.kind = Kind::disc, .centre = {0, 0}, .radius = a, .color = kSteel});
+            add({.kind = Kind::circle, .centre = {0, 0}, .radius = a, .color = kInk, .width = 0.9});
+            arrow({0, 0}, a * sim::unit(2.4));
+            label(a * sim::unit(2.4), "$a$", {-0.5, 0.6});
+        } else {
+            label({0, 0}, "$a$ = 0", {-2.6, -0.9}, kGrey);
+        }
+        add({.kind = Kind::disc, .centre = {0, 0}, .radius_points = 3, .color = render::rgb(0xFFFFFF)});
+        add({.kind = Kind::circle, .centre = {0, 0}, .radius_points = 3, .color = kInk, .width = 0.9});
+        dot({0, 0}, kInk, 1);
+    }
+
+    void angle() {
+        const double r = 0.115 * unit_;
+        add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
+        label(r * sim::unit(0.5 * theta_), "$θ$", {0.75 * std::cos(0.5 * theta_) + 0.2, 0.75 * std::sin(0.5 * theta_)});
+    }
+
+    void gravity() {
+        const double x = 0.28 * size_;
+        const Vec2 from{x, 0.98 * size_ * std::sin(theta_)}, to{x, 0.98 * size_ * std::sin(theta_) - 0.17 * unit_};
+        arrow(from, to, kInk, 0.9);
+        label(0.5 * (from + to), "$g$", {0.8, 0});
+    }
+
+    const sim::Problem& p_;
+    double size_ = 1, unit_ = 1, theta_ = 0.78;
+    std::vector<Shape> out_;
+};
+
+std::string caption(const sim::Problem& p, Lang lang) {
+    const std::string text =
+        lang == Lang::en
+            ? "The system, to scale except for the deflection $v$($x$, $t$), which is exaggerated. The beam of length "
+              "$L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; the frame $x$′$y$′ turns "
+              "with it, $XY$ is fixed. The disc of radius $R$ and centre $B$ turns about $C$, at the distance $D$ from "
+              "$O$, with the speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
+            : "系统示意图，除挠度 $v$($x$, $t$) 放大外均按比例绘制。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 "
+              "$θ$；坐标系 $x$′$y$′ 随之转动，$XY$ 固定。半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 为 "
+              "$D$，偏心距 $e$ = |$CB$|。";
+    return text + stated(p, lang);
+}
+
+FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
+    return [problem = scene.problem, lang](const Results&) {
+        Figure figure;
+        figure.name = "schematic";
+        figure.title = lang == Lang::en ? "The system and its symbols" : "系统与符号";
+        Panel panel;
+        panel.shapes = Drawing(problem).shapes();
+        figure.panels.push_back(std::move(panel));
+        figure.aspect = 0.98;
+        figure.caption = caption(problem, lang);
+        figure.accuracy = accuracy({}, lang);
+        return figure;
+    };
+}
+
+}  // namespace
+
+const Recipe kSchematic{"schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,69 @@
+#include "scenes/figures/studies.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "scenes/scene.hpp"
+
+namespace beamcam::scenes {
+
+std::vector<double> instants(const Instants& wanted) {
+    std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(wanted.count));
+    for (int k = 0; k < wanted.count; ++k)
+        times.push_back(k + 1 == wanted.count ? wanted.to
+                                              : wanted.from + (wanted.to - wanted.from) * k / (wanted.count - 1));
+    return times;
+}
+
+std::string Studies::key(const sim::Problem& problem) {
+    Scene scene;
+    scene.problem = problem;
+    return to_json(scene);
+}
+
+std::size_t Studies::of(const sim::Problem& problem, double end_time, const std::string& because) {
+    const std::string wanted = key(problem);
+    const auto known = std::find(keys_.begin(), keys_.end(), wanted);
+    const auto index = static_cast<std::size_t>(known - keys_.begin());
+    if (known == keys_.end()) {
+        keys_.push_back(wanted);
+        own_.push_back({problem, {}, {}});
+    }
+    std::string& whose = main_ && index == 0 ? main_because_ : own_[main_ ? index - 1 : index].because;
+    double& until = main_ && index == 0 ? main_until_ : own_[main_ ? index - 1 : index].request.end_time;
+    if (whose.empty() || end_time > until) {
+        until = std::max(end_time, until);
+        whose = because;
+    }
+    return index;
+}
+
+std::size_t Studies::table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels) {
+    grids_.resize(std::max(grids_.size(), study + 1));
+    std::vector<sim::TableRequest>& tables = request(study).tables;
+    auto known = std::find_if(grids_[study].begin(), grids_[study].end(), [&](const auto& g) { return g.first == at; });
+    if (known == grids_[study].end()) {
+        tables.push_back({instants(at), {}});
+        grids_[study].emplace_back(at, tables.size() - 1);
+        known = grids_[study].end() - 1;
+    }
+    std::vector<sim::Channel>& all = tables[known->second].channels;
+    for (const sim::ChannelKind kind : channels)
+        if (std::find(all.begin(), all.end(), sim::Channel{kind, 0}) == all.end()) all.push_back({kind, 0});
+    return known->second;
+}
+
+std::size_t Studies::point(std::size_t study, double x, const Instants& at) {
+    std::vector<sim::PointRequest>& points = request(study).points;
+    points.push_back({x, instants(at)});
+    return points.size() - 1;
+}
+
+const std::vector<double>& column(const sim::Table& table, sim::ChannelKind channel) {
+    for (std::size_t i = 0; i < table.channels.size(); ++i)
+        if (table.channels[i].kind == channel) return table.values[i];
+    throw std::logic_error("a figure reads a channel that it did not ask for");
+}
+
+}  // namespace beamcam::scenes

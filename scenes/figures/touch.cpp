@@ -1,0 +1,182 @@
+// The paper's trial method: which point of the falling beam reaches the cam first. One simulation of the fall serves
+// the trial, its refinement and the curves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/figures/recipes.hpp"
+#include "sim/paper.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Series;
+
+constexpr int kRows = 4001;           // of the fall
+constexpr int kTrial = 5;             // points of the first round: 0.21 … 0.25 m in the paper
+constexpr int kRefined = 8;           // intervals between two trial points in the second round
+constexpr double kShown = 0.012;      // before and after the touch, of the fall's duration 0.3 s: [s]
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// Where the rigid beam would touch, x₁, and the trial points about it at the paper's spacing of L/100.
+std::vector<double> trial_points(const sim::Problem& p) {
+    const double x1 = sim::tangent_distance(*p.cam, p.cam->phase, sim::Printing::corrected) - p.hub.radius;
+    const double spacing = p.beam.length / 100;
+    const double middle = std::clamp(std::round(x1 / spacing), 2.0, 98.0) * spacing;
+    std::vector<double> points;
+    for (int k = 0; k < kTrial; ++k) points.push_back(middle + (k - kTrial / 2) * spacing);
+    return points;
+}
+
+struct Fall {
+    std::vector<double> t, x;                  // instants, arc positions
+    std::vector<std::vector<double>> distance;  // [m], by position, then instant
+};
+
+// First zero of a falling distance, by a cubic through the four samples around it.
+double arrival(const std::vector<double>& t, const std::vector<double>& d) {
+    for (std::size_t i = 1; i < d.size(); ++i) {
+        if (!(d[i - 1] > 0 && d[i] <= 0)) continue;
+        const std::size_t k = std::clamp<std::size_t>(i, 2, d.size() - 2);
+        const auto cubic = [&](double at) {
+            double sum = 0;
+            for (std::size_t a = k - 2; a <= k + 1; ++a) {
+                double weight = 1;
+                for (std::size_t b = k - 2; b <= k + 1; ++b)
+                    if (b != a) weight *= (at - t[b]) / (t[a] - t[b]);
+                sum += weight * d[a];
+            }
+            return sum;
+        };
+        // Halving the sample's width 60 times leaves rounding.
+        double low = t[i - 1], high = t[i];
+        for (int halving = 0; halving < 60; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (cubic(middle) > 0 ? low : high) = middle;
+        }
+        return high;
+    }
+    return kNever;
+}
+
+FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
+    const sim::Problem falling = without_cam(scene.problem);
+    const Instants all{0, scene.end_time, kRows};
+    const std::size_t fall = studies.of(falling, scene.end_time, "distance");
+    const std::vector<double> trial = trial_points(scene.problem);
+    // The refined points lie between the trial points; asked for together, the fall is integrated once.
+    std::vector<double> fine;
+    for (int k = 0; k <= (kTrial - 1) * kRefined; ++k)
+        fine.push_back(trial.front() + (trial.back() - trial.front()) * k / ((kTrial - 1) * kRefined));
+    std::vector<std::size_t> where;
+    for (const double x : fine) where.push_back(studies.point(fall, x, all));
+    const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
+
+    return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result &falls = *results[fall], &strikes = *results[touching];
+        const sim::Cam& cam = *problem.cam;
+        Fall f;
+        f.t = instants(all);
+        f.x = fine;
+        for (const std::size_t w : where) {
+            std::vector<double> d;
+            for (std::size_t i = 0; i < f.t.size(); ++i) {
+                const sim::Vec2 disc = cam.centre + cam.eccentricity * sim::unit(cam.phase - cam.speed * f.t[i]);
+                d.push_back(norm(falls.points[w][i] - disc) - cam.radius);
+            }
+            f.distance.push_back(std::move(d));
+        }
+        std::vector<double> when;
+        for (const std::vector<double>& d : f.distance) when.push_back(arrival(f.t, d));
+        const auto first = static_cast<std::size_t>(std::min_element(when.begin(), when.end()) - when.begin());
+        std::size_t first_trial = 0;
+        for (std::size_t k = 0; k < when.size(); k += kRefined)
+            if (when[k] < when[first_trial]) first_trial = k;
+        if (when[first] == kNever)
+            throw render::PictureError(fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
+                                                   "cam before {:g} s; raise time.end",
+                                                   fine.front(), fine.back(), end));
+        Figure figure;
+        figure.name = "distance";
+        figure.title = en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";
+        Panel panel;
+        panel.legend = Legend::box;
+        panel.x.label = "$t$ / ms";
+        panel.y.label = "$D$′ / mm";
+        panel.rules.push_back({.at = 0});
+        const double from = when[first] - kShown, to = when[first] + 0.5 * kShown;
+        int look = 0;
+        for (std::size_t k = 0; k < fine.size(); k += kRefined) {
+            Series s;
+            s.label = fmt::format("$x$ = {} m", number(fine[k], 3));
+            s.look = look++;
+            for (std::size_t i = 0; i < f.t.size(); ++i)
+                if (f.t[i] >= from && f.t[i] <= to) s.x.push_back(f.t[i] * 1e3), s.y.push_back(f.distance[k][i] * 1e3);
+            panel.series.push_back(std::move(s));
+        }
+        // Room above the falling curves for the inset.
+        double highest = 0;
+        for (const Series& s : panel.series)
+            for (const double v : s.y) highest = std::max(highest, v);
+        panel.y.to = 2.15 * highest;
+        Panel inset;
+        inset.legend = Legend::none;
+        inset.x.label = "$x$ / m";
+        inset.x.tight = false;
+        inset.y.label = "$t_{0}$ / ms";
+        Series coarse, refined, located;
+        for (std::size_t k = 0; k < fine.size(); ++k) {
+            if (when[k] == kNever) continue;
+            const bool near = k + kRefined >= first_trial && k <= first_trial + kRefined;
+            if (k % kRefined == 0) coarse.x.push_back(fine[k]), coarse.y.push_back(when[k] * 1e3);
+            if (near) refined.x.push_back(fine[k]), refined.y.push_back(when[k] * 1e3);
+        }
+        refined.look = 0;
+        refined.solid = true;
+        coarse.look = 0;
+        coarse.line = false;
+        coarse.every_point = true;
+        inset.series = {refined, coarse};
+        std::string located_words = en ? "the simulation has no impact" : "仿真中无碰撞";
+        if (!strikes.impacts.empty()) {
+            const sim::Impact& hit = strikes.impacts.front();
+            inset.marks.push_back({.x = hit.x, .y = hit.t_start * 1e3, .label = en ? "located" : "事件定位", .look = 1});
+            located_words = filled(en ? "the located event is at $x$ = {} m, $t$ = {} s" : "事件定位为 $x$ = {} m、$t$ = {} s",
+                                        grouped(hit.x, 6), grouped(hit.t_start, 9));
+        }
+        panel.insets.push_back({.panel = {inset}, .width = 0.42, .height = 0.42});
+        figure.panels.push_back(std::move(panel));
+        figure.aspect = 0.76;
+        figure.caption = filled(
+            en ? "Distance $D$′ of points $x$ of the falling beam from the cam's surface near the first touch. Inset: the "
+                 "time of zero against $x$, the trial method's first round (points) and its refinement (line), and the "
+                 "event that the simulation locates. First of the trial points: {} m; refined: $x$ = {} m, $t$ = {} s; {}. "
+               : "首次接触附近下落梁上各点 $x$ 到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ 的变化，试算法第一轮（点）及加密（线），"
+                 "以及仿真定位的事件。首轮最先接触点：{} m；加密后 $x$ = {} m，$t$ = {} s；{}。",
+            number(fine[first_trial], 3), number(fine[first], 5), grouped(when[first], 7), located_words);
+        figure.caption += stated(problem, lang);
+        figure.accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang);
+        return figure;
+    };
+}
+
+std::optional<std::string> refusal(const Scene& scene) {
+    if (auto no_cam = needs_cam(scene)) return no_cam;
+    const sim::Cam& cam = *scene.problem.cam;
+    const double distance = norm(cam.centre);
+    if (distance - cam.eccentricity <= cam.radius) return "the cam reaches the hinge, so no tangent to it exists";
+    return std::nullopt;
+}
+
+}  // namespace
+
+const Recipe kDistance{
+    "distance", {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"}, refusal, prepare};
+
+}  // namespace beamcam::scenes

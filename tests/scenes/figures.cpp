@@ -1,0 +1,344 @@
+// Figures of scenes: what they need, what the files are, the paper's figures and findings.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "render/figure/text.hpp"
+#include "scenes/embedded.hpp"
+#include "scenes/figures/findings.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/plan.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+Scene scene(const std::string& text) {
+    Reading reading = testing::read(text);
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return *reading.scene;
+}
+
+render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
+    Studies studies;
+    const FigureMaker make = recipe_named(name)->prepare(s, lang, studies);
+    const std::vector<Study> all = studies.take();
+    Progress silent(ProgressStyle::none);
+    const std::vector<sim::Result> made = simulate_studies(all, 1, silent, true);
+    Results results;
+    for (const sim::Result& r : made) results.push_back(&r);
+    return make(results);
+}
+
+TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
+    const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "schematic"},
+                                              {"type": "figure", "figure": "deflection"}]})"));
+    EXPECT_FALSE(p.simulation);
+    EXPECT_TRUE(p.studies.empty());
+    EXPECT_FALSE(p.needs_gl());
+    EXPECT_EQ(p.figures.size(), 2u);
+}
+
+TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
+    const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
+        {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
+    ASSERT_TRUE(p.simulation);
+    EXPECT_TRUE(p.studies.empty());
+    EXPECT_TRUE(p.simulation->request.horizon);
+}
+
+TEST(Figures, EqualPhysicsIsOneStudy) {
+    Studies studies;
+    const Scene s = scene("{}");
+    recipe_named("speeds")->prepare(s, Lang::en, studies);  // 0, 1 and 5 rad/s; the scene's own is 1
+    recipe_named("energy")->prepare(s, Lang::en, studies);
+    recipe_named("collision")->prepare(s, Lang::zh, studies);
+    EXPECT_EQ(studies.take().size(), 3u);
+}
+
+TEST(Figures, FreeFallShowsTheThreePublishedTimes) {
+    const auto figure = figure_of(scene(R"({"cam": null, "beam": {"basis": "cantilever"},
+        "solver": {"rtol": 1e-11, "atol": 1e-14}, "time": {"end": 0.4}})"),
+                                  "free-fall");
+    ASSERT_EQ(figure.panels.size(), 1u);
+    ASSERT_EQ(figure.panels[0].marks.size(), 1u);
+    EXPECT_NEAR(figure.panels[0].marks[0].x, 0.261628446653, 1e-9);
+    ASSERT_EQ(figure.panels[0].insets.size(), 1u);
+    const auto& marks = figure.panels[0].insets[0].panel[0].marks;
+    ASSERT_EQ(marks.size(), 2u);
+    EXPECT_NEAR(marks[0].x, (0.369993889 - 0.369998497559697) * 1e6, 1e-3);  // microseconds
+    EXPECT_NEAR(marks[1].x, 0, 1e-4);
+}
+
+TEST(Figures, TrialMethodMeetsTheLocatedTouch) {
+    const auto figure = figure_of(scene(R"({"cam": {"eccentricity": 0, "speed": 0}, "time": {"end": 0.3}})"), "distance");
+    const auto& inset = figure.panels[0].insets[0].panel[0];
+    ASSERT_EQ(inset.marks.size(), 1u);
+    const auto& refined = inset.series[0];
+    const auto first = std::min_element(refined.y.begin(), refined.y.end()) - refined.y.begin();
+    EXPECT_NEAR(refined.x[static_cast<std::size_t>(first)], inset.marks[0].x, 0.00125);      // the refined spacing
+    EXPECT_NEAR(refined.y[static_cast<std::size_t>(first)], inset.marks[0].y, 0.02);         // a flat minimum [ms]
+    EXPECT_NEAR(inset.marks[0].x, 0.229, 0.001);
+}
+
+TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
+    const auto figure = figure_of(scene("{}"), "deflection");
+    const auto& slope = figure.panels[1].series;
+    const auto jump = [](const render::figure::Series& s) {
+        double largest = 0;
+        for (std::size_t i = 1; i < s.x.size(); ++i)
+            if (std::abs(s.x[i] - s.x[i - 1]) < 1e-12) largest = std::max(largest, std::abs(s.y[i] - s.y[i - 1]));
+        return largest;
+    };
+    for (std::size_t k = 0; k < 6; k += 2) {
+        EXPECT_LT(jump(slope[k]), 1e-9) << k;
+        EXPECT_GT(jump(slope[k + 1]), 1e-4) << k;
+    }
+}
+
+TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
+    const auto figure = figure_of(scene(R"({"time": {"end": 2.2}})"), "angle");
+    ASSERT_EQ(figure.panels[0].series.size(), 2u);
+    EXPECT_TRUE(figure.panels[0].series[0].faded);
+    EXPECT_THAT(figure.caption, HasSubstr("not reproducible"));
+    EXPECT_EQ(figure.panels[0].series[0].x.front(), figure.panels[0].series[1].x.back());
+}
+
+TEST(Figures, CaptionsStateTheAssumptionsInBothLanguages) {
+    for (const Lang lang : {Lang::en, Lang::zh}) {
+        const auto figure = figure_of(scene("{}"), "schematic", lang);
+        const std::string caption = render::figure::to_plain(figure.caption);
+        for (const char* value : {"e = 0.02 m", "K = 10⁸ N m", "0.7", "a = 0 m", "g = 9.81"})
+            EXPECT_THAT(caption, HasSubstr(value));
+        EXPECT_THAT(caption, HasSubstr(lang == Lang::en ? "assumptions" : "假定值"));
+        EXPECT_NO_THROW(render::figure::to_latex(figure.caption));
+    }
+}
+
+TEST(Figures, WhatASceneHasNotIsToldInWords) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null})");
+    const Finished list = shell(folder, "$BEAMCAM figure s.json");
+    EXPECT_EQ(list.code, 0);
+    EXPECT_THAT(list.out, HasSubstr("schematic"));
+    EXPECT_THAT(list.out, HasSubstr("no cam"));
+    const Finished refused = shell(folder, "$BEAMCAM figure s.json collision -o a.pdf");
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("no cam"));
+    folder.write("t.json", R"({"time": {"end": 0.01}})");
+    const Finished early = shell(folder, "$BEAMCAM figure t.json collision -o a.pdf");
+    EXPECT_EQ(early.code, 3);
+    EXPECT_THAT(early.err, HasSubstr("time.end"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.pdf"));
+}
+
+TEST(Figures, PdfHasTrueTypeSubsetsItsSceneAndTheSameBytesTwice) {
+    const Folder folder;
+    folder.write("s.json", R"({"title": "x"})");
+    for (const char* lang : {"en", "zh"}) {
+        const std::string make = fmt::format("$BEAMCAM figure s.json schematic --lang {} -q --force -o ", lang);
+        ASSERT_EQ(shell(folder, make + "a.pdf && " + make + "b.pdf && " + make + "a.svg && " + make + "b.svg").code, 0);
+        EXPECT_EQ(testing::slurp(folder / "a.pdf"), testing::slurp(folder / "b.pdf"));
+        EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
+        EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("\"youngs_modulus\""));
+    }
+}
+
+TEST(Figures, PdfFontsAreEmbeddedTrueType) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null, "time": {"end": 0.4}})");
+    if (shell(folder, "command -v pdffonts").code != 0) GTEST_SKIP() << "needs pdffonts (Debian: poppler-utils)";
+    for (const char* lang : {"en", "zh"}) {
+        ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM figure s.json free-fall --lang {} -q --force -o a.pdf", lang)).code, 0);
+        std::istringstream fonts(shell(folder, "pdffonts a.pdf").out);
+        std::string line;
+        std::getline(fonts, line);
+        std::getline(fonts, line);
+        int count = 0;
+        for (; std::getline(fonts, line); ++count) {
+            EXPECT_THAT(line, HasSubstr("TrueType"));
+            EXPECT_THAT(line, HasSubstr(" yes yes "));  // embedded, subset
+        }
+        EXPECT_GE(count, 2);
+    }
+    // 90 mm by what suits the figure, to a hundredth of a point.
+    EXPECT_THAT(shell(folder, "pdfinfo a.pdf").out, HasSubstr("255.118 x"));
+    EXPECT_THAT(shell(folder, "pdfinfo a.pdf").out, HasSubstr("beamcam"));
+}
+
+TEST(Figures, DataAndCaptionLieBesideThem) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json deflection -o a.png --data a.csv --caption a.tex -q").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "a.csv"), StartsWith("panel,series,x_quantity,x,y_quantity,y,value\n"));
+    EXPECT_THAT(testing::slurp(folder / "a.tex"), HasSubstr("\\caption{"));
+    EXPECT_THAT(testing::slurp(folder / "a.png"), HasSubstr("pHYs"));
+    EXPECT_THAT(testing::slurp(folder / "a.png"), HasSubstr("beamcam-scene"));
+}
+
+TEST(Figures, RunMakesThoseThatASceneLists) {
+    const Folder folder;
+    folder.write("s.json", R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"89mm\""));
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
+}
+
+TEST(Paper, ScenesAreFineAndListEveryFigureOnce) {
+    std::vector<std::string> files;
+    for (const EmbeddedScene& embedded : paper_scenes()) {
+        const Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true});
+        ASSERT_TRUE(reading.scene) << reading.report();
+        for (const Output& output : reading.scene->outputs) files.push_back(file_of(output).substr(0, 5));
+    }
+    std::sort(files.begin(), files.end());
+    EXPECT_THAT(files, ::testing::ElementsAre("fig01", "fig02", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09",
+                                              "fig10", "fig11", "fig12"));
+}
+
+// The numbers that the table of findings states and no other test keeps.
+TEST(Findings, ForeshorteningInGravityMatters) {
+    const auto fall = [](double length, sim::ModelKind model) {
+        sim::Problem p;
+        p.cam.reset();
+        p.beam.length = length;
+        p.beam.model = model;
+        p.beam.basis = sim::Basis::cantilever;
+        p.solver.rtol = 1e-11;
+        p.solver.atol = 1e-14;
+        sim::Request request;
+        request.end_time = length > 1 ? 1.2 : 0.4;
+        return sim::simulate(p, request).theta_zero.at(0).t;
+    };
+    using sim::ModelKind;
+    EXPECT_LT(std::abs(fall(1, ModelKind::paper) - fall(1, ModelKind::first_order)), 1e-6);
+    const double long_beam = std::abs(fall(8, ModelKind::paper) - fall(8, ModelKind::first_order));
+    EXPECT_GT(long_beam, 1e-3);
+    EXPECT_LT(long_beam, 5e-3);
+}
+
+TEST(Findings, SeparationAsPrintedHasTheWrongSign) {
+    // The rigid rod: in contact N >= 0 exactly where `separation` >= 0, and the printed Δ says the opposite.
+    sim::Problem p;
+    p.beam.model = sim::ModelKind::rigid;
+    p.cam->speed = 0;
+    std::vector<double> times;
+    for (int i = 0; i <= 20000; ++i) times.push_back(0.3 * i / 20000);
+    sim::Request request;
+    request.tables.push_back({times,
+                              {{sim::ChannelKind::contact_force, 0},
+                               {sim::ChannelKind::separation, 0},
+                               {sim::ChannelKind::separation_paper, 0}}});
+    const sim::Result r = sim::simulate(p, request);
+    int touching = 0, wrong = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (!(r.tables[0].values[0][i] > 0)) continue;
+        ++touching;
+        EXPECT_GE(r.tables[0].values[1][i], 0);
+        wrong += r.tables[0].values[2][i] < r.tables[0].values[1][i];
+    }
+    EXPECT_GT(touching, 10);
+    EXPECT_EQ(wrong, touching);
+}
+
+TEST(Findings, ReboundsDeclineInTrendWithoutRegularity) {
+    sim::Problem p;
+    p.cam->speed = 5;
+    sim::Request request;
+    request.end_time = 3;
+    const sim::Result r = sim::simulate(p, request);
+    std::vector<double> heights;
+    for (std::size_t i = 0; i + 1 < r.collisions.size(); ++i) {
+        double highest = -1;
+        for (const sim::Apex& apex : r.apexes)
+            if (apex.t > r.collisions[i].t_start && apex.t < r.collisions[i + 1].t_start) highest = std::max(highest, apex.theta);
+        heights.push_back(highest);
+    }
+    ASSERT_GE(heights.size(), 4u);
+    int rises = 0;
+    for (std::size_t i = 1; i < heights.size(); ++i) rises += heights[i] > heights[i - 1];
+    EXPECT_GT(rises, 0);                              // the cam's work
+    EXPECT_LT(heights.back(), heights.front());       // in trend
+}
+
+// ---- golden pictures ------------------------------------------------------------------------------
+// The gallery's own files. Figures of long chaotic runs are compared over their reproducible first 1.2 s instead
+// (tests/scenes/golden), because beyond it another CPU's last bits make another picture.
+
+struct Golden {
+    const char *scene, *figure, *picture;
+    const char* options;
+};
+
+void expect_golden(const Golden& g) {
+    const Folder folder;
+    const std::string made = fmt::format("$BEAMCAM figure '{0}/../scenes/paper/{1}.json' {2} -o a.png -q {3}", BEAMCAM_TEST_DIR,
+                                         g.scene, g.figure, g.options);
+    const Finished drawn = shell(folder, made);
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    const Finished verdict =
+        shell(folder, fmt::format("$BEAMCAM diff '{0}/{1}' a.png --tolerance 24 --json", BEAMCAM_TEST_DIR, g.picture));
+    EXPECT_EQ(verdict.code, 0) << g.picture << ": look at it, then redraw it\n" << verdict.out;
+}
+
+TEST(GoldenFigures, OfTheGalleryAreRedrawn) {
+    for (const Golden& g : {Golden{"system", "schematic", "../scenes/gallery/paper/fig01-schematic.png", "--dpi 150"},
+                            Golden{"free-fall", "free-fall", "../scenes/gallery/paper/fig02-free-fall.png", "--dpi 150"},
+                            Golden{"free-fall", "tip-vibration", "../scenes/gallery/paper/fig03-tip-vibration.png", "--dpi 150"},
+                            Golden{"system", "deflection", "../scenes/gallery/paper/fig04-deflection.png", "--dpi 150"},
+                            Golden{"first-touch", "distance", "../scenes/gallery/paper/fig05-distance.png", "--dpi 150"},
+                            Golden{"collision", "collision", "../scenes/gallery/paper/fig07-collision.png", "--dpi 150"}})
+        expect_golden(g);
+}
+
+TEST(GoldenFigures, OfRepeatedImpactsAreRedrawnWhereTheyAreReproducible) {
+    for (const char* figure : {"speeds", "energy", "contact-places", "phase"}) {
+        const std::string picture = fmt::format("scenes/golden/{}.png", figure);
+        expect_golden({"impacts", figure, picture.c_str(), "--dpi 100 --set time.end=1.2"});
+    }
+}
+
+TEST(GoldenFigures, InChineseAreRedrawn) {
+    for (const auto& [scene_name, figure] : {std::pair{"system", "schematic"}, {"free-fall", "free-fall"}}) {
+        const std::string picture = fmt::format("scenes/golden/zh-{}.png", figure);
+        expect_golden({scene_name, figure, picture.c_str(), "--dpi 100 --lang zh"});
+    }
+}
+
+TEST(LongGoldenFigures, OfTheLadderAreRedrawn) {
+    expect_golden({"convergence", "apex-modes", "../scenes/gallery/paper/fig11-apex-modes.png", "--dpi 150"});
+    expect_golden({"models", "models", "../scenes/gallery/paper/fig12-models.png", "--dpi 150"});
+}
+
+TEST(LongPaper, MakesEveryFigureThriceWithCaptionsAndFindings) {
+    const Folder folder;
+    const Finished made = shell(folder, "$BEAMCAM paper -o out --progress none");
+    ASSERT_EQ(made.code, 0) << made.err;
+    int pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+        pictures += entry.path().extension() == ".png" || entry.path().extension() == ".svg" || entry.path().extension() == ".pdf";
+    EXPECT_EQ(pictures, 36);
+    const std::string findings = testing::slurp(folder / "out/findings.md");
+    EXPECT_THAT(findings, HasSubstr("0.369998497559697"));
+    EXPECT_THAT(findings, HasSubstr("0.261628446653"));
+    EXPECT_THAT(findings, HasSubstr("0.229129"));
+    EXPECT_THAT(findings, HasSubstr("| 9 |"));
+    EXPECT_THAT(findings, Not(HasSubstr("nan")));
+    // Made again it may be replaced; a foreign file may not.
+    EXPECT_EQ(shell(folder, "echo mine > out/fig01-schematic.png; $BEAMCAM paper -o out -q").code, 6);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
