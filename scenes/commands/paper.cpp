@@ -14,6 +14,7 @@
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/reader.hpp"
+#include "scenes/version.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -90,7 +91,7 @@ class Writer {
         if (output::interrupted()) throw Stopped();
         const fs::path path = fs::path(args_.directory) / file;
         output::write_file(path, bytes);
-        manifest_.record(path);
+        manifest_.record(path, std::string(kVersion));
         ++count_;
     }
     void finish() {
