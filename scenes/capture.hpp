@@ -15,6 +15,8 @@ struct Capture {
     sim::Result result;  // of the plan's simulation: what was integrated once for several plans; taken by the run
     // Frame numbers count from 0 in each output; several threads call this at once, in any order.
     std::function<void(const Pictures&, long frame, const render::Image&)> picture;
+    // A figure as pixels, whatever the ending of its file.
+    std::function<void(const render::Image&)> figure;
 };
 
 }  // namespace beamcam::scenes

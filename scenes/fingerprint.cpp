@@ -23,6 +23,15 @@ Fingerprint flat_fingerprint() {
     return found;
 }
 
+Fingerprint figure_fingerprint() {
+    Fingerprint found;
+    for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
+    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
+        if (!font.path.empty())
+            found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    return found;
+}
+
 Fingerprint lit_fingerprint() {
     Fingerprint found = flat_fingerprint();
     found.parts["OpenGL"] = render::make_lit_renderer(16, 16)->name();

@@ -12,8 +12,10 @@ struct Fingerprint {
     std::string id() const;  // 12 digits: of the SHA-256 of the parts
 };
 
-// Of flat views and figures. Throws render::FontError when a font is missing.
+// Of flat views. Throws render::FontError when a font is missing.
 Fingerprint flat_fingerprint();
+// Of figures: other fonts, of which the Chinese one may be missing.
+Fingerprint figure_fingerprint();
 // Of lit views: the same, and the driver, which is loaded for it. Throws render::GlError as well.
 Fingerprint lit_fingerprint();
 

@@ -199,6 +199,8 @@ std::vector<Check> examine_machine() {
                           fmt::format("install the Debian package {}", font.package)});
     examine_films(checks);
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
+    examine(checks, "fingerprint", "figures", "see the fonts of figures above",
+            [] { return figure_fingerprint().id(); });
     examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return lit_fingerprint().id(); });
     return checks;
 }

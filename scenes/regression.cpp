@@ -26,11 +26,27 @@ namespace fs = std::filesystem;
 
 std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
-bool is_lit(const Baseline& entry) {
-    if (const auto* still = std::get_if<StillOutput>(&entry.output())) return still->view.style != render::Style::flat;
-    if (const auto* frames = std::get_if<FramesOutput>(&entry.output()))
-        return frames->view.style != render::Style::flat;
-    return false;
+enum class Drawn { flat, lit, figure };
+
+Drawn drawn(const Baseline& entry) {
+    const auto by_style = [](const render::View& view) {
+        return view.style == render::Style::flat ? Drawn::flat : Drawn::lit;
+    };
+    if (const auto* still = std::get_if<StillOutput>(&entry.output())) return by_style(still->view);
+    if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) return by_style(frames->view);
+    return std::holds_alternative<FigureOutput>(entry.output()) ? Drawn::figure : Drawn::flat;
+}
+
+Fingerprint fingerprint_of(Drawn how) {
+    switch (how) {
+        case Drawn::flat:
+            return flat_fingerprint();
+        case Drawn::lit:
+            return lit_fingerprint();
+        case Drawn::figure:
+            return figure_fingerprint();
+    }
+    throw std::logic_error("a way of drawing that has no fingerprint");
 }
 
 // ---- references ------------------------------------------------------------------------------------
@@ -90,12 +106,13 @@ class EntryTest {
           folder_(baselines.references / entry.name) {
         result_.name = entry.name;
         if (entry.has_pictures()) result_.picture = Verdict::identical;
-        if (asks_for_motion()) result_.motion = Verdict::identical;
+        if (entry.physics || !entry.has_pictures()) result_.motion = Verdict::identical;
         if (is_updated()) fresh_ = std::make_unique<NewReferences>(folder_);
     }
 
     const Baseline& entry() const { return entry_; }
-    bool asks_for_motion() const { return entry_.physics || !entry_.has_pictures(); }
+    bool asks_for_motion() const { return result_.motion.has_value(); }
+    void ask_for_no_motion() { result_.motion.reset(); }
     bool is_updated() const {
         return std::find(options_.update.begin(), options_.update.end(), entry_.name) != options_.update.end();
     }
@@ -312,15 +329,19 @@ class Group {
             only_impacts.end_time = until;
             return sim::simulate(some, only_impacts, [](double) { return !output::interrupted(); });
         });
-        // A picture that compares other motions than the scene's own has no simulation of it.
+        // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
+        // statics, behind which there is no motion at all.
         if (!job.plan.simulation) {
             job.plan.simulation.emplace();
-            for (const Pictures& p : job.plan.pictures)
-                job.plan.simulation->request.end_time = std::max(job.plan.simulation->request.end_time, p.end_time);
+            double& until = job.plan.simulation->request.end_time;
+            for (const Pictures& p : job.plan.pictures) until = std::max(until, p.end_time);
+            for (const Study& study : job.plan.studies) until = std::max(until, study.request.end_time);
+            if (job.plan.pictures.empty() && job.plan.studies.empty() && !job.plan.figures.empty())
+                job.test->ask_for_no_motion();
         }
         sim::Request& request = job.plan.simulation->request;
         job.until = request.end_time;
-        request.horizon = job.test->is_updated();
+        if (job.test->is_updated()) request.horizon = true;  // some figures ask for it anyway
         job.motion = request.tables.size();
         if (!job.plan.tables.empty())
             job.motion = job.plan.tables.front().table;
@@ -334,10 +355,18 @@ class Group {
             job.test->judge_motion(result.tables[job.motion], result.impacts, job.until, result.reproducible_until);
         Capture capture{std::move(result), [&](const Pictures&, long frame, const render::Image& image) {
                             job.test->judge_picture(frame, image);
-                        }};
+                        },
+                        [&](const render::Image& image) { job.test->judge_picture(0, image); }};
         RunOptions run_options = options.run;
         run_options.capture = &capture;
-        scenes::run(job.plan, job.test->entry().scene, run_options);
+        try {
+            scenes::run(job.plan, job.test->entry().scene, run_options);
+        } catch (const sim::SolverError& error) {  // of a variant of the scene that a figure compares it with
+            return job.test->make_impossible(
+                fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));
+        } catch (const render::PictureError& error) {  // such as a figure of an impact that there is no more
+            return job.test->make_impossible(error.what());
+        }
         job.test->finish();
     }
 
@@ -400,14 +429,14 @@ class Regression {
     void write_changes() {
         std::vector<BaselineEdit> edits;
         std::map<std::string, RendererParts> renderers;
-        std::optional<Fingerprint> flat, lit;
+        std::map<Drawn, Fingerprint> known;
         for (const auto& test : tests_) {
             std::string id;
             if (test->entry().has_pictures() && (test->fresh() || options_.add_digest)) {
-                std::optional<Fingerprint>& own = is_lit(test->entry()) ? lit : flat;
-                if (!own) own = is_lit(test->entry()) ? lit_fingerprint() : flat_fingerprint();
-                id = own->id();
-                renderers[id] = own->parts;
+                const Drawn how = drawn(test->entry());
+                if (!known.contains(how)) known[how] = fingerprint_of(how);
+                id = known[how].id();
+                renderers[id] = known[how].parts;
             }
             if (auto change = test->edit(id)) edits.push_back(std::move(*change));
         }

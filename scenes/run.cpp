@@ -92,6 +92,11 @@ class Runner {
     // The run of a command that compares: the same pixels, but no files.
     void hand_over() {
         result_ = std::move(options_.capture->result);
+        if (!plan_.figures.empty()) {
+            const std::vector<sim::Result> others = results_of_studies();
+            for (const FigureFile& f : plan_.figures)
+                options_.capture->figure(figure_image(f.make(by_study(others)), figure_output(f)));
+        }
         for (const Pictures& p : plan_.pictures) draw(p);
     }
 
@@ -260,19 +265,27 @@ class Runner {
     }
 
     // Variants of the scene are integrated side by side; each figure then reads what it asked for.
-    void write_figures() {
-        if (plan_.figures.empty()) return;
+    std::vector<sim::Result> results_of_studies() {
         const auto start = Clock::now();
-        const std::vector<sim::Result> others =
+        std::vector<sim::Result> others =
             simulate_studies(plan_.studies, thread_count(), progress_, options_.quiet);
         times_.simulate += seconds_since(start);
+        return others;
+    }
+    Results by_study(const std::vector<sim::Result>& others) const {
         Results results{&result_};
         for (const sim::Result& other : others) results.push_back(&other);
+        return results;
+    }
+
+    void write_figures() {
+        if (plan_.figures.empty()) return;
+        const std::vector<sim::Result> others = results_of_studies();
         for (const FigureFile& f : plan_.figures) {
             stop_if_interrupted();
             const auto begun = Clock::now();
             const FigureOutput& how = figure_output(f);
-            for (const auto& [file, bytes] : figure_files(f.make(results), how, scene_of_figure(scene_, how))) {
+            for (const auto& [file, bytes] : figure_files(f.make(by_study(others)), how, scene_of_figure(scene_, how))) {
                 output::write_file(path_of(file), bytes);
                 wrote(path_of(file), file == how.file ? f.figure : "");
             }

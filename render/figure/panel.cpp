@@ -159,6 +159,7 @@ bool PanelDrawing::place(const Box& plot) {
         place_boxes(true);
     }
     place_marks();
+    place_rules();
     return boxed ? settled_ : place_labels();
 }
 
@@ -269,6 +270,32 @@ void PanelDrawing::place_marks() {
         taken_.front().cover(Box{best.at.x, best.at.y + size.y, size.w, size.h});
         if (best.leader) taken_.front().cover(std::vector<Vec2>{best.leader->first, best.leader->second}, 4);
         writings_.push_back(std::move(best));
+    }
+}
+
+// Small words on the rules that have them, where least is covered; the right end wins ties.
+void PanelDrawing::place_rules() {
+    Lettering l = numbers();
+    l.color = kMuted;
+    for (const Rule& r : panel_.rules) {
+        const double share = (r.vertical ? x_ : y_).front().place(r.at);
+        if (r.label.empty() || !(share >= 0 && share <= 1)) continue;
+        const Box size = sheet_.measure(r.label, l);
+        const double along = r.vertical ? plot_.x + share * plot_.w : plot_.bottom() - share * plot_.h;
+        const double room = (r.vertical ? plot_.h - size.h : plot_.w - size.w) - 2 * style_.gap;
+        Box best;
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k <= 20; ++k)
+            for (const double side : {-1.0, 1.0}) {  // above or left of the rule, below or right of it
+                const double from = style_.gap + room * (1 - k / 20.0), off = 0.7 * style_.gap;
+                const double beside = side < 0 ? along - off - (r.vertical ? size.w : size.h) : along + off;
+                const Box box = r.vertical ? Box{beside, plot_.y + room + 2 * style_.gap - from, size.w, size.h}
+                                           : Box{plot_.x + from, beside, size.w, size.h};
+                const double cost = 10 * taken_.front().cost(box.inset(-1)) + 0.1 * k + 0.05 * side;
+                if (cost < least) least = cost, best = box;
+            }
+        taken_.front().cover(best);
+        writings_.push_back({{best.x, best.y - size.y}, r.label, l, {}});
     }
 }
 

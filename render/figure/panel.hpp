@@ -48,6 +48,7 @@ class PanelDrawing {
     Place inset_place(const Inset& inset);
     double place_insets();
     void place_marks();
+    void place_rules();
     bool place_labels();
     bool place_direct();
     bool place_legend();

@@ -8,7 +8,10 @@
 #include "output/interrupt.hpp"
 #include "output/manifest.hpp"
 #include "output/records.hpp"
+#include "render/figure/style.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/figures/accuracy.hpp"
+#include "scenes/figures/make.hpp"
 #include "scenes/progress.hpp"
 
 namespace beamcam::scenes {
@@ -19,6 +22,7 @@ struct Arguments {
     std::string scene;
     std::vector<std::string> files;
     std::optional<std::string> until, target;
+    std::string column = "elsevier", lang = "en";
     int repeats = 5;
     double longest = 2;
 };
@@ -71,6 +75,19 @@ std::string report(const sim::Accuracy& a) {
     return text;
 }
 
+bool is_picture(const std::string& file) { return file != "-" && !file.ends_with(".json"); }
+
+// The diagram carries the scene, but no output makes it again: its times are of this machine and hour.
+std::string diagram(const sim::Accuracy& found, Scene scene, const Arguments& args, const std::string& file) {
+    FigureOutput how;
+    how.file = file;
+    how.figure = "accuracy";
+    how.column = args.column;
+    how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+    scene.outputs.clear();
+    return figure_files(accuracy_figure(found, scene.problem, how.lang), how, to_json(scene)).front().second;
+}
+
 int act(const Arguments& args) {
     const Scene scene = read_or_refuse(args.scene, args.common);
     sim::AccuracyRequest request;
@@ -84,7 +101,7 @@ int act(const Arguments& args) {
     request.longest_run = args.longest;
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
-        need_ending("-o", file, {".json"});
+        need_ending("-o", file, {".json", ".png", ".svg", ".pdf"});
         if (file != "-") manifest.require_replaceable(file);
     }
     const RunOptions options = run_options(args.common, "");
@@ -97,7 +114,8 @@ int act(const Arguments& args) {
     progress.end();
     bool data_printed = false;
     for (const std::string& file : args.files) {
-        const std::string text = output::accuracy_json(found);
+        const std::string text =
+            is_picture(file) ? diagram(found, scene, args, file) : output::accuracy_json(found);
         if (file == "-") {
             print_data(text);
             data_printed = true;
@@ -132,6 +150,12 @@ void add_accuracy(Grammar& grammar) {
     app->add_option("--longest", args->longest, "Leave out runs that take longer than this many seconds (default: 2)")
         ->check(CLI::PositiveNumber)
         ->type_name("S");
+    app->add_option("--column", args->column, "Width and letters of a journal's column, for the diagram")
+        ->check(CLI::IsMember(render::figure::column_names()))
+        ->type_name("COLUMN");
+    app->add_option("--lang", args->lang, "Language of the diagram: en or zh")
+        ->check(CLI::IsMember({"en", "zh"}))
+        ->type_name("LANG");
     app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
         ->type_name("STYLE");
     app->add_flag("--force", args->common.force, "Replace files that beamcam did not make");

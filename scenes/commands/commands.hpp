@@ -60,17 +60,6 @@ void add_paper(Grammar& grammar);
 inline constexpr void (*kCommands[])(Grammar&) = {
     add_run,    add_render, add_simulate, add_modes, add_check, add_plan,   add_init,
     add_schema, add_hash,   add_diff,     add_test,  add_info,  add_doctor, add_accuracy,
-    add_run,
-    add_render,
-    add_simulate,
-    add_modes,
-    add_check,
-    add_plan,
-    add_init,
-    add_schema,
-    add_hash,
-    add_diff,
-    add_accuracy,
     add_figure,
     add_paper,
 };

@@ -46,21 +46,30 @@ figure::Document document_of(const figure::Figure& f, const std::string& scene) 
     return d;
 }
 
-std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
+figure::Page page_of(const figure::Figure& f, const FigureOutput& how) {
     const figure::Column* column = figure::column_named(how.column);
     if (!column) throw render::PictureError(fmt::format("figure {}: there is no column \"{}\"", f.name, how.column));
-    const figure::Page page =
-        figure::page_of(f, *column, how.width ? std::optional(*how.width * 1e3) : std::nullopt);
-    const figure::Document document = document_of(f, scene);
-    const std::string kind = ending(how.file);
-    const figure::Medium medium = kind == ".pdf"   ? figure::Medium::pdf
-                                  : kind == ".svg" ? figure::Medium::svg
-                                                   : figure::Medium::png;
+    return figure::page_of(f, *column, how.width ? std::optional(*how.width * 1e3) : std::nullopt);
+}
+
+// What `take` gets out of the sheet with the figure on it.
+template <class Take>
+auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medium, const figure::Document& document,
+           Take take) {
+    const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f), render::Typefaces::print);
     figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.dpi}, fonts, document);
     figure::draw(f, page, sheet);
-    if (medium != figure::Medium::png) return sheet.bytes();
-    return output::encode_png(sheet.image(), {how.dpi,
+    return take(sheet);
+}
+
+std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
+    const figure::Document document = document_of(f, scene);
+    const std::string kind = ending(how.file);
+    if (kind == ".pdf" || kind == ".svg")
+        return drawn(f, how, kind == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
+                     [](figure::Sheet& sheet) { return sheet.bytes(); });
+    return output::encode_png(figure_image(f, how), {how.dpi,
                                               {{"Title", document.title},
                                                {"Description", document.subject},
                                                {"Software", document.creator},
@@ -75,6 +84,10 @@ std::vector<std::string> files_of(const FigureOutput& how) {
     if (!how.data_file.empty()) files.push_back(how.data_file);
     if (!how.caption_file.empty()) files.push_back(how.caption_file);
     return files;
+}
+
+render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
+    return drawn(f, how, figure::Medium::png, {}, [](figure::Sheet& sheet) { return sheet.image(); });
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {

@@ -20,6 +20,9 @@ std::vector<std::string> files_of(const FigureOutput& how);
 std::vector<std::pair<std::string, std::string>> figure_files(const render::figure::Figure& figure,
                                                               const FigureOutput& how, const std::string& scene);
 
+// Its pixels at `how.dpi`, as a .png has them.
+render::Image figure_image(const render::figure::Figure& figure, const FigureOutput& how);
+
 // The scene as a figure carries it: its physics and this one figure, whatever its file is called.
 std::string scene_of_figure(Scene scene, FigureOutput how);
 

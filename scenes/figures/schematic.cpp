@@ -165,7 +165,7 @@ class Drawing {
             arrow({0, 0}, a * sim::unit(2.4));
             label(a * sim::unit(2.4), "$a$", {-0.5, 0.6});
         } else {
-            label({0, 0}, "$a$ = 0", {-2.6, -0.9}, kGrey);
+            label({0, 0}, "$a$ = 0", {-3.5, -0.9}, kGrey);
         }
         add({.kind = Kind::disc, .centre = {0, 0}, .radius_points = 3, .color = render::rgb(0xFFFFFF)});
         add({.kind = Kind::circle, .centre = {0, 0}, .radius_points = 3, .color = kInk, .width = 0.9});

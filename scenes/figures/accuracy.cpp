@@ -1,0 +1,146 @@
+#include "scenes/figures/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "render/error.hpp"
+#include "scenes/figures/recipes.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Axis;
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Scale;
+using render::figure::Series;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Words kError{"error of $θ$ / rad", "$θ$ 的误差 / rad"}, kTime{"run time / ms", "计算时间 / ms"};
+
+// A logarithmic axis has no zero: an error that is not to be seen stands at the reference's own.
+double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
+
+// The points of one method and, behind them, from the shortest to the longest of the repeated timings.
+void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int look) {
+    Series points, spread;
+    points.label = sim::name(method);
+    points.look = spread.look = look;
+    points.every_point = true;
+    spread.no_direct_label = spread.solid = true;
+    spread.weight = 0.6;
+    for (const sim::WorkRow& row : a.work) {
+        if (row.method != method || !row.error || row.time.repeats == 0) continue;
+        const double error = visible(*row.error, a);
+        points.x.push_back(1e3 * row.time.median);
+        points.y.push_back(error);
+        for (const double seconds : {row.time.low, row.time.high, kNone}) {
+            spread.x.push_back(1e3 * seconds);
+            spread.y.push_back(error);
+        }
+    }
+    if (points.x.empty()) return;
+    panel.series.push_back(std::move(spread));
+    panel.series.push_back(std::move(points));
+}
+
+Panel work_precision(const sim::Accuracy& a, Lang lang) {
+    Panel panel;
+    panel.name = "work-precision";
+    panel.x = {.label = kTime.in(lang), .scale = Scale::logarithmic};
+    panel.y = {.label = kError.in(lang), .scale = Scale::logarithmic};
+    panel.legend = Legend::box;
+    std::vector<sim::Method> methods;
+    for (const sim::WorkRow& row : a.work)
+        if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+    for (std::size_t k = 0; k < methods.size(); ++k) add_method(panel, a, methods[k], static_cast<int>(k));
+    panel.rules.push_back({.at = a.reference_error, .label = Words{"reference", "参考解"}.in(lang)});
+    panel.rules.push_back({.at = a.target, .label = Words{"target", "目标"}.in(lang)});
+    return panel;
+}
+
+Panel mode_counts(const sim::Accuracy& a, Lang lang) {
+    Panel panel;
+    panel.name = "modes";
+    panel.x = {.label = "$N$"};
+    panel.y = {.label = kError.in(lang), .scale = Scale::logarithmic};
+    panel.right = Axis{.label = kTime.in(lang), .scale = Scale::logarithmic};
+    panel.legend = Legend::box;
+    Series error, time;
+    error.label = filled(lang == Lang::en ? "error, against $N$ = {}" : "误差（相对 $N$ = {}）", a.most_modes);
+    time.label = lang == Lang::en ? "run time (right)" : "计算时间（右）";
+    error.every_point = time.every_point = time.right = true;
+    time.look = 1;
+    for (const sim::ModesRow& row : a.modes) {
+        if (!row.error) continue;
+        if (row.modes != a.most_modes) {
+            error.x.push_back(row.modes);
+            error.y.push_back(visible(*row.error, a));
+        }
+        if (row.time.repeats == 0) continue;
+        time.x.push_back(row.modes);
+        time.y.push_back(1e3 * row.time.median);
+    }
+    if (!error.x.empty()) panel.series.push_back(std::move(error));
+    if (!time.x.empty()) panel.series.push_back(std::move(time));
+    return panel;
+}
+
+// The parts of the budget that have no panel of their own.
+std::string budget(const sim::Accuracy& a, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string models, text;
+    for (const sim::ModelRow& row : a.models)
+        if (row.error && row.model != a.best_model)
+            models += fmt::format("{}{} {} rad", models.empty() ? "" : ", ", sim::name(row.model), number(*row.error, 2));
+    if (!models.empty())
+        text += filled(en ? " Within {1} s the models of the beam differ from {0} by: {2}."
+                          : "前 {1} s 内各梁模型与 {0} 的差：{2}。",
+                       sim::name(a.best_model), number(a.models_until, 3), models);
+    std::string contact;
+    for (const sim::ContactRow& row : a.contact)
+        if (row.error)
+            contact += fmt::format("{}{} {} rad", contact.empty() ? "" : ", ", row.change, number(*row.error, 2));
+    if (!contact.empty())
+        text += filled(en ? " Changes of the contact law move $θ$ by: {}." : "接触参数的变化引起的 $θ$ 的改变：{}。", contact);
+    return text;
+}
+
+}  // namespace
+
+Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang lang) {
+    const bool en = lang == Lang::en;
+    Figure figure;
+    figure.name = "accuracy";
+    figure.title = en ? "Error against run time" : "误差与计算时间";
+    figure.panels.push_back(work_precision(a, lang));
+    if (figure.panels.front().series.empty())
+        throw render::PictureError("accuracy: no run ended, so there is nothing to draw");
+    Panel modes = mode_counts(a, lang);
+    if (modes.series.size() == 2) figure.panels.push_back(std::move(modes));
+    for (std::size_t i = 0; figure.panels.size() > 1 && i < figure.panels.size(); ++i)
+        figure.panels[i].letter = i == 0 ? "a" : "b";
+    figure.aspect = figure.panels.size() > 1 ? 1.5 : 0.8;
+    int repeats = 0;
+    double loosest = 0, tightest = 1;
+    for (const sim::WorkRow& row : a.work) {
+        repeats = std::max(repeats, row.time.repeats);
+        loosest = std::max(loosest, row.rtol);
+        tightest = std::min(tightest, row.rtol);
+    }
+    figure.caption = filled(
+        en ? "Largest error of $θ$ in the first {} s against the run time on one core, median of {} runs with their "
+             "range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}, {} modes.{}"
+           : "前 {} s 内 $θ$ 的最大误差与单核计算时间（{} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}，{} "
+             "阶模态。{}",
+        number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), sim::name(problem.beam.model),
+        problem.beam.modes, budget(a, lang));
+    figure.accuracy = filled(en ? "The reference is good to about {} rad." : "参考解自身误差约 {} rad。",
+                             number(a.reference_error, 1));
+    return figure;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,13 @@
+// The picture of an assessment: error against run time of every method, and error against the number of modes.
+#pragma once
+
+#include "render/figure/figure.hpp"
+#include "scenes/scene.hpp"
+#include "sim/accuracy.hpp"
+
+namespace beamcam::scenes {
+
+// Throws render::PictureError when nothing was measured.
+render::figure::Figure accuracy_figure(const sim::Accuracy& accuracy, const sim::Problem& problem, Lang lang);
+
+}  // namespace beamcam::scenes
