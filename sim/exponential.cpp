@@ -543,7 +543,7 @@ class Exponential final : public Integrator {
             }
             double error = solve_contact(*now);
             const double h = now->h;
-            if (std::isfinite(error) && (clamped() || deep())) return false;
+            if (std::isfinite(error) && deep()) return false;
             TouchSamples::Ending ending = TouchSamples::Ending::open;
             if (std::isfinite(error)) {
                 const double end = cut(h, ending);
@@ -759,15 +759,6 @@ class Exponential final : public Integrator {
         bool beyond = end_touch_.gap < deepest;
         for (int k = 0; k < kNodes; ++k) beyond = beyond || touch_.gap[k] < deepest;
         return beyond;
-    }
-
-    // The law is cut off at zero somewhere in the step just solved: a kink, which goes to the other method.
-    bool clamped() const {
-        const NormalLaw& law = system_.normal_law();
-        bool cut_off = !(law.factor(-start_touch_.gap_rate, approach_) > 0);
-        for (int k = 0; k < kNodes; ++k)
-            cut_off = cut_off || (touch_.gap[k] < 0 && !(law.factor(-touch_.gap_rate[k], approach_) > 0));
-        return cut_off || (end_touch_.gap < 0 && !(law.factor(-end_touch_.gap_rate, approach_) > 0));
     }
 
     // Where the step must end: its length, or the first instant at which the gap opens or the law starts or stops to be

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/lane_kernels.hpp"
+
 namespace beamcam::sim {
 
 template <class Visit>
@@ -99,7 +101,11 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
     v.resize(n_);
     f.resize(n_);
     end.resize(static_cast<std::size_t>(state_size));
-    taylor_.resize(n_ * kNodes);
+    const std::size_t groups = form_->groups.size();
+    turned_.resize(groups * kNodes);
+    taylor_.resize(groups * kNodes);
+    begin_q_.resize(groups);
+    begin_v_.resize(groups);
 }
 
 double ExponentialSegment::spin_at(double p, const double* x) const {
@@ -112,15 +118,30 @@ double ExponentialSegment::spin_at(double p, const double* x) const {
     return p / (form_->J + quadratic);
 }
 
-// Derivatives of the forcing at the start of the step or at a node.
+// Derivatives of the forcing at the start of the step or at a node, and where the modes are there.
 void ExponentialSegment::expand(int at) const {
     if (expanded_ == at) return;
     expanded_ = at;
-    const Collocation& gauss = Collocation::get();
-    double inverse = 1;
-    for (std::size_t j = 0; j < kNodes; ++j, inverse /= h)
+    if (!turned_known_) {
+        turned_known_ = true;
         for (std::size_t i = 0; i < n_; ++i)
-            taylor_[i * kNodes + j] = inverse * sum(gauss.derive[static_cast<std::size_t>(at)][j] * f[i]);
+            for (int l = 0; l < kNodes; ++l)
+                turned_[i / kNodes * kNodes + static_cast<std::size_t>(l)][static_cast<int>(i % kNodes)] = f[i][l];
+    }
+    std::array<Lanes, kNodes> factors = Collocation::get().derive[static_cast<std::size_t>(at)];
+    double inverse = 1;
+    for (Lanes& factor : factors) {
+        factor *= inverse;
+        inverse /= h;
+    }
+    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
+        lane_kernels().combine(factors.data(), turned_.data() + g * kNodes, taylor_.data() + g * kNodes);
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
+            const int lane = static_cast<int>(i % kNodes);
+            begin_q_[g][lane] = at == 0 ? q0[i] : q[i][at - 1];
+            begin_v_[g][lane] = at == 0 ? v0[i] : v[i][at - 1];
+        }
+    }
 }
 
 void ExponentialSegment::value(double t, double* y) const {
@@ -135,19 +156,15 @@ void ExponentialSegment::value(double t, double* y) const {
     expand(at);
     const double tau = (s - gauss.point[static_cast<std::size_t>(at)]) * h;
     double* rates = y + 1 + n_;
-    for (std::size_t i = 0; i < n_; ++i) {
-        const Oscillator& o = form_->oscillators[i];
-        double r[kResponse];
-        respond(o, tau, r);
-        const double qa = at == 0 ? q0[i] : q[i][at - 1], va = at == 0 ? v0[i] : v[i][at - 1];
-        double x = (r[0] + 2 * o.gamma * r[1]) * qa + r[1] * va, dx = r[0] * va - o.omega * o.omega * r[1] * qa;
-        const double* taylor = taylor_.data() + i * kNodes;
-        for (int j = 0; j < kNodes; ++j) {
-            x += taylor[j] * r[2 + j];
-            dx += taylor[j] * r[1 + j];
+    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
+        Lanes r[kResponse], x, dx;
+        const OscillatorLanes& group = form_->groups[g];
+        respond(group, tau, r);
+        lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, dx);
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
+            y[1 + i] = x[static_cast<int>(i % kNodes)];
+            rates[1 + i] = dx[static_cast<int>(i % kNodes)];
         }
-        y[1 + i] = x;
-        rates[1 + i] = dx;
     }
     Lanes weights;
     gauss.weights_to(s, weights);

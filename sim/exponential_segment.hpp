@@ -21,6 +21,7 @@ class ExponentialSegment final : public Segment {
     // Must be called when the numbers have changed.
     void changed() {
         expanded_ = -1;
+        turned_known_ = false;
         bounds_known_ = false;
     }
 
@@ -64,7 +65,9 @@ class ExponentialSegment final : public Segment {
     mutable bool bounds_known_ = false;
     mutable MotionBounds bounds_;
     mutable int expanded_ = -1;
-    mutable std::vector<double> taylor_;  // n × kNodes: derivatives of f at the point `expanded_`
+    // In lanes over eight modes, by group: f at the nodes; derivatives of f, and q and q̇, at the point `expanded_`.
+    mutable bool turned_known_ = false;
+    mutable std::vector<Lanes> turned_, taylor_, begin_q_, begin_v_;
 };
 
 }  // namespace beamcam::sim

@@ -1,6 +1,6 @@
-// Eight numbers side by side, one for each node of a collocation step. Written with the compiler's vector
-// types: every lane sees the same operations in the same order whatever the machine, so results have the same bits
-// with two, four or eight lanes an instruction.
+// Eight numbers side by side, one for each node of a collocation step. Written with the compiler's vector types, in parts
+// as wide as every machine's registers (wider vector types are taken apart through memory): every lane sees the same
+// operations in the same order, so results have the same bits with two, four or eight lanes an instruction.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,41 @@
 namespace beamcam::sim {
 
 inline constexpr int kNodes = 8;
-using Lanes = double __attribute__((vector_size(kNodes * sizeof(double))));
+
+struct Lanes {
+    using Part = double __attribute__((vector_size(16), may_alias));
+    static constexpr int kParts = kNodes / 2;
+    Part part[kParts];
+
+    BEAMCAM_INLINE double& operator[](int k) { return reinterpret_cast<double*>(part)[k]; }
+    BEAMCAM_INLINE double operator[](int k) const { return reinterpret_cast<const double*>(part)[k]; }
+};
+
+// Lane by lane; a number stands for eight of it.
+#define BEAMCAM_LANES_OPERATOR(op)                                                            \
+    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, const Lanes& b) {                          \
+        for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = a.part[i] op b.part[i];           \
+        return a;                                                                             \
+    }                                                                                         \
+    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, double b) {                                \
+        for (Lanes::Part& part : a.part) part = part op b;                                    \
+        return a;                                                                             \
+    }                                                                                         \
+    BEAMCAM_INLINE Lanes operator op(Lanes a, const Lanes& b) { return a op##= b; }           \
+    BEAMCAM_INLINE Lanes operator op(Lanes a, double b) { return a op##= b; }                 \
+    BEAMCAM_INLINE Lanes operator op(double a, Lanes b) {                                     \
+        for (Lanes::Part& part : b.part) part = a op part;                                    \
+        return b;                                                                             \
+    }
+BEAMCAM_LANES_OPERATOR(+)
+BEAMCAM_LANES_OPERATOR(-)
+BEAMCAM_LANES_OPERATOR(*)
+BEAMCAM_LANES_OPERATOR(/)
+#undef BEAMCAM_LANES_OPERATOR
+BEAMCAM_INLINE Lanes operator-(Lanes a) {
+    for (Lanes::Part& part : a.part) part = -part;
+    return a;
+}
 
 BEAMCAM_INLINE void spread(double value, Lanes& out) { out = Lanes{} + value; }
 BEAMCAM_INLINE double sum(const Lanes& a) {

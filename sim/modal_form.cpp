@@ -50,6 +50,7 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
         form->beta.push_back(model->shapes().beta(i));
         form->highest = std::max(form->highest, o.omega);
     }
+    form->groups = side_by_side(form->oscillators);
     if (n == 0) return form;
     copy_rows(model->inertia_matrix(), 1, form->inertia);
     if (form->paper) {

@@ -19,6 +19,7 @@ struct ModalForm {
     bool prescribed = false, paper = false, shortening = false, damped = false;
     double J = 0, S = 0, mass = 1, gravity = 0, radius = 0, length = 1;
     std::vector<Oscillator> oscillators;
+    std::vector<OscillatorLanes> groups;  // the same, eight by eight
     // Row-major n × n. f_i = Θ̇² (inertia q)_i + Y (second q)_i + …, Y = g sin Θ, or −Θ̇²(al + ½l²) for `paper`;
     // per unit of mass.
     std::vector<double> spinning, second;

@@ -1,6 +1,9 @@
 #include "sim/oscillator.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim/lane_kernels.hpp"
 
 namespace beamcam::sim {
 
@@ -47,14 +50,60 @@ void respond(const Oscillator& o, double tau, double* r) {
     for (int j = kNodes - 2; j > 0; --j) r[1 + j] = power[j + 1] - damping * r[2 + j] - w2 * r[3 + j];
 }
 
+// [rad/s] Slower oscillators hardly have a period: their inverse frequencies are best left alone.
+constexpr double kStill = 1e-6;
+
+std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators) {
+    std::vector<OscillatorLanes> groups((oscillators.size() + kNodes - 1) / kNodes);
+    for (std::size_t i = 0; i < groups.size() * kNodes; ++i) {
+        const Oscillator& o = oscillators[std::min(i, oscillators.size() - 1)];
+        OscillatorLanes& group = groups[i / kNodes];
+        const int lane = static_cast<int>(i % kNodes);
+        const double w2 = o.omega * o.omega;
+        group.omega[lane] = o.omega;
+        group.square[lane] = w2;
+        group.inverse_square[lane] = 1 / w2;
+        group.gamma[lane] = o.gamma;
+        group.damping[lane] = 2 * o.gamma;
+        group.turning[lane] = o.gamma == 0 ? o.omega : std::sqrt(w2 - o.gamma * o.gamma);
+        group.inverse_turning[lane] = 1 / group.turning[lane];
+        group.slowest = lane == 0 ? o.omega : std::min(group.slowest, o.omega);
+        group.fastest = std::max(group.fastest, o.omega);
+        group.damped = group.damped || o.gamma > 0;
+    }
+    return groups;
+}
+
+void respond(const OscillatorLanes& group, double tau, Lanes* r) {
+    if (!(group.fastest * tau < kMostRadians && group.slowest > kStill)) {
+        for (int k = 0; k < kNodes; ++k) {
+            double one[kResponse];
+            respond(Oscillator{group.omega[k], group.gamma[k]}, tau, one);
+            for (int j = 0; j < kResponse; ++j) r[j][k] = one[j];
+        }
+        return;
+    }
+    Lanes decay = Lanes{} + 1.0;
+    if (group.damped)
+        for (int k = 0; k < kNodes; ++k) decay[k] = std::exp(-group.gamma[k] * tau);
+    lane_kernels().respond(group, tau, decay, r);
+}
+
 void StepTable::build(const std::vector<Oscillator>& oscillators, double length) {
     const Collocation& gauss = Collocation::get();
     h = length;
     rows.resize(oscillators.size());
-    // Scaled derivatives: derive/hʲ times the responses.
+    // Scaled derivatives: derive/hʲ times the responses_.
     double inverse[kNodes];
     inverse[0] = 1;
     for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    const std::vector<OscillatorLanes> groups = side_by_side(oscillators);
+    responses_.resize(groups.size() * (kNodes + 1) * kResponse);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t k = 0; k <= kNodes; ++k) {
+            const double to = k < kNodes ? gauss.c[static_cast<int>(k)] : 1;
+            respond(groups[g], (to - gauss.point[k]) * h, responses_.data() + (g * (kNodes + 1) + k) * kResponse);
+        }
     for (std::size_t i = 0; i < oscillators.size(); ++i) {
         const Oscillator& o = oscillators[i];
         Row& row = rows[i];
@@ -63,9 +112,9 @@ void StepTable::build(const std::vector<Oscillator>& oscillators, double length)
         double qq = 1, qv = 0, vq = 0, vv = 1;
         Lanes q{}, v{};
         for (std::size_t k = 0; k <= kNodes; ++k) {
-            const double to = k < kNodes ? gauss.c[static_cast<int>(k)] : 1;
+            const Lanes* all = responses_.data() + (i / kNodes * (kNodes + 1) + k) * kResponse;
             double r[kResponse];
-            sim::respond(o, (to - gauss.point[k]) * h, r);
+            for (int j = 0; j < kResponse; ++j) r[j] = all[j][static_cast<int>(i % kNodes)];
             const double a = r[0] + damping * r[1], b = r[1], c = -w2 * r[1], d = r[0];
             Lanes q1 = a * q + b * v, v1 = c * q + d * v;
             for (std::size_t j = 0; j < kNodes; ++j) {

@@ -18,6 +18,17 @@ struct Oscillator {
 inline constexpr int kResponse = 2 + kNodes;
 void respond(const Oscillator& oscillator, double tau, double* r);
 
+// Eight oscillators side by side; a group that is not full repeats its last.
+struct OscillatorLanes {
+    Lanes omega, square, inverse_square, damping, gamma;  // ω, ω², 1/ω², 2γ, γ
+    Lanes turning, inverse_turning;                       // √(ω² − γ²) and its inverse
+    double slowest = 0, fastest = 0;                      // of the group [rad/s]
+    bool damped = false;
+};
+std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators);
+// The same of a whole group: r[kResponse], in lanes over oscillators.
+void respond(const OscillatorLanes& group, double tau, Lanes* r);
+
 // What a step of length h does to the oscillators: rows for the eight nodes, and for the end.
 struct StepTable {
     struct Row {  // of one oscillator: q ← qq q₀ + qv v₀ + Σ f_l q[l],  v ← vq q₀ + vv v₀ + Σ f_l v[l]
@@ -29,6 +40,9 @@ struct StepTable {
     double h = 0;
     std::vector<Row> rows;
     void build(const std::vector<Oscillator>& oscillators, double length);
+
+  private:
+    std::vector<Lanes> responses_;  // kept for its memory
 };
 
 }  // namespace beamcam::sim

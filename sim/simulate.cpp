@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim/exponential.hpp"
+#include "sim/gap_probe.hpp"
 #include "sim/initial.hpp"
 #include "sim/numerics.hpp"
 #include "sim/observe.hpp"
@@ -69,6 +70,7 @@ class Run {
           keep_(keep),
           dynamics_(problem),
           scout_(dynamics_),
+          gap_(scout_),
           audience_(dynamics_, requests),
           end_(audience_.end()) {
         const Solver& solver = problem.solver;
@@ -187,6 +189,11 @@ class Run {
         segment.value(t, probe_y_.data());
         return scout_.contact(t, probe_y_.data(), search);
     }
+    // In flight, and no more than gap, rate and foot.
+    ContactState gap_at(const Segment& segment, double t, bool search) {
+        segment.value(t, probe_y_.data());
+        return gap_.look(t, probe_y_.data(), search);
+    }
     ContactState contact_now() { return scout_.contact(t_, y_.data(), true); }
 
     int pieces(const Segment& segment) const {
@@ -271,14 +278,14 @@ class Run {
 
         const double most = gap_acceleration_bound(bounds);
         double t = segment.t0;
-        ContactState c = scout_.contact(t, probe_y_.data(), true);
+        ContactState c = gap_.look(t, probe_y_.data(), true);
         if (t == phase_start_) {
             if (!(c.gap_rate > kRestSpeed)) {
                 // It hardly leaves: look closely at first.
                 t = std::min(segment.t1, t + 1 / (scout_.highest_frequency() + bounds.spin + 1 / h));
                 const Event event = touch_between(segment, t, 4);
                 if (event.kind != EventKind::none) return event;
-                c = contact_at(segment, t, true);
+                c = gap_at(segment, t, true);
             }
             c.gap = std::max(c.gap, 0.0);  // rounding of the release
         }
@@ -293,7 +300,7 @@ class Run {
             const double next = t + std::max(safe, 1e-15 * t);
             if (next >= segment.t1) return {};
             t = next;
-            c = contact_at(segment, t, false);
+            c = gap_at(segment, t, false);
         }
         return touch_between(segment, segment.t1, kMaxLooks);
     }
@@ -306,10 +313,10 @@ class Run {
             if (!(next > low && next < high)) next = 0.5 * (low + high);
             if (next >= segment.t1) {
                 next = segment.t1;
-                c = contact_at(segment, next, false);
+                c = gap_at(segment, next, false);
                 if (c.gap > 0) return {};
             } else {
-                c = contact_at(segment, next, false);
+                c = gap_at(segment, next, false);
             }
             if (next == t || c.gap == 0 || std::fabs(c.gap) < 1e-16 * problem_.cam->radius)
                 return {EventKind::touch, next};
@@ -637,6 +644,7 @@ class Run {
     const Progress& progress_;
     TrajectoryWriter* keep_;
     System dynamics_, scout_;
+    GapProbe gap_;  // of the scout
     Audience audience_;
     std::unique_ptr<Integrator> integrator_;
     std::vector<double> y_, probe_y_, kinks_;

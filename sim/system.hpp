@@ -128,6 +128,8 @@ class System final : public Ode {
     // Cheap bounds for the search of touches: the gap is at least this [m]; |d gap/dt| at most that [m/s].
     double gap_lower_bound(double t, const double* y) const;
     double gap_speed_bound(double t, const double* y) const;
+    // After `place`: only one foot exists, wherever the disc is.
+    bool nearly_straight() const;
     double highest_frequency() const { return highest_frequency_; }
 
     bool inertia_lost() const { return inertia_lost_; }
@@ -156,7 +158,6 @@ class System final : public Ode {
     // Forces and inertia of the model; false when the inertia that must answer is not positive.
     bool assemble(double* f);
     double bending_reach(const double* coordinates) const;
-    bool nearly_straight() const;
     Books open_books(double t, const double* y);
 
     Problem problem_;

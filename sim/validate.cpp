@@ -162,6 +162,25 @@ void check_cam(Findings& out, const Problem& p) {
 }
 
 // Where cam and beam are to each other; every number is known to be sane.
+struct StartGap {
+    double gap, x;  // [m]
+};
+// Of a straight beam: the distance of a segment and a disc.
+StartGap straight_gap(const Problem& p) {
+    const Cam& cam = *p.cam;
+    double angle = p.initial.angle;
+    if (is_prescribed(p.hub.drive)) angle = DriveLaw(p.hub.drive, angle).motion(0).angle;
+    const Vec2 along = unit(angle), disc = cam.centre + cam.eccentricity * unit(cam.phase);
+    const double x = std::clamp(dot(disc, along) - p.hub.radius, 0.0, p.beam.length);
+    return {norm((p.hub.radius + x) * along - disc) - cam.radius - contact_offset(p), x};
+}
+StartGap gap_at_start(const Problem& p) {
+    System system(p);
+    const InitialState start = initial_state(system);
+    const ContactState c = system.contact(0, start.y.data(), true);
+    return {c.gap, c.x};
+}
+
 void check_geometry(Findings& out, const Problem& p) {
     const Cam& cam = *p.cam;
     const double d = contact_offset(p), away = norm(cam.centre), a = p.hub.radius;
@@ -182,14 +201,12 @@ void check_geometry(Findings& out, const Problem& p) {
     }
     if (p.initial.shape == InitialShape::resting) return;
     try {
-        const InitialState start = initial_state(p);
-        System system(p);
-        const ContactState c = system.contact(0, start.y.data(), true);
-        if (c.gap < -1e-12 * std::max(1.0, p.beam.length))
+        const auto [gap, x] = p.initial.shape == InitialShape::straight ? straight_gap(p) : gap_at_start(p);
+        if (gap < -1e-12 * std::max(1.0, p.beam.length))
             out.refuse("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
                                                     "the beam); raise the angle, turn cam.phase, "
                                                     "or use \"shape\": \"resting\"",
-                                                    -c.gap, c.x));
+                                                    -gap, x));
     } catch (const StepFailure& failure) {
         out.refuse("initial.shape", failure.what());
     }

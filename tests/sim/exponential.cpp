@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "sim/gap_probe.hpp"
 #include "sim/lane_kernels.hpp"
 #include "sim/numerics.hpp"
 #include "support.hpp"
@@ -76,9 +77,40 @@ TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
     }
 }
 
+TEST(Oscillators, SideBySideTheyAnswerAsAlone) {
+    Dice dice(11);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Oscillator> oscillators;
+        double omega = 1;
+        for (int i = 0; i < 11; ++i) {
+            omega *= 1 + 3 * std::fabs(dice.about_zero(1));
+            oscillators.push_back({omega, round % 2 ? 0.5 * std::fabs(dice.about_zero(1)) * omega : 0});
+        }
+        if (round % 5 == 0) oscillators.front() = {0, 0};
+        const double tau = std::pow(10, -4 + 3 * dice.about_zero(1));
+        const std::vector<OscillatorLanes> groups = side_by_side(oscillators);
+        ASSERT_EQ(groups.size(), 2u);
+        for (std::size_t i = 0; i < oscillators.size(); ++i) {
+            Lanes all[kResponse];
+            double one[kResponse];
+            respond(groups[i / kNodes], tau, all);
+            respond(oscillators[i], tau, one);
+            const double reach = oscillators[i].omega * tau;
+            double scale = 1 + 4e-16 * reach / 1e-12;  // of what an ulp of the argument turns the phase by
+            for (int j = 0; j < kResponse; ++j) {
+                if (j == 1) scale *= tau / (1 + reach);
+                if (j > 1) scale *= tau / j;
+                EXPECT_NEAR(all[j][static_cast<int>(i % kNodes)], one[j], 1e-12 * scale) << reach << " " << j;
+            }
+        }
+    }
+}
+
 TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
     Dice dice(5);
-    constexpr std::size_t kRows = 7, kColumns = 5;
+    constexpr std::size_t kRows = 7, kColumns = 9;
+    const OscillatorLanes group =
+        side_by_side({{90, 0}, {300, 5}, {3e3, 2}, {8e3, 0}, {2e4, 0}, {4e4, 7}, {1e5, 0}, {3e5, 9}}).front();
     std::vector<double> a(kRows * kColumns);
     for (double& value : a) value = dice.about_zero(3);
     std::vector<Lanes> x(kColumns), first, y(kRows);
@@ -86,10 +118,56 @@ TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
         for (int k = 0; k < kNodes; ++k) lanes[k] = dice.about_zero(2);
     for (const LaneKernels& kernels : runnable_lane_kernels()) {
         kernels.multiply(kRows, kColumns, a.data(), x.data(), y.data());
+        for (const double tau : {1e-6, 1e-4, 1e-2}) {  // all slow, some, none
+            Lanes r[kResponse], q, v, derivatives[kNodes];
+            kernels.respond(group, tau, x[0], r);
+            kernels.combine(x.data(), x.data() + 1, derivatives);
+            kernels.evolve(group, r, derivatives, x[1], x[2], q, v);
+            y.insert(y.end(), {q, v});
+            y.insert(y.end(), std::begin(r), std::end(r));
+        }
         if (first.empty()) first = y;
-        for (std::size_t r = 0; r < kRows; ++r)
-            for (int k = 0; k < kNodes; ++k) EXPECT_EQ(y[r][k], first[r][k]) << kernels.name;
+        ASSERT_EQ(y.size(), first.size());
+        for (std::size_t r = 0; r < y.size(); ++r)
+            for (int k = 0; k < kNodes; ++k) EXPECT_EQ(y[r][k], first[r][k]) << kernels.name << " " << r;
+        y.resize(kRows);
     }
+}
+
+// ---- gap -----------------------------------------------------------------------------------------
+
+TEST(GapProbe, SeesWhatTheContactIs) {
+    Dice dice(3);
+    int expanded = 0;
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid, ModelKind::paper})
+        for (const int modes : {1, 3, 12}) {
+            Problem p;
+            p.beam.model = kind;
+            p.beam.modes = modes;
+            p.hub.radius = 0.02;
+                System system(p), alone(p);
+            GapProbe probe(system);
+            std::vector<double> y(static_cast<std::size_t>(system.size));
+            const auto n = static_cast<std::size_t>(system.coordinates());
+            double angle = 0.5;
+            for (int k = 0; k < 60; ++k) {
+                angle += 0.02 * dice.about_zero(1);
+                y[0] = angle;
+                y[n] = dice.about_zero(5);
+                for (std::size_t i = 1; i < n; ++i) {
+                    y[i] = dice.about_zero(2e-3) / std::pow(static_cast<double>(i), 4);
+                    y[n + i] = dice.about_zero(0.5);
+                }
+                const double t = 0.01 * k;
+                const ContactState is = alone.contact(t, y.data(), true), seen = probe.look(t, y.data(), k % 7 == 0);
+                if (is.at_end) continue;
+                ++expanded;
+                EXPECT_NEAR(seen.gap, is.gap, 1e-13) << modes;
+                EXPECT_NEAR(seen.gap_rate, is.gap_rate, 1e-10) << modes;
+                EXPECT_NEAR(seen.x, is.x, 1e-9) << modes;
+            }
+        }
+    EXPECT_GT(expanded, 400);
 }
 
 // ---- flight --------------------------------------------------------------------------------------
@@ -155,7 +233,9 @@ TEST(ExponentialFlight, AgreesWithRungeKuttaAtEveryInstant) {
         p.solver.atol = 1e-15;
         p.solver.method = Method::rk8;
         const Result slow = simulate(p, request);
-        if (p.beam.model != ModelKind::rigid) EXPECT_LT(fast.counters.steps, slow.counters.steps / 2) << flight.name;
+        if (p.beam.model != ModelKind::rigid) {
+            EXPECT_LT(fast.counters.steps, slow.counters.steps / 2) << flight.name;
+        }
         for (std::size_t c = 0; c < 5; ++c) {
             double size = c < 3 ? 1e-6 : 1e-3 * slow.energy_scale;  // energies are parts of one sum
             for (const double value : slow.tables[0].values[c]) size = std::max(size, std::fabs(value));
