@@ -217,6 +217,32 @@ std::string accuracy_json(const sim::Accuracy& a) {
     return all.dump(2) + "\n";
 }
 
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    Json plates = Json::array(), cases = Json::array();
+    for (const sim::Plate& plate : campaign.plates)
+        plates.push_back({{"title", plate.title},
+                          {"row_title", plate.row_title},
+                          {"column_title", plate.column_title},
+                          {"rows", plate.rows},
+                          {"columns", plate.columns}});
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const sim::StressCase& one = campaign.cases[i];
+        const sim::StressResult& r = results[i];
+        cases.push_back({{"plate", one.plate},
+                         {"row", one.row},
+                         {"column", one.column},
+                         {"variant", one.variant},
+                         {"outcome", name(r.outcome)},
+                         {"closure", std::isnan(r.closure) ? Json(nullptr) : Json(r.closure)},
+                         {"steps_per_second", r.steps_per_second},
+                         {"steps", r.steps},
+                         {"impacts", r.impacts},
+                         {"reached", r.reached},
+                         {"words", r.words}});
+    }
+    return text_of({{"plates", std::move(plates)}, {"cases", std::move(cases)}});
+}
+
 std::string manifest_json(const MadeFiles& files) {
     Json json;
     json["format"] = kManifestFormat;

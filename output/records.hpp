@@ -18,6 +18,7 @@
 #include "sim/modes.hpp"
 #include "sim/problem.hpp"
 #include "sim/simulate.hpp"
+#include "sim/stress.hpp"
 
 namespace beamcam::output {
 
@@ -48,6 +49,9 @@ struct MadeFile {
     bool operator==(const MadeFile&) const = default;
 };
 using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory
+
+// {"plates": […], "cases": [{"plate", "row", "column", "variant", "outcome", "closure", "steps_per_second", …}, …]}
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
 std::string manifest_json(const MadeFiles& files);
 // Nothing where the text is not a manifest.

@@ -231,7 +231,7 @@ std::string to_json(const Scene& scene) {
     out["gravity"] = p.gravity;
     out["initial"] = {
         {"angle", p.initial.angle}, {"angular_velocity", p.initial.angular_velocity}, {"shape", name(p.initial.shape)}};
-    out["solver"] = {{"method", name(p.solver.method)}, {"rtol", p.solver.rtol}, {"atol", p.solver.atol}};
+    out["solver"] = {{"method", name(p.solver.method)}, {"rtol", p.solver.rtol}, {"atol", p.solver.atol}, {"max_steps", p.solver.max_steps}};
     out["time"] = {{"end", scene.end_time}};
     if (!scene.outputs.empty()) {
         out["outputs"] = Json::array();

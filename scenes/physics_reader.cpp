@@ -303,6 +303,7 @@ void read_solver(Findings& findings, const Node* node, sim::Solver& solver) {
                      solver.method);
     f.quantity("rtol", dim::kNone, solver.rtol);
     f.quantity("atol", dim::kNone, solver.atol);
+    f.whole("max_steps", 1, 2'000'000'000, solver.max_steps);
     f.finish();
 }
 

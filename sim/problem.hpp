@@ -148,6 +148,7 @@ struct Solver {
     Method method = Method::automatic;
     double rtol = 1e-8;   // 1e-13…1e-2
     double atol = 1e-11;  // > 0
+    int max_steps = 100'000'000;  // steps that a run may try, 1…2e9
 };
 
 struct Problem {

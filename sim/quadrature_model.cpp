@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "sim/numerics.hpp"
@@ -93,7 +94,7 @@ class QuadratureModel : public Model {
     }
 
     double frequency(int i) const override {
-        return std::sqrt(bending_(i, i) / straight_mass_[static_cast<std::size_t>(i)]);
+        return frequencies_[static_cast<std::size_t>(i)];
     }
 
     Energies energies() const override {
@@ -131,8 +132,12 @@ class QuadratureModel : public Model {
         const double zero[kMaxSize] = {};
         set(zero, zero);
         assemble(f);
-        straight_mass_.resize(static_cast<std::size_t>(modes_));
-        for (int i = 0; i < modes_; ++i) straight_mass_[static_cast<std::size_t>(i)] = inertia_(1 + i, 1 + i);
+        // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell little.
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+            bending_, inertia_.bottomRightCorner(modes_, modes_), Eigen::EigenvaluesOnly);
+        frequencies_.resize(static_cast<std::size_t>(modes_));
+        for (int i = 0; i < modes_; ++i)
+            frequencies_[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
         build_damping(problem);
     }
 
@@ -151,7 +156,7 @@ class QuadratureModel : public Model {
     mutable Eigen::VectorXd y_, vx_, vy_, scratch_, scratch2_, weights_;
     Small inertia_;
     Eigen::LDLT<Small> factor_;
-    std::vector<double> straight_mass_;
+    std::vector<double> frequencies_;  // [rad/s], ascending
 };
 
 // Frame coordinates: r = (a + x + u, v), u = −½∫v′² − ½aα²                                  (S5), (S13)

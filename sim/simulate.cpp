@@ -1,6 +1,7 @@
 #include "sim/simulate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -56,6 +57,9 @@ enum class EventKind { none, touch, release, clamp, grip, lift };
 constexpr int kMaxLooks = 16;         // into one step, for events
 constexpr double kMostPieces = 1e5;   // of one step, for touches
 constexpr long kMostLooks = 100000;   // of the advancement through one step
+// Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
+// events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
+constexpr int kMostFlips = 10;
 constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
@@ -128,7 +132,9 @@ class Run {
         go_on();
         long steps = 0;
         while (t_ < end_) {
+            keep_to_budget();
             const Segment* segment = &integrator_->step();
+            last_step_ = segment->t1 - segment->t0;
             if (progress_ && (++steps & 255) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
             const Event event = first_event(*segment);
             if (event.kind == EventKind::none) {
@@ -168,6 +174,12 @@ class Run {
     void tell_release(const ContactState& c) {
         audience_.release(t_, y_.data(), c);
         if (keep_) keep_->release(t_, y_, c);
+    }
+
+    void keep_to_budget() {
+        if (integrator_->counters.steps + integrator_->counters.rejected < problem_.solver.max_steps) return;
+        spent_ = true;
+        throw StepFailure("the budget of steps is spent");
     }
 
     double next_kink() const { return kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front(); }
@@ -422,7 +434,7 @@ class Run {
             if (changes(a.clamp, b.clamp))
                 offer(EventKind::clamp,
                       find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
-            if (b.grip < 0)
+            if (b.grip < 0 && idle_events_ <= kMostFlips)
                 offer(EventKind::grip,
                       a.grip > 0 ? find_root([&](double t) { return watch(segment, t).grip; }, t0, t1, a.grip, b.grip)
                                  : t0);
@@ -527,7 +539,8 @@ class Run {
         const double e = problem_.contact.restitution;
         ImpactResult impact =
             resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
-        const bool slow = impact.v_n < chatter;
+        // A rebound that the integrator cannot tell from a touch at the same instant has ended, too.
+        const bool slow = impact.v_n < chatter || idle_events_ > kMostFlips;
         if (slow)
             impact =
                 resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
@@ -632,12 +645,31 @@ class Run {
                 "the "
                 "drive",
                 when, contact_stiffness(problem_), problem_.contact.exponent);
-        return fmt::format(
-            "{}: {}; contact stiffness {:g} N/m^{:g}, {} modes up to {:.3g} rad/s, rtol {:g}: a softer contact, fewer "
-            "modes or a "
-            "looser tolerance needs larger steps",
-            when, failure.what(), contact_stiffness(problem_), problem_.contact.exponent, problem_.beam.modes,
-            dynamics_.highest_frequency(), problem_.solver.rtol);
+        if (spent_)
+            return fmt::format("{}: the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long; {}",
+                               when, problem_.solver.max_steps, last_step_, what_limits());
+        return fmt::format("{}: {}; {}", when, failure.what(), what_limits());
+    }
+
+    // What keeps the steps short, and what would lengthen them.
+    std::string what_limits() const {
+        std::vector<std::string> needs;
+        const double fastest = dynamics_.highest_frequency();
+        if (fastest > 0)
+            needs.push_back(fmt::format("{} modes up to {:.3g} rad/s need steps near {:.1g} s (fewer: longer ones)",
+                                        problem_.beam.modes, fastest, 1 / fastest));
+        if (problem_.cam && problem_.contact.model == ContactModel::compliant) {
+            // The depth that the beam's mass reaches at 1 m/s is the time to it in seconds (S37).
+            const double n = problem_.contact.exponent, mass = problem_.beam.line_density() * problem_.beam.length;
+            const double rise = std::pow(0.5 * (n + 1) * mass / contact_stiffness(problem_), 1 / (n + 1));
+            needs.push_back(
+                fmt::format("contact stiffness {:g} N/m^{:g} needs steps near {:.1g} s in a touch (softer: "
+                            "longer ones)",
+                            contact_stiffness(problem_), n, 0.1 * rise));
+        }
+        needs.push_back(fmt::format("rtol is {:g} (larger: longer steps)", problem_.solver.rtol));
+        if (spent_) needs.push_back("or raise solver.max_steps");
+        return fmt::format("{}", fmt::join(needs, "; "));
     }
 
     const Problem& problem_;
@@ -653,7 +685,8 @@ class Run {
     std::optional<double> last_release_;
     long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
-    bool sunk_ = false;
+    double last_step_ = 0;  // [s]
+    bool sunk_ = false, spent_ = false;
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 

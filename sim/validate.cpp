@@ -226,6 +226,8 @@ std::vector<Finding> validate(const Problem& problem) {
     if (!(problem.solver.rtol >= 1e-13 && problem.solver.rtol <= 1e-2))
         out.refuse("solver.rtol", fmt::format("must lie between 1e-13 and 1e-2, is {:g}", problem.solver.rtol));
     out.positive("solver.atol", problem.solver.atol, "");
+    if (problem.solver.max_steps < 1)
+        out.refuse("solver.max_steps", fmt::format("must be at least 1, is {}", problem.solver.max_steps));
     if (problem.initial.shape == InitialShape::resting) {
         if (!problem.cam)
             out.refuse("initial.shape", "a beam cannot rest on a cam that is not there; give a cam or another shape");

@@ -7,6 +7,7 @@
 namespace beamcam::sim {
 namespace {
 
+constexpr double kRounding = 1e-12;    // of the energy scale
 constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
@@ -43,6 +44,20 @@ void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std
                         slope, name(beam.model)));
 }
 
+// Newton's law creates energy where friction turns the slip around during an impact (Kane & Levinson 1985).
+void tell_gains(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+    if (problem.contact.model != ContactModel::restitution) return;
+    double gained = 0;
+    long count = 0;
+    for (const Impact& impact : result.impacts)
+        if (impact.energy_lost < -kRounding * result.energy_scale) ++count, gained -= impact.energy_lost;
+    if (count > 0)
+        out.push_back(fmt::format(
+            "the impact law {} with friction created {:.2g} J in {} of {} impacts; the law \"stronge\" never "
+            "creates any",
+            name(problem.contact.law), gained, count, result.impacts.size()));
+}
+
 void tell_floor(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
     if (tally.floored > 0)
         out.push_back(
@@ -57,6 +72,7 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result, 
                                   double largest_elastic) {
     std::vector<std::string> out;
     tell_chatter(problem, tally, out);
+    tell_gains(problem, result, out);
     tell_ledger(problem, result, out);
     tell_slopes(problem, largest_elastic, out);
     tell_floor(problem, result, tally, out);

@@ -46,6 +46,7 @@ void add_modes(Grammar& grammar);
 void add_check(Grammar& grammar);
 void add_plan(Grammar& grammar);
 void add_init(Grammar& grammar);
+void add_stress(Grammar& grammar);
 void add_schema(Grammar& grammar);
 void add_hash(Grammar& grammar);
 void add_diff(Grammar& grammar);
@@ -62,6 +63,18 @@ inline constexpr void (*kCommands[])(Grammar&) = {
     add_schema, add_hash,   add_diff,     add_test,  add_info,  add_doctor, add_accuracy,
     add_figure,
     add_paper,
+    add_run,
+    add_render,
+    add_simulate,
+    add_modes,
+    add_check,
+    add_plan,
+    add_init,
+    add_schema,
+    add_hash,
+    add_diff,
+    add_accuracy,
+    add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------

@@ -1,0 +1,100 @@
+// The stress campaign: every case ends or is refused in words, or the command says so with exit code 1.
+#include "sim/stress.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <thread>
+
+#include "output/atomic_file.hpp"
+#include "output/interrupt.hpp"
+#include "output/manifest.hpp"
+#include "output/png.hpp"
+#include "output/records.hpp"
+#include "output/stress_report.hpp"
+#include "render/survival.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/fan_out.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    bool quick = false, full = false;
+    std::vector<std::string> files;
+};
+
+std::vector<sim::StressResult> survive_all(const sim::Campaign& campaign, const Common& common) {
+    const auto count = static_cast<long>(campaign.cases.size());
+    std::vector<sim::StressResult> results(campaign.cases.size());
+    const int threads = common.threads > 0 ? common.threads : static_cast<int>(std::thread::hardware_concurrency());
+    std::atomic<long> done = 0;
+    Gate gate;
+    fan_out(
+        count, std::max(1, threads),
+        [&]() -> Worker {
+            return [&](long i) {
+                if (output::interrupted()) throw sim::Interrupted();
+                const auto k = static_cast<std::size_t>(i);
+                results[k] = sim::survive(campaign.cases[k]);
+                const long now = ++done;
+                if (now % 100 == 0 || now == count) say(common, fmt::format("{} of {} cases", now, count));
+            };
+        },
+        gate);
+    return results;
+}
+
+void write(const std::string& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    const std::string ending = ending_of(file);
+    if (ending == ".png")
+        output::write_png(file, render::survival_map(campaign, results));
+    else
+        output::write_file(
+            file, ending == ".csv" ? output::stress_csv(campaign, results) : output::stress_json(campaign, results));
+}
+
+int act(const Arguments& args) {
+    if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
+    output::Manifest manifest(args.common.force);
+    for (const std::string& file : args.files) {
+        if (file == "-") throw UsageError("-o -: the table goes to standard output in any case; name a file");
+        need_ending("-o", file, {".csv", ".json", ".png"});
+        manifest.require_replaceable(file);
+    }
+    const sim::Campaign campaign = sim::stress_campaign(args.full);
+    const std::vector<sim::StressResult> results = survive_all(campaign, args.common);
+    print_data(output::stress_text(campaign, results));
+    for (const std::string& file : args.files) {
+        write(file, campaign, results);
+        manifest.record(file);
+    }
+    manifest.save();
+    const bool failed = std::any_of(results.begin(), results.end(),
+                                    [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
+    if (failed) throw std::logic_error("the stress campaign found cases that neither end nor are refused in words");
+    return 0;
+}
+
+}  // namespace
+
+void add_stress(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app = grammar.app.add_subcommand(
+        "stress", "Numerical stability: thousands of extreme problems, each of which must end or be refused in words");
+    app->add_flag("--quick", args->quick, "One case in eleven and the short single cases (default)");
+    app->add_flag("--full", args->full, "Every case; minutes to an hour");
+    app->add_option("-o,--output", args->files,
+                    "Also write the cases as .csv or .json, or the survival map as .png (repeatable)")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    add_quiet(*app, args->common);
+    app->add_option("-j,--jobs", args->common.threads, "Cases at a time (default: one for each core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    app->add_flag("--force", args->common.force, "Replace files that beamcam did not make");
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,79 @@
+#include "sim/stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+TEST(StressCampaign, HasTwoThousandCasesAndAQuickPartOnEveryPlate) {
+    const Campaign full = stress_campaign(true), quick = stress_campaign(false);
+    EXPECT_GE(full.cases.size(), 2000u);
+    std::set<std::size_t> plates;
+    for (const StressCase& one : quick.cases) plates.insert(one.plate);
+    EXPECT_EQ(plates.size(), full.plates.size());
+    EXPECT_LT(quick.cases.size(), full.cases.size() / 8);
+}
+
+TEST(StressCampaign, TellsRefusalsAndFailuresApart) {
+    StressCase one;
+    one.end = 0.01;
+    EXPECT_EQ(survive(one).outcome, Outcome::closed);
+    one.problem.cam->eccentricity = 1;
+    EXPECT_EQ(survive(one).outcome, Outcome::refused);
+    one.problem = Problem{};
+    one.problem.solver.max_steps = 3;
+    const StressResult spent = survive(one);
+    EXPECT_EQ(spent.outcome, Outcome::stopped);
+    EXPECT_NE(spent.words.find("solver.max_steps"), std::string::npos) << spent.words;
+}
+
+TEST(Budget, OfStepsEndsTheRunInWordsAndKeepsWhatWasReached) {
+    Problem p;
+    p.solver.max_steps = 50;
+    Request request;
+    request.end_time = 1;
+    request.tables.push_back({{0, 1}, {channel("theta")}});
+    try {
+        simulate(p, request);
+        FAIL() << "fifty steps were enough";
+    } catch (const SolverError& error) {
+        EXPECT_NE(std::string(error.what()).find("the budget of 50 steps (solver.max_steps) is spent"),
+                  std::string::npos)
+            << error.what();
+        EXPECT_GT(error.last_time, 0);
+        EXPECT_EQ(error.partials.at(0).tables[0].values[0][0], p.initial.angle);
+        EXPECT_TRUE(std::isnan(error.partials.at(0).tables[0].values[0][1]));
+    }
+}
+
+TEST(Flips, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
+    for (const Method method : {Method::cvode_adams, Method::cvode_bdf}) {
+        Problem p;
+        p.solver.method = method;
+        p.solver.rtol = 1e-5;
+        p.solver.atol = 1e-8;
+        p.contact.model = ContactModel::restitution;
+        p.initial = {0.53, -2, InitialShape::straight};
+        const Result r = run(p, 0.06);
+        EXPECT_FALSE(r.impacts.empty()) << name(method);
+        EXPECT_LT(r.energy_residual_max, 1e-4 * r.energy_scale) << name(method);
+    }
+}
+
+TEST(Flips, OfAGripThatCanNeitherHoldNorSlideEnd) {
+    Problem p = fixed_cam(ModelKind::rigid);
+    p.hub.radius = 0.1;
+    p.contact.offset = 0.05;
+    p.contact.friction = StickSlipFriction{2, {}, {}, {}};
+    p.initial = {0.75, -2, InitialShape::straight};
+    const Result r = run(p, 0.15);
+    EXPECT_FALSE(r.impacts.empty());
+    EXPECT_LT(r.energy_residual_max, 1e-6 * r.energy_scale);
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
