@@ -259,11 +259,14 @@ const std::vector<double>* NamedTable::find(std::string_view name) const {
 }
 
 NamedTable parse_csv(std::string_view text, const std::string& file_name) { return CsvParser(text, file_name).parse(); }
+NamedTable parse_npz(std::string_view bytes, const std::string& file_name) {
+    return NpzParser(bytes, file_name).parse();
+}
 
 NamedTable read_table(const fs::path& file) {
     const std::string bytes = read_file(file), name = file.string();
     if (file.extension() == ".csv") return parse_csv(bytes, name);
-    if (file.extension() == ".npz") return NpzParser(bytes, name).parse();
+    if (file.extension() == ".npz") return parse_npz(bytes, name);
     throw IoError("cannot read " + name + ": tables end in .csv or .npz");
 }
 

@@ -23,5 +23,6 @@ NamedTable read_table(const std::filesystem::path& file);
 
 // Texts of numbers.cpp's kind, of spreadsheets (a byte order mark, "\r\n") and of numpy.savetxt with a header.
 NamedTable parse_csv(std::string_view text, const std::string& file_name);
+NamedTable parse_npz(std::string_view bytes, const std::string& file_name);
 
 }  // namespace beamcam::output

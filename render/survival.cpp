@@ -166,8 +166,11 @@ Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressR
     legend(canvas, results);
     const double width = (kWidth - 2 * kMargin - (kColumns - 1) * kGap * 1.4) / kColumns;
     for (std::size_t i = 0; i < campaign.plates.size(); ++i) {
-        const Box box{kMargin + static_cast<double>(i % kColumns) * (width + 1.4 * kGap),
-                      kHead + static_cast<double>(i / kColumns) * line + 10, width, kTitle + kField + kFoot};
+        // The last plate takes what is left of its line.
+        const bool last = i + 1 == campaign.plates.size();
+        const double x = kMargin + static_cast<double>(i % kColumns) * (width + 1.4 * kGap);
+        const Box box{x, kHead + static_cast<double>(i / kColumns) * line + 10, last ? kWidth - kMargin - x : width,
+                      kTitle + kField + kFoot};
         Field(canvas, campaign.plates[i], cells[i], box).draw();
     }
     return image;

@@ -75,6 +75,8 @@ inline constexpr void (*kCommands[])(Grammar&) = {
     add_diff,
     add_accuracy,
     add_stress,
+    add_run,  add_render, add_simulate, add_modes, add_check,  add_plan,     add_init,   add_schema,
+    add_hash, add_diff,   add_test,     add_info,  add_doctor, add_accuracy, add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------

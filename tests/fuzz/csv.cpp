@@ -1,0 +1,17 @@
+// The reader of CSV tables: columns of one length, or the place of what is wrong.
+#include "output/table_reader.hpp"
+#include "tests/fuzz/support.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace beamcam;
+    try {
+        const output::NamedTable table = output::parse_csv(fuzz::text_of(data, size), "fuzz.csv");
+        fuzz::claim(!table.names.empty() && table.names.size() == table.columns.size(), "every column has its name");
+        for (const auto& column : table.columns)
+            fuzz::claim(column.size() == table.rows(), "columns are of one length");
+        for (const std::string& name : table.names) fuzz::claim(table.find(name) != nullptr, "a name finds its column");
+    } catch (const output::IoError& error) {
+        fuzz::claim(error.what()[0] != 0, "a refusal says why");
+    }
+    return 0;
+}
