@@ -59,24 +59,8 @@ void add_paper(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,    add_render, add_simulate, add_modes, add_check, add_plan,   add_init,
-    add_schema, add_hash,   add_diff,     add_test,  add_info,  add_doctor, add_accuracy,
-    add_figure,
-    add_paper,
-    add_run,
-    add_render,
-    add_simulate,
-    add_modes,
-    add_check,
-    add_plan,
-    add_init,
-    add_schema,
-    add_hash,
-    add_diff,
-    add_accuracy,
-    add_stress,
-    add_run,  add_render, add_simulate, add_modes, add_check,  add_plan,     add_init,   add_schema,
-    add_hash, add_diff,   add_test,     add_info,  add_doctor, add_accuracy, add_stress,
+    add_run,  add_render, add_simulate, add_modes,  add_check,    add_plan,   add_init,  add_schema, add_hash,
+    add_diff, add_test,   add_info,     add_doctor, add_accuracy, add_figure, add_paper, add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------
