@@ -99,12 +99,18 @@ void AxisMap::linear(const Axis& axis, int most) {
 
     if (!(std::isfinite(scaled_low_) && std::isfinite(scaled_high_) && scaled_high_ > scaled_low_))
         throw PictureError(fmt::format("an axis from {:g} to {:g} cannot be divided", low_, high_));
-    const Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
+    // Numbers that are counted have ticks where they are.
+    const bool whole = axis.counts && shift == 0 && offset == 0 && scaled_high_ - scaled_low_ >= 1;
+    Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
+    if (whole && marks.step < 1) {
+        marks = {.step = 1, .decimals = 0, .values = {}};
+        for (double v = std::ceil(scaled_low_); v <= scaled_high_; ++v) marks.values.push_back(v);
+    }
     const double range = scaled_high_ - scaled_low_;
     const auto at = [&](double v) { return reversed_ ? (scaled_high_ - v) / range : (v - scaled_low_) / range; };
     for (const double v : marks.values)
         ticks_.push_back({std::clamp(at(v), 0.0, 1.0), axis.numbered ? fixed(v, marks.decimals) : "", true});
-    const double minor = marks.step / minor_parts(marks.step);
+    const double minor = whole ? std::max(1.0, std::round(marks.step / 5)) : marks.step / minor_parts(marks.step);
     const double first = std::ceil(scaled_low_ / minor - 1e-9), last = std::floor(scaled_high_ / minor + 1e-9);
     for (double k = first; k <= last && last - first < 400; ++k)
         if (std::abs(std::remainder(k * minor, marks.step)) > 0.3 * minor) ticks_.push_back({at(k * minor), "", false});

@@ -57,6 +57,7 @@ struct ColorBar {
     std::string label = {};
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};
+    bool hidden = false;  // its colours hold, but the panel around an inset shows it
 };
 
 // Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.

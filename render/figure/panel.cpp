@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "render/error.hpp"
 #include "render/figure/reduce.hpp"
@@ -33,6 +34,38 @@ bool enters(const Box& box, Vec2 a, Vec2 b) {
     for (int k = 0; k <= 200; ++k)
         if (inside(inner, a + (b - a) * (k / 200.0))) return true;
     return false;
+}
+
+// Two corners of the inset's plot joined to those of what it shows, through neither box.
+std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) {
+    const auto corners = [](const Box& c) {
+        return std::array<Vec2, 4>{Vec2{c.x, c.y}, {c.right(), c.y}, {c.right(), c.bottom()}, {c.x, c.bottom()}};
+    };
+    const auto c0 = corners(from), c1 = corners(plot);
+    std::vector<std::pair<Vec2, Vec2>> lines;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (!enters(from, c0[k], c1[k]) && !enters(plot, c0[k], c1[k])) lines.emplace_back(c0[k], c1[k]);
+    if (lines.size() < 2) return lines;
+    // The outermost two, seen along the way from one box to the other.
+    const Vec2 way = plot.centre() - from.centre(), across{-way.y, way.x};
+    const auto [least, most] = std::minmax_element(lines.begin(), lines.end(), [&](const auto& a, const auto& b) {
+        return dot(a.second, across) < dot(b.second, across);
+    });
+    return {*least, *most};
+}
+
+// Which markers later ones leave to be seen: of those within `apart` only the last.
+std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
+    std::vector<bool> seen(points.size(), false);
+    std::set<std::pair<long, long>> taken;
+    for (std::size_t i = points.size(); i-- > 0;)
+        if (std::isfinite(points[i].x + points[i].y))
+            seen[i] = taken.emplace(std::lround(points[i].x / apart), std::lround(points[i].y / apart)).second;
+    return seen;
+}
+
+Box without(const Box& outer, const Margins& m) {
+    return {outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
 }
 
 }  // namespace
@@ -130,7 +163,7 @@ Margins PanelDrawing::margins() const {
         m.top += style_.numbers + style_.gap;
     m.right = 1.3 * style_.numbers;  // the last x number overhangs
     if (!right_.empty()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap;
-    if (!bar_.empty())
+    if (!bar_.empty() && !panel_.color_bar->hidden)
         m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     if (legend_above_) m.top += legend_above_height_ + style_.gap;
     return m;
@@ -181,7 +214,7 @@ void PanelDrawing::make_curves() {
             curve.value.push_back(bar_.empty() ? 0 : bar_.front().place(s.value[i]));
         if (s.value.empty() && s.line && !s.every_point) curve.points = reduce(curve.points, sheet_.grain());
         if (s.line) taken_.front().cover(curve.points, s.faded ? 0.7 : 1);
-        if (s.every_point && count < 5000)
+        if (s.every_point)
             for (const Vec2 p : curve.points) taken_.front().cover(Box{p.x, p.y, 0, 0}.inset(-style_.marker));
         curves_.push_back(std::move(curve));
     }
@@ -217,25 +250,29 @@ double PanelDrawing::place_boxes(bool legend_first) {
     return cost;
 }
 
-// The inset with its numbers and labels.
-Place PanelDrawing::inset_place(const Inset& inset) {
-    const double w = inset.width * plot_.w, h = inset.height * plot_.h;
-    PanelDrawing inner(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset");
-    const Margins m = inner.margins();
-    return best_place(taken_.front(), w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
+// Its frame; never so small that it is a dot.
+Box PanelDrawing::shown_enlarged(const Inset::Source& source) const {
+    const Vec2 a = at(source.x_from, source.y_from), b = at(source.x_to, source.y_to);
+    const Box box{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)};
+    return box.inset(-std::max({0.0, 4 - box.w, 4 - box.h}) / 2);
 }
 
 double PanelDrawing::place_insets() {
     double cost = 0;
     for (const Inset& inset : panel_.insets) {
-        if (inset.source) {
-            const Vec2 a = at(inset.source->x_from, inset.source->y_from), b = at(inset.source->x_to, inset.source->y_to);
-            taken_.front().cover(Box{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
-        }
-        const Place place = inset_place(inset);
+        if (inset.source) taken_.front().cover(shown_enlarged(*inset.source));
+        // With its numbers and labels.
+        const double w = inset.width * plot_.w, h = inset.height * plot_.h;
+        const Margins m =
+            PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
+        const Place place =
+            best_place(taken_.front(), w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
         inset_outer_.push_back(place.box);
         taken_.front().cover(place.box);
         cost += place.cost;
+        if (!inset.source) continue;
+        for (const auto& [from, to] : connectors(shown_enlarged(*inset.source), without(place.box, m)))
+            taken_.front().cover(std::vector<Vec2>{from, to});
     }
     return cost;
 }
@@ -260,12 +297,19 @@ void PanelDrawing::place_marks() {
                 const double reach = style_.marker + far * 1.2 * style_.gap;
                 const Vec2 middle{p.x + std::cos(turn) * (reach + size.w / 2), p.y - std::sin(turn) * (reach + size.h / 2)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
-                const double cost = 10 * taken_.front().cost(box.inset(-2.2)) + 2 * far - 0.5 * std::cos(turn);
+                const Box air = box.inset(-0.8);
+                const Vec2 end{std::clamp(p.x, air.x, air.right()), std::clamp(p.y, air.y, air.bottom())};
+                double cost = 10 * taken_.front().cost(box.inset(-2.2)) + 2 * far - 0.5 * std::cos(turn);
+                if (cost >= least) continue;
+                // A leader that crosses curves is better led elsewhere.
+                for (int s = 6; far > 2 && s < 20; ++s) {
+                    const Vec2 on = p + (end - p) * (s / 20.0);
+                    cost += std::min(1.0, taken_.front().cost(Box{on.x, on.y, 0, 0}.inset(-0.4)));
+                }
                 if (cost >= least) continue;
                 least = cost;
-                best = {{box.x, box.bottom() + size.y + size.h - size.h}, m.label, l, {}};
-                best.at = {box.x, box.y - size.y};
-                if (far > 2) best.leader = {p, {std::clamp(p.x, box.x, box.right()), std::clamp(p.y, box.y, box.bottom())}};
+                best = {{box.x, box.y - size.y}, m.label, l, {}};
+                if (far > 2) best.leader = {p, end};
             }
         taken_.front().cover(Box{best.at.x, best.at.y + size.y, size.w, size.h});
         if (best.leader) taken_.front().cover(std::vector<Vec2>{best.leader->first, best.leader->second}, 4);
@@ -528,8 +572,9 @@ void PanelDrawing::draw_curve(const Curve& curve) {
             }
             i = k;
         }
+        const std::vector<bool> seen = s.every_point ? not_covered(curve.points, 0.15 * style_.marker) : std::vector<bool>();
         for (std::size_t i = 0; s.every_point && i < curve.points.size(); ++i)
-            if (step(i) >= 0 && inside(plot_, curve.points[i], style_.marker))
+            if (seen[i] && step(i) >= 0 && inside(plot_, curve.points[i], style_.marker))
                 marker(look(s.look).marker, curve.points[i], 0.8 * style_.marker, map_color(curve.value[i]), false);
         return;
     }
@@ -653,7 +698,7 @@ void PanelDrawing::draw_titles() {
 }
 
 void PanelDrawing::draw_color_bar() {
-    if (bar_.empty()) return;
+    if (bar_.empty() || panel_.color_bar->hidden) return;
     const Box bar{plot_.right() + 2.2 * style_.gap, plot_.y, 0.9 * style_.letters, plot_.h};
     std::vector<Color> colors;
     for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
@@ -687,34 +732,16 @@ void PanelDrawing::draw_insets() {
         sheet_.fill(kWhite);
         PanelDrawing inner(inset.panel.front(), style_, sheet_, inset.width * plot_.w, inset.height * plot_.h, true,
                            what_ + ", inset");
-        Margins m = inner.margins();
-        const auto inner_plot = [&] {
-            return Box{outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
-        };
-        if (!inner.place(inner_plot())) {
-            m = inner.margins();
-            inner.place(inner_plot());
-        }
-        const Box box = inner_plot();
+        if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
         if (inset.source) {
-            const Vec2 a = at(inset.source->x_from, inset.source->y_from), b = at(inset.source->x_to, inset.source->y_to);
-            Box from{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)};
-            const double grow = std::max({0.0, 4 - from.w, 4 - from.h}) / 2;
-            from = from.inset(-grow);
+            const Box from = shown_enlarged(*inset.source);
             const Pen thin{kMuted, 0.75 * style_.frame, {}, Cap::butt};
             sheet_.rectangle(from);
             sheet_.stroke(thin);
-            const auto corners = [](const Box& c) {
-                return std::array<Vec2, 4>{Vec2{c.x, c.y}, {c.right(), c.y}, {c.right(), c.bottom()}, {c.x, c.bottom()}};
-            };
-            const auto c0 = corners(from), c1 = corners(box);
-            int drawn = 0;
-            for (std::size_t k = 0; k < 4 && drawn < 2; ++k) {
-                if (enters(from, c0[k], c1[k]) || enters(box, c0[k], c1[k])) continue;
-                sheet_.move_to(c0[k]);
-                sheet_.line_to(c1[k]);
+            for (const auto& [start, end] : connectors(from, inner.plot_)) {
+                sheet_.move_to(start);
+                sheet_.line_to(end);
                 sheet_.stroke(thin);
-                ++drawn;
             }
         }
         inner.draw();

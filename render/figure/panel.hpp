@@ -45,7 +45,7 @@ class PanelDrawing {
     void make_axes(double width, double height);
     void make_curves();
     double place_boxes(bool legend_first);
-    Place inset_place(const Inset& inset);
+    Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();
     void place_marks();
     void place_rules();

@@ -1,5 +1,6 @@
 #include "render/figure/reduce.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace beamcam::render::figure {
@@ -37,19 +38,26 @@ void steps(std::span<const Vec2> p, double grain, std::vector<Vec2>& out) {
         if (i == 0 || i + 1 == p.size() || norm(p[i] - out.back()) >= grain) out.push_back(p[i]);
 }
 
-// Points that lie on the line between their neighbours carry nothing.
+// All of `between` lie on the straight line from a to b.
+bool straight(Vec2 a, Vec2 b, std::span<const Vec2> between, double tolerance) {
+    const Vec2 way = b - a;
+    const double length = norm(way);
+    return length > 0 && std::all_of(between.begin(), between.end(), [&](Vec2 p) {
+               const double along = dot(p - a, way) / length;
+               return along >= 0 && along <= length && std::abs(cross(p - a, way)) <= tolerance * length;
+           });
+}
+
+// Points that lie on the line between those before and behind them carry nothing.
 std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
+    constexpr std::size_t kMost = 64;  // that one line stands for, so that the work stays linear
     std::vector<Vec2> out;
+    std::size_t kept = 0;  // index of the last one in `out`
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (i > 0 && i + 1 < p.size() && !broken(p[i - 1]) && !broken(p[i]) && !broken(p[i + 1]) && !out.empty()) {
-            const Vec2 a = out.back(), way = p[i + 1] - a;
-            const double length = norm(way);
-            const double along = length > 0 ? dot(p[i] - a, way) / length : -1;
-            if (!broken(a) && along >= 0 && along <= length && length < 200 * tolerance &&
-                std::abs(cross(p[i] - a, way)) <= tolerance * length)
-                continue;
-        }
+        const bool inner = i > 0 && i + 1 < p.size() && !broken(p[kept]) && !broken(p[i]) && !broken(p[i + 1]);
+        if (inner && i - kept <= kMost && straight(p[kept], p[i + 1], {&p[kept + 1], i - kept}, tolerance)) continue;
         out.push_back(p[i]);
+        kept = i;
     }
     return out;
 }

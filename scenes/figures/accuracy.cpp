@@ -65,7 +65,7 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
 Panel mode_counts(const sim::Accuracy& a, Lang lang) {
     Panel panel;
     panel.name = "modes";
-    panel.x = {.label = "$N$"};
+    panel.x = {.label = "$N$", .counts = true};
     panel.y = {.label = kError.in(lang), .scale = Scale::logarithmic};
     panel.right = Axis{.label = kTime.in(lang), .scale = Scale::logarithmic};
     panel.legend = Legend::box;
@@ -103,9 +103,9 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
     std::string contact;
     for (const sim::ContactRow& row : a.contact)
         if (row.error)
-            contact += fmt::format("{}{} {} rad", contact.empty() ? "" : ", ", row.change, number(*row.error, 2));
+            contact += fmt::format("{}{}: {} rad", contact.empty() ? "" : "; ", row.change, number(*row.error, 2));
     if (!contact.empty())
-        text += filled(en ? " Changes of the contact law move $θ$ by: {}." : "接触参数的变化引起的 $θ$ 的改变：{}。", contact);
+        text += filled(en ? " What changes of the contact law move $θ$ by: {}." : "接触参数的变化引起的 $θ$ 的改变：{}。", contact);
     return text;
 }
 
@@ -124,6 +124,11 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
     for (std::size_t i = 0; figure.panels.size() > 1 && i < figure.panels.size(); ++i)
         figure.panels[i].letter = i == 0 ? "a" : "b";
     figure.aspect = figure.panels.size() > 1 ? 1.5 : 0.8;
+    const std::string model =
+        problem.beam.model == sim::ModelKind::rigid
+            ? sim::name(problem.beam.model)
+            : filled(en ? "{}, $N$ = {} {} shapes" : "{}，{} 阶 {} 模态", sim::name(problem.beam.model),
+                     problem.beam.modes, sim::name(resolved_basis(problem)));
     int repeats = 0;
     double loosest = 0, tightest = 1;
     for (const sim::WorkRow& row : a.work) {
@@ -132,12 +137,10 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
         tightest = std::min(tightest, row.rtol);
     }
     figure.caption = filled(
-        en ? "Largest error of $θ$ in the first {} s against the run time on one core, median of {} runs with their "
-             "range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}, {} modes.{}"
-           : "前 {} s 内 $θ$ 的最大误差与单核计算时间（{} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}，{} "
-             "阶模态。{}",
-        number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), sim::name(problem.beam.model),
-        problem.beam.modes, budget(a, lang));
+        en ? "Largest error of $θ$ in the first {} s against the run time on one core, the median of up to {} runs "
+             "with their range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}.{}"
+           : "前 {} s 内 $θ$ 的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}。{}",
+        number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), model, budget(a, lang));
     figure.accuracy = filled(en ? "The reference is good to about {} rad." : "参考解自身误差约 {} rad。",
                              number(a.reference_error, 1));
     return figure;

@@ -17,7 +17,8 @@ using render::figure::Scale;
 using render::figure::Series;
 using sim::ChannelKind;
 
-constexpr int kFine = 40001;     // rows over the scene: impacts last a thousandth of it
+// Rows over the scene: an impact lasts a few tenths of a millisecond.
+int fine(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 constexpr double kRounding = 1e-12;  // of the energy scale
 constexpr int kCurve = 8001;
 
@@ -30,7 +31,7 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "collision");
     const std::size_t table =
-        studies.table(study, {0, end, kFine}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::gap});
+        studies.table(study, {0, end, fine(end)}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::gap});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -115,7 +116,6 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
         figure.name = "energy";
         figure.title = en ? "Energy ledger" : "能量账目";
         Panel ledger, closure;
-        ledger.letter = "a";
         closure.letter = "b";
         ledger.x.label = closure.x.label = "$t$ / s";
         for (Panel* panel : {&ledger, &closure}) panel->x.from = 0, panel->x.to = end;
@@ -173,32 +173,102 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
             residual.y.push_back(std::max(std::abs(v), floor));
             largest = std::max(largest, residual.y.back());
         }
-        figure.panels = {ledger};
         if (floor > 0 && largest > 10 * floor) {
+            ledger.letter = "a";
             closure.y.from = floor;
             closure.series = {residual};
-            figure.panels.push_back(closure);
+            figure.panels = {ledger, closure};
+        } else {
+            figure.panels = {ledger};
         }
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.05;
-        figure.caption =
-            en ? "Energy ledger: (a) kinetic, potential and stored energy, what structure, contact and friction lost, and the "
-                 "work of cam and drive; their balance is the black line. (b) Magnitude of the change of that balance, "
-                 "which the exact solution keeps at zero; what is below 10^{−12} of the largest energy is rounding and "
-                 "lies on the lower edge. "
-               : "能量账目：(a) 动能、势能、储能，结构、接触与摩擦的损失，以及凸轮与驱动的功；黑线为其平衡。(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘。";
+        const bool both = figure.panels.size() > 1;
+        const Words ledger_words{
+            "Energy ledger: {}kinetic, potential and stored energy, what structure, contact and friction lost, and the work "
+            "of cam and drive; their balance is the black line. ",
+            "能量账目：{}动能、势能、储能，结构、接触与摩擦的损失，以及凸轮与驱动的功；黑线为其平衡。"};
+        const Words closure_words{
+            "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below 10^{−12} of "
+            "the largest energy is rounding and lies on the lower edge. ",
+            "(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘。"};
+        figure.caption = filled(ledger_words.in(lang).c_str(), both ? "(a) " : "");
+        if (both) figure.caption += closure_words.in(lang);
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
 }
 
+// The first collision alone, in which the place moves by less than its mark in the whole.
+std::optional<render::figure::Inset> close_up(const sim::Collision& c, double end, const std::vector<double>& time,
+                               const std::vector<double>& force, const std::vector<double>& x, const Panel& whole, bool en) {
+    Panel panel;
+    panel.title = en ? "first collision" : "首次碰撞";
+    panel.x.label = "($t$ − $t_{1}$) / ms";
+    panel.x.tight = false;
+    panel.legend = Legend::none;
+    panel.color_bar = whole.color_bar;
+    panel.color_bar->hidden = true;
+    Series s;
+    s.weight = 1.8;
+    const double last = c.t_end.value_or(end);
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        if (time[i] < c.t_start || time[i] > last) continue;
+        const bool touching = force[i] > 0 && std::isfinite(x[i]);
+        s.x.push_back((time[i] - c.t_start) * 1e3);
+        s.y.push_back(touching ? x[i] * 1e3 : std::nan(""));
+        s.value.push_back(touching ? force[i] : std::nan(""));
+    }
+    if (std::count_if(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); }) < 2) return std::nullopt;
+    panel.series = {std::move(s)};
+    return render::figure::Inset{.panel = {std::move(panel)}, .width = 0.36, .height = 0.29};
+}
+
+// Impulses instead of forces: a point for each impact.
+Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
+    const bool en = lang == Lang::en;
+    if (result.impacts.empty())
+        throw render::PictureError(
+            fmt::format("figure contact-places: nothing strikes the cam before {:g} s; raise time.end", end));
+    Series s;
+    s.line = false;
+    s.every_point = true;
+    for (const sim::Impact& hit : result.impacts) {
+        s.x.push_back(hit.t_start);
+        s.y.push_back(hit.x * 1e3);
+        s.value.push_back(hit.impulse_n * 1e3);
+    }
+    Panel panel;
+    panel.x.label = "$t$ / s";
+    panel.x.from = 0;
+    panel.x.to = end;
+    panel.y.label = "$x_{\\r{c}}$ / mm";
+    panel.legend = Legend::none;
+    panel.color_bar = render::figure::ColorBar{
+        .label = "$J$ / (mN s)", .from = 0, .to = *std::max_element(s.value.begin(), s.value.end())};
+    panel.series = {std::move(s)};
+    Figure figure;
+    figure.name = "contact-places";
+    figure.title = en ? "Contact point on the beam" : "梁上的接触点";
+    figure.panels = {std::move(panel)};
+    figure.caption = en ? "Place of the impacts on the beam, measured from its root, coloured by their normal impulse $J$. "
+                        : "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。";
+    figure.caption += stated(problem, lang);
+    figure.accuracy = accuracy({{&problem, &result}}, lang);
+    return figure;
+}
+
 FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "contact-places");
+    if (scene.problem.contact.model != sim::ContactModel::compliant)
+        return [=, problem = scene.problem](const Results& results) {
+            return impulsive_places(problem, *results[study], end, lang);
+        };
     const std::size_t table = studies.table(
-        study, {0, end, kFine}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
+        study, {0, end, fine(end)}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -255,23 +325,31 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         }
         beam.series = {on_beam};
         cam.series = {on_cam};
+        if (const sim::Collision* first = chosen(result))
+            if (auto inset = close_up(*first, end, time, n, x, beam, en)) beam.insets = {std::move(*inset)};
         figure.panels = {beam, cam};
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.1;
         figure.caption =
             en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from the mark of "
-                 "the disc (the ray from $C$ to $B$), coloured by the normal force. "
-               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ 起的角度）的位置，颜色表示法向力。";
+                 "the disc (the ray from $C$ to $B$), coloured by the normal force; inset: the first collision. "
+               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ 起的角度）的位置，颜色表示法向力；插图为首次碰撞。";
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
 }
 
+std::optional<std::string> needs_force(const Scene& scene) {
+    if (const auto why = needs_cam(scene)) return why;
+    if (scene.problem.contact.model == sim::ContactModel::compliant) return std::nullopt;
+    return "contact by restitution has impulses but no force that lasts; set contact.model to \"compliant\"";
+}
+
 }  // namespace
 
-const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_cam, prepare_collision};
+const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_force, prepare_collision};
 const Recipe kEnergy{"energy", {"Energy ledger", "能量账目"}, no_refusal, prepare_energy};
 const Recipe kContactPlaces{"contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
 

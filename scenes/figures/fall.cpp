@@ -42,10 +42,14 @@ Series curve(const sim::Table& t, std::string label, int look) {
     return s;
 }
 
-void mark_zero(Panel& panel, const sim::Result& result, int look, int decimals, bool hollow) {
-    if (result.theta_zero.empty()) return;
-    const double t = result.theta_zero.front().t;
-    panel.marks.push_back({.x = t, .y = 0, .label = grouped(t, decimals) + " s", .look = look, .hollow = hollow});
+void mark_zero(Panel& panel, const sim::Result& result, int look, bool hollow) {
+    if (!result.theta_zero.empty())
+        panel.marks.push_back({.x = result.theta_zero.front().t, .y = 0, .look = look, .hollow = hollow});
+}
+
+// The curve's name and the time of its zero, which the mark shows.
+std::string with_zero(const std::string& name, const sim::Result& result, int decimals) {
+    return result.theta_zero.empty() ? name : name + ": " + grouped(result.theta_zero.front().t, decimals) + " s";
 }
 
 FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
@@ -77,11 +81,12 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
         panel.y.to = 1.75 * std::abs(flexible.initial.angle) + 0.01;
         const sim::Result &flex = *results[f.study], &rod = *results[r.study], &twice = *results[d.study];
         panel.rules.push_back({.at = 0});
-        panel.series.push_back(curve(flex.tables[f.table], en ? "flexible" : "柔性梁", 0));
-        panel.series.push_back(curve(rod.tables[r.table], en ? "rigid" : "刚性杆", 1));
-        panel.series.push_back(curve(twice.tables[d.table], en ? "rigid, torque doubled" : "刚性杆，力矩加倍", 2));
+        panel.series.push_back(curve(flex.tables[f.table], with_zero(en ? "flexible" : "柔性梁", flex, 9), 0));
+        panel.series.push_back(curve(rod.tables[r.table], with_zero(en ? "rigid" : "刚性杆", rod, 9), 1));
+        panel.series.push_back(
+            curve(twice.tables[d.table], with_zero(en ? "rigid, torque doubled" : "刚性杆，力矩加倍", twice, 6), 2));
         panel.series[0].solid = true;
-        mark_zero(panel, twice, 2, 6, false);
+        mark_zero(panel, twice, 2, false);
         if (f.close) {
             // Microseconds about the closed form, microradians about zero.
             Panel close_up;
@@ -97,7 +102,7 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
                 close_up.series.push_back(std::move(s));
                 if (!result->theta_zero.empty()) {
                     const double t = result->theta_zero.front().t;
-                    close_up.marks.push_back({.x = (t - *exact) * 1e6, .y = 0, .label = grouped(t, 9) + " s", .look = look});
+                    close_up.marks.push_back({.x = (t - *exact) * 1e6, .y = 0, .look = look});
                 }
             }
             const double slope = rod.theta_zero.empty() ? 5 : std::abs(rod.theta_zero.front().theta_dot);
@@ -107,8 +112,8 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
                                     .source = render::figure::Inset::Source{*exact - kAround, *exact + kAround,
                                                                             -slope * kAround, slope * kAround}});
         } else {
-            mark_zero(panel, flex, 0, 6, false);
-            mark_zero(panel, rod, 1, 6, true);
+            mark_zero(panel, flex, 0, false);
+            mark_zero(panel, rod, 1, true);
         }
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.74;
@@ -118,7 +123,7 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
         figure.caption = filled(
             en ? "Hub angle of the free fall from rest without a cam: flexible beam, exact rigid rod, and the rigid rod "
                  "under twice its gravity torque, which alone gives the 0.262 s that the paper prints for the rigid "
-                 "rod. $θ$ = 0 is reached at {} (flexible), {} (rigid), {} (torque doubled): the flexible beam falls "
+                 "rod. $θ$ = 0, marked, is reached at {} (flexible), {} (rigid), {} (torque doubled): the flexible beam falls "
                  "like the rigid rod. "
                : "无凸轮时由静止自由下落的转角：柔性梁、精确刚性杆，以及重力矩加倍的刚性杆（只有后者给出原文所列刚性杆的 0.262 s）。到达 "
                  "$θ$ = 0 的时刻：柔性梁 {}，刚性杆 {}，力矩加倍 {}；柔性梁与刚性杆的下落几乎一致。",

@@ -60,6 +60,7 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
         Panel panel;
         panel.x.label = "$N$";
         panel.x.tight = false;
+        panel.x.counts = true;
         panel.y.label = "$θ_{\\r{apex}}$ / rad";
         panel.legend = Legend::box;
         std::array<Series, 2> series;

@@ -17,7 +17,8 @@ using render::figure::Legend;
 using render::figure::Panel;
 using render::figure::Series;
 
-constexpr int kRows = 4001;           // of the fall
+// Instants of the fall: a quarter of a millisecond apart, or nearer in a short scene.
+int rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
 constexpr int kTrial = 5;             // points of the first round: 0.21 … 0.25 m in the paper
 constexpr int kRefined = 8;           // intervals between two trial points in the second round
 constexpr double kShown = 0.012;      // before and after the touch, of the fall's duration 0.3 s: [s]
@@ -66,7 +67,7 @@ double arrival(const std::vector<double>& t, const std::vector<double>& d) {
 
 FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
     const sim::Problem falling = without_cam(scene.problem);
-    const Instants all{0, scene.end_time, kRows};
+    const Instants all{0, scene.end_time, rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time, "distance");
     const std::vector<double> trial = trial_points(scene.problem);
     // The refined points lie between the trial points; asked for together, the fall is integrated once.

@@ -85,6 +85,17 @@ TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
     EXPECT_THROW(AxisMap({.from = std::nan("")}, {}, 5, "test"), PictureError);
 }
 
+TEST(FigureAxis, CountsHaveTicksAtWholeNumbersOnly) {
+    EXPECT_THAT(labels(axis(1, 3, {.counts = true})), ::testing::ElementsAre("1", "2", "3"));
+    for (const auto& [low, high] : {std::pair{1.0, 2.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 200.0}}) {
+        const AxisMap a = axis(low, high, {.counts = true});
+        for (const Tick& t : a.ticks()) {
+            const double value = a.low() + t.at * (a.high() - a.low());
+            EXPECT_NEAR(value, std::round(value), 1e-9) << low << " " << high;
+        }
+    }
+}
+
 TEST(FigureReduce, AMillionPointsKeepTheirExtremes) {
     std::vector<Vec2> points;
     for (int i = 0; i < 1'000'000; ++i) points.push_back({i * 2e-4, std::sin(i * 0.01)});
@@ -96,6 +107,20 @@ TEST(FigureReduce, AMillionPointsKeepTheirExtremes) {
     EXPECT_EQ(most, 50);
     EXPECT_EQ(kept.front(), points.front());
     EXPECT_EQ(kept.back(), points.back());
+}
+
+TEST(FigureReduce, ASlowCurveStaysRound) {
+    std::vector<Vec2> points;
+    for (int i = 0; i <= 100'000; ++i) points.push_back({i * 2e-3, 40 * std::cos(i * 2e-3 / 50)});  // slope below 1
+    const double grain = 0.1;
+    const std::vector<Vec2> kept = reduce(points, grain);
+    EXPECT_LT(kept.size(), 3000u);
+    std::size_t k = 0;
+    for (const Vec2 p : points) {
+        while (kept[k + 1].x < p.x) ++k;
+        const double share = (p.x - kept[k].x) / (kept[k + 1].x - kept[k].x);
+        ASSERT_NEAR(kept[k].y + share * (kept[k + 1].y - kept[k].y), p.y, 0.5 * grain) << p.x;
+    }
 }
 
 TEST(FigureReduce, NanBreaksTheLine) {
@@ -177,6 +202,21 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
                 EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)))
                     << column.name << ": " << drawn.written[i].markup << " over " << drawn.written[k].markup;
     }
+}
+
+TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
+    Figure figure = plot({0, 1}, {0, 1});
+    figure.panels[0].rules = {{.at = 0.5, .label = "level"}, {.at = 7, .label = "beyond"}, {.at = 0.4, .vertical = true, .label = "now"}};
+    const Drawn drawn = draw_png(figure);
+    const auto written = [&](const char* words) {
+        return std::any_of(drawn.written.begin(), drawn.written.end(), [&](const auto& w) { return w.markup == words; });
+    };
+    EXPECT_TRUE(written("level"));
+    EXPECT_TRUE(written("now"));
+    EXPECT_FALSE(written("beyond"));
+    for (std::size_t i = 0; i < drawn.written.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)));
 }
 
 TEST(Figure, PagesHaveTheColumnsWidthToTheMillimetre) {

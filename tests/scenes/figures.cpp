@@ -7,8 +7,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "render/error.hpp"
 #include "render/figure/text.hpp"
 #include "scenes/embedded.hpp"
+#include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -194,6 +196,94 @@ TEST(Figures, RunMakesThoseThatASceneLists) {
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
     EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"89mm\""));
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
+}
+
+sim::Accuracy measured() {
+    sim::Accuracy a;
+    a.until = a.end_time = 1;
+    a.reference_error = 1e-9;
+    a.target = 1e-4;
+    a.most_modes = 8;
+    const auto row = [](auto& r, double error, double seconds) {
+        r.error = error;
+        r.time = {seconds, 0.9 * seconds, 1.2 * seconds, 5};
+    };
+    for (const sim::Method method : {sim::Method::automatic, sim::Method::cvode_bdf})
+        for (int digits = 3; digits <= 12; ++digits) {
+            sim::WorkRow work;
+            work.method = method;
+            work.rtol = std::pow(10.0, -digits);
+            row(work, work.rtol, (method == sim::Method::automatic ? 1e-3 : 1e-1) * digits);
+            if (method == sim::Method::cvode_bdf && digits > 8) work.error.reset();  // took too long
+            a.work.push_back(work);
+        }
+    for (const int modes : {2, 4, 8}) {
+        sim::ModesRow count;
+        count.modes = modes;
+        row(count, std::pow(10.0, -modes), 1e-3 * modes);
+        a.modes.push_back(count);
+    }
+    sim::ContactRow stiffer;
+    stiffer.change = "stiffness +1 %";
+    stiffer.error = 2e-3;
+    a.contact.push_back(stiffer);
+    return a;
+}
+
+TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
+    const render::figure::Figure figure = accuracy_figure(measured(), sim::Problem{}, Lang::en);
+    ASSERT_EQ(figure.panels.size(), 2u);
+    const auto& work = figure.panels[0].series;  // the spread behind each curve
+    ASSERT_EQ(work.size(), 4u);
+    EXPECT_EQ(work[1].label, "auto");
+    EXPECT_EQ(work[1].x.size(), 10u);
+    EXPECT_DOUBLE_EQ(work[1].x[0], 3);           // ms
+    EXPECT_EQ(work[1].y.back(), 1e-9);           // not below what the reference can tell
+    EXPECT_EQ(work[3].x.size(), 6u);
+    EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
+    EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
+    EXPECT_THAT(figure.panels[1].series[1].x, ::testing::ElementsAre(2, 4, 8));
+    EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
+    EXPECT_THROW(accuracy_figure({}, sim::Problem{}, Lang::en), render::PictureError);
+    EXPECT_NO_THROW(render::figure::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
+}
+
+TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null, "beam": {"model": "rigid"}, "time": {"end": 0.05}})");
+    const Finished made =
+        shell(folder, "$BEAMCAM accuracy s.json --repeats 1 -o a.png -o a.svg -o a.pdf -o a.json --lang zh --column ieee");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"88.9mm\""));
+    for (const char* file : {"a.png", "a.svg", "a.pdf"})
+        EXPECT_THAT(shell(folder, std::string("$BEAMCAM info --scene ") + file).out, HasSubstr("\"rigid\"")) << file;
+    EXPECT_EQ(shell(folder, "$BEAMCAM accuracy s.json -o a.eps").code, 2);
+}
+
+TEST(Paper, IntegratesEachPhysicsOnce) {
+    const Folder folder;
+    const Finished planned = shell(folder, "$BEAMCAM paper -o out -n");
+    ASSERT_EQ(planned.code, 0) << planned.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    std::istringstream lines(planned.out);
+    int simulations = 0, files = 0;
+    for (std::string line; std::getline(lines, line);) {
+        simulations += line.starts_with("simulate");
+        files += line.starts_with("write");
+    }
+    EXPECT_EQ(files, 3 * 12 + 2);
+    Studies studies;
+    for (const EmbeddedScene& embedded : paper_scenes()) {
+        const Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true});
+        for (const Output& output : reading.scene->outputs)
+            recipe_named(std::get<FigureOutput>(output).figure)->prepare(*reading.scene, Lang::en, studies);
+    }
+    prepare_findings(studies);
+    std::vector<std::string> physics;
+    for (const Study& study : studies.take()) physics.push_back(Studies::key(study.problem));
+    EXPECT_EQ(physics.size(), static_cast<std::size_t>(simulations));
+    std::sort(physics.begin(), physics.end());
+    EXPECT_EQ(std::adjacent_find(physics.begin(), physics.end()), physics.end());
 }
 
 TEST(Paper, ScenesAreFineAndListEveryFigureOnce) {

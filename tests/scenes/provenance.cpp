@@ -55,6 +55,18 @@ TEST(Info, EveryOutputGivesBackASceneThatMakesItAgain) {
     EXPECT_THAT(shell(folder, "$BEAMCAM info a.png --json").out, HasSubstr("\"title\": \"θ\""));
 }
 
+TEST(Info, FiguresGiveBackTheSceneThatMakesTheSameBytes) {
+    const Folder folder;
+    folder.write("s.json", R"({"title": "a < b & θ", "cam": {"speed": 2}})");
+    for (const char* file : {"deflection.svg", "deflection.pdf", "deflection.png"}) {
+        const std::string name(file);
+        ASSERT_EQ(shell(folder, "$BEAMCAM figure -q s.json deflection --lang zh --column aps -o " + name).code, 0);
+        EXPECT_THAT(shell(folder, "$BEAMCAM info " + name).out, HasSubstr("made by        beamcam 0."));
+        ASSERT_EQ(shell(folder, "$BEAMCAM info --scene " + name + " > t.json && $BEAMCAM run -q t.json -o again").code, 0);
+        EXPECT_EQ(testing::slurp(folder / name), testing::slurp(folder / ("again/" + name))) << name;
+    }
+}
+
 TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
     const Folder folder;
     folder.write("s.json", "{}");

@@ -98,6 +98,38 @@ TEST(Regression, TellsAPictureThatMovedFromAMotionThatMoved) {
     EXPECT_THAT(motion.out, HasSubstr("different   motion"));
 }
 
+// One looks at the scene's motion, one at a variant of it, one at none.
+TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    folder.write("b.json", R"({"entries": {
+        "angle": {"scene": "s.json", "output": {"type": "figure", "figure": "angle", "file": "a.pdf", "dpi": 60}},
+        "fall": {"scene": "s.json", "output": {"type": "figure", "figure": "free-fall", "dpi": 60}},
+        "sketch": {"scene": "s.json", "output": {"type": "figure", "figure": "schematic", "dpi": 60, "lang": "zh"}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update angle fall sketch").code, 7);
+    const Finished again = shell(folder, "$BEAMCAM test b.json --strict -j2");
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_THAT(again.out, HasSubstr("angle   picture identical | motion identical"));
+    EXPECT_THAT(again.out, HasSubstr("fall    picture identical | motion identical"));
+    EXPECT_THAT(again.out, HasSubstr("sketch  picture identical\n"));
+    EXPECT_THAT(again.err, HasSubstr("1 simulations, 3 pictures"));
+    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("font LiberationSans-Regular.ttf"));
+    // The same pixels as the file that the command makes.
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.png --dpi 60 -q").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b/angle/0000.png").code, 0);
+    folder.write("s.json", R"({"time": {"end": 0.3}, "beam": {"length": 1.02}})");
+    const Finished longer = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(longer.code, 7);
+    for (const char* part : {"different   angle", "different   fall", "picture different", "motion different"})
+        EXPECT_THAT(longer.out, HasSubstr(part));
+    // No collision in time: a verdict, not a failure of the test itself.
+    folder.write("c.json", R"({"entries": {"close": {"scene": {"time": {"end": 0.1}},
+        "output": {"type": "figure", "figure": "collision"}}}})");
+    const Finished none = shell(folder, "$BEAMCAM test c.json");
+    EXPECT_EQ(none.code, 7) << none.err;
+    EXPECT_THAT(none.out, HasSubstr("time.end"));
+}
+
 TEST(Regression, UpdateTouchesOnlyTheEntriesItNames) {
     const Guarded folder;
     folder.update();
