@@ -140,7 +140,7 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
     }
     // Within less than two decades 2 and 5 have numbers as well; over many decades minor ticks would be a blur.
     const bool few = last - first < 1;
-    for (int n = first - 1; n <= last && last - first <= most + 1; ++n)
+    for (int n = first - 1; n <= last && last - first <= most; ++n)
         for (int digit = 2; digit <= 9; ++digit) {
             const double v = n + std::log10(digit);
             if (v < a || v > b) continue;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/figure/text.hpp"
+#include "scenes/figures/recipes.hpp"
 #include "sim/paper.hpp"
 
 namespace beamcam::scenes {
@@ -31,6 +33,9 @@ sim::Problem with_model(sim::Problem p, sim::ModelKind model) {
     p.beam.model = model;
     return p;
 }
+
+// Without markup: "−5.48×10⁻⁸".
+std::string plain(double value, int digits) { return render::figure::to_plain(number(value, digits)); }
 
 double zero(const sim::Result& r) { return r.theta_zero.empty() ? std::nan("") : r.theta_zero.front().t; }
 
@@ -96,22 +101,23 @@ std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& st
         out.push_back({"Eq. (5), overhanging span",
                        "C₂ lacks + q l₁³/(24 cos θ), D₂ lacks − q l₁⁴/(24 cos θ): the slope jumps at the support; along the "
                        "rod the deflection is 1/cos² θ larger",
-                       fmt::format("jump of the slope at l₁ = L cos θ/4: printed {:.3e}, corrected {:.1e}",
-                                   slope_jump(Printing::printed), slope_jump(Printing::corrected)),
+                       fmt::format("jump of the slope at l₁ = L cos θ/4: printed {}, corrected {}",
+                                   plain(slope_jump(Printing::printed), 4), plain(slope_jump(Printing::corrected), 1)),
                        "`Paper.DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot`"});
         out.push_back({"Eq. (4): the signs of gravity",
                        "They contradict the potential (2): as printed, the rod would rise",
-                       fmt::format("θ̈(0) = {:+.4f} rad/s² (true), {:+.4f} rad/s² (as printed)",
-                                   -1.5 * 9.81 * std::cos(M_PI / 4), 1.5 * 9.81 * std::cos(M_PI / 4)),
+                       fmt::format("θ̈(0) = {} rad/s² (true), +{} rad/s² (as printed)",
+                                   plain(-1.5 * 9.81 * std::cos(M_PI / 4), 6), plain(1.5 * 9.81 * std::cos(M_PI / 4), 6)),
                        "`FallingRod.ReachesTheHorizontalWhenItShould`"});
         const sim::Result& paper = *results[printed];
         out.push_back({"Eq. (4): l = L cos θ in the stiffening term", "Energy is not conserved",
-                       fmt::format("largest change of energy in the free fall, of its scale: printed {:.2e}, consistent {:.2e}",
-                                   paper.energy_residual_max / paper.energy_scale, flex.energy_residual_max / flex.energy_scale),
+                       fmt::format("largest change of energy in the free fall, of its scale: printed {}, consistent {}",
+                                   plain(paper.energy_residual_max / paper.energy_scale, 3),
+                                   plain(flex.energy_residual_max / flex.energy_scale, 1)),
                        "`Energy.IsNotConstantInThePapersEquation`"});
         out.push_back({"Eq. (4): u_f kept in T, dropped from gravity", "Small for L = 1 m, milliseconds for L = 8 m",
-                       fmt::format("fall time, printed − consistent: {:.2e} s (L = 1 m), {:.2e} s (L = 8 m)", zero(paper) - zero(flex),
-                                   zero(*results[long_printed]) - zero(*results[long_beam])),
+                       fmt::format("fall time, printed − consistent: {} s (L = 1 m), {} s (L = 8 m)", plain(zero(paper) - zero(flex), 3),
+                                   plain(zero(*results[long_printed]) - zero(*results[long_beam]), 3)),
                        "`Findings.ForeshorteningInGravityMatters`"});
         const sim::Table& t = results[rod]->tables[table];
         int touching = 0, right = 0, wrong = 0;
@@ -123,7 +129,7 @@ std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& st
             right += true_sign[i] >= 0;
             wrong += paper_sign[i] < 0;
         }
-        out.push_back({"Eq. (6): Δ ≥ 0 means not separated", "The sign is reversed for a rod above the cam; true is N ≥ 0",
+        out.push_back({"Eq. (6): Δ ≥ 0 means not separated", "The sign of its gravity term is reversed for a rod above the cam; true is N ≥ 0",
                        fmt::format("rigid rod, {} samples in contact in the first collision: Δ calls {} separated, N {}", touching, wrong,
                                    touching - right),
                        "`Findings.SeparationAsPrintedHasTheWrongSign`"});
