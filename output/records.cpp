@@ -154,7 +154,7 @@ void write_impacts(const std::filesystem::path& file, const sim::Result& result)
 }
 
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema) {
+                         const std::vector<sim::Channel>& extrema, const Work* work) {
     Json json;
     json["units"] = units(problem);
     json["model"] = sim::name(problem.beam.model);
@@ -173,12 +173,13 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     json["collisions"] = result.collisions.size();
     if (result.reproducible_until) json["reproducible_until"] = *result.reproducible_until;
     json["warnings"] = result.warnings;
+    if (work) for_each_count(*work, [&](const char* name, long count) { json["work"][name] = count; });
     return text_of(json);
 }
 
 void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema) {
-    write_file(file, summary_json(problem, result, extrema));
+                   const std::vector<sim::Channel>& extrema, const Work* work) {
+    write_file(file, summary_json(problem, result, extrema, work));
 }
 
 std::string modes_json(const std::vector<sim::Mode>& modes) {
@@ -249,8 +250,14 @@ std::string manifest_json(const MadeFiles& files) {
     json["files"] = Json::object();
     for (const auto& [name, made] : files) {
         Json& entry = json["files"][name] = {{"sha256", made.sha256}, {"size", made.size}};
-        if (!made.version.empty()) entry["version"] = made.version;
-        if (!made.scene.empty()) entry["scene"] = made.scene;
+        const auto tell = [&entry](const char* key, const std::string& word) {
+            if (!word.empty()) entry[key] = word;
+        };
+        tell("version", made.origin.version);
+        tell("scene", made.origin.scene);
+        tell("inputs", made.origin.inputs);
+        tell("stamp", made.stamp);
+        if (made.making != 0) entry["making"] = made.making;
     }
     return text_of(json);
 }
@@ -269,7 +276,10 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
             const Json value = entry.value(key, Json());
             return value.is_string() ? value.get<std::string>() : std::string();
         };
-        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>(), word("version"), word("scene")};
+        const Json making = entry.value("making", Json());
+        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>(),
+                       Origin{word("inputs"), word("version"), word("scene")}, word("stamp"),
+                       making.is_number_integer() ? making.get<std::int64_t>() : 0};
     }
     return files;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "output/errors.hpp"
+#include "output/work.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/channels.hpp"
 #include "sim/modes.hpp"
@@ -31,9 +32,9 @@ void write_impacts(const std::filesystem::path& file, const sim::Result& result)
 // `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
 // problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema);
+                         const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
 void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema);
+                   const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
 std::string modes_json(const std::vector<sim::Mode>& modes);
@@ -41,11 +42,21 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
 
+// What a file was made from.
+struct Origin {
+    std::string inputs;          // as a digest of the caller's; equal inputs make equal files. Empty: not told.
+    std::string version, scene;  // of the program, and in full, where the file itself cannot say so
+    bool operator==(const Origin&) const = default;
+};
+
 // What beamcam knows of a file it made.
 struct MadeFile {
-    std::string sha256;
-    std::uintmax_t size = 0;     // [bytes]
-    std::string version, scene;  // of the program, and what it was made from, where the file itself cannot say so
+    std::string sha256;       // empty: not finished yet
+    std::uintmax_t size = 0;  // [bytes]
+    Origin origin;
+    std::string stamp;  // of the file system, as long as nobody touched it; spares reading it; empty: not known
+    // When a run began to make it anew [ns]; 0: that is done. Stays behind only if the run was killed.
+    std::int64_t making = 0;
     bool operator==(const MadeFile&) const = default;
 };
 using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory

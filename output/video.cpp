@@ -300,6 +300,8 @@ struct VideoWriter::Impl {
                 throw MissingCodec(error.text);
             case beamcam_video_write_failed:
                 throw write_error(file.target(), error.error_number);
+            case beamcam_video_read_failed:
+            case beamcam_video_differs:
             case beamcam_video_failed:
                 break;
         }
@@ -449,6 +451,35 @@ void VideoWriter::finish() {
 VideoStatistics VideoWriter::statistics() const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->cost;
+}
+
+long concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file) {
+    const BeamcamVideoModule& module = load_module();
+    std::vector<std::string> texts;
+    for (const auto& segment : segments) texts.push_back(segment.string());
+    std::vector<const char*> names;
+    for (const std::string& text : texts) names.push_back(text.c_str());
+    names.push_back(nullptr);
+    AtomicFile target(file);
+    const std::string path = target.temporary_path().string();
+    std::int64_t frames = 0;
+    BeamcamVideoError error = {};
+    switch (module.concat(names.data(), path.c_str(), &frames, &error)) {
+        case beamcam_video_ok:
+            break;
+        case beamcam_video_missing_codec:
+            throw MissingCodec(error.text);
+        case beamcam_video_write_failed:
+            throw write_error(file, error.error_number);
+        case beamcam_video_read_failed:
+            throw IoError(error.text);
+        case beamcam_video_differs:
+            throw Mismatch(error.text);
+        case beamcam_video_failed:
+            throw std::runtime_error("the film " + file.string() + " failed: " + error.text);
+    }
+    target.commit();
+    return static_cast<long>(frames);
 }
 
 }  // namespace beamcam::output

@@ -77,4 +77,13 @@ class VideoWriter {
     std::unique_ptr<Impl> impl_;
 };
 
+// Segments that do not make one film: another codec, size, rate, encoder setting or scene, out of order, or no film.
+struct Mismatch : IoError {
+    using IoError::IoError;
+};
+
+// One film out of segments, in their order, packets as they are: every picture decodes to what it was. Metadata is the
+// first one's. Returns how many pictures there are. Throws Mismatch, MissingCodec, IoError.
+long concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file);
+
 }  // namespace beamcam::output

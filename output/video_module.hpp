@@ -14,7 +14,9 @@ enum BeamcamVideoStatus {
     beamcam_video_ok = 0,
     beamcam_video_missing_codec = 1,
     beamcam_video_write_failed = 2,  // `error_number` holds errno
-    beamcam_video_failed = 3
+    beamcam_video_failed = 3,
+    beamcam_video_read_failed = 4,
+    beamcam_video_differs = 5
 };
 
 struct BeamcamVideoError {
@@ -54,6 +56,10 @@ struct BeamcamVideoModule {
     BeamcamVideoStatus (*encode)(BeamcamVideoSession*, BeamcamVideoFrame*, BeamcamVideoError*);
     BeamcamVideoStatus (*finish)(BeamcamVideoSession*, BeamcamVideoError*);
     void (*close)(BeamcamVideoSession*);  // finished or not
+    // One film out of several, packets as they are. `segments`: file names, null. `file` exists; it is overwritten.
+    // What does not fit together is `beamcam_video_differs`. Fills in how many frames there are.
+    BeamcamVideoStatus (*concat)(const char* const* segments, const char* file, std::int64_t* frames,
+                                 BeamcamVideoError*);
 };
 
 // The one symbol of the module.

@@ -40,6 +40,7 @@ struct Film::Prepared {
 
 struct Film::Tools {
     explicit Tools(const Prepared& p) : fonts(p.facts.cjk) {
+        ++p.facts.counts->font_sets;
         for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
     Fonts fonts;
@@ -52,6 +53,7 @@ void Film::Prepared::draw_ground() {
     const FilmSetup& setup = *facts.setup;
     ground = Image(setup.width, setup.height);
     const Fonts fonts(facts.cjk);
+    ++facts.counts->font_sets;
     Canvas canvas(ground, fonts);
     canvas.record = &ground_texts;
     if (!setup.view.transparent) canvas.paint(facts.palette->paper);
@@ -170,6 +172,7 @@ Film& Film::operator=(Film&&) noexcept = default;
 Film Film::another() const { return Film(prepared_); }
 int Film::frames() const { return prepared_->facts.frames(); }
 double Film::exaggeration() const { return prepared_->facts.factor; }
+const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
 
 void Film::paint(int frame, Style style, Image& out, std::vector<Box>* texts) {
     const Prepared& p = *prepared_;

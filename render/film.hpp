@@ -7,6 +7,7 @@
 // never changes what was simulated and never simulates.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,6 +96,12 @@ struct FrameGeometry {
     std::vector<Box> texts;  // ink of every text [px]
 };
 
+// What drawing has loaded and drawn so far, in all Films that share what is prepared.
+struct DrawingCounts {
+    std::atomic<long> font_sets = 0, gl_contexts = 0;
+    std::atomic<long> mechanisms_lit = 0;  // by OpenGL: not again while nothing of it moves
+};
+
 // One Film a thread; `another` shares all that is prepared. Throws PictureError for an impossible size, factor or an
 // empty film; FontError and GlError (exit code 5) when fonts or the lit renderer are missing.
 class Film {
@@ -111,6 +118,7 @@ class Film {
     void draw(int frame, Image& out);   // `out` is resized as needed; 0 <= frame < frames()
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
+    const DrawingCounts& counts() const;
 
   private:
     struct Prepared;

@@ -20,6 +20,7 @@ struct DiscShape {
     double angle = 0;   // of the mark, counter-clockwise [rad]
     Vec2 mark;          // centre of the drilled mark near the rim, on the ray C→B [px]
     double mark_radius = 0;
+    bool operator==(const DiscShape&) const = default;
 };
 
 struct MechanismShape {
@@ -28,6 +29,7 @@ struct MechanismShape {
     Vec2 hinge;                    // O [px]
     double hub = 0, pin = 0;       // radii [px]
     std::optional<DiscShape> disc;
+    bool operator==(const MechanismShape&) const = default;
 };
 
 // What stays the same over a film.

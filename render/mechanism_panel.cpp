@@ -83,6 +83,7 @@ struct MechanismPanel::Threads final : Panel::State {
     Trace trace;
     std::unique_ptr<LitRenderer> lit;  // made when first needed
     Image lit_image;
+    std::optional<MechanismShape> lit_shape;  // what lit_image shows
 };
 
 MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
@@ -323,9 +324,16 @@ void MechanismPanel::whole_path(const Scene& s, Threads& threads) const {
 }
 
 void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const {
-    if (!threads.lit) threads.lit = make_lit_renderer(static_cast<int>(lit_box_.w), static_cast<int>(lit_box_.h));
+    if (!threads.lit) {
+        threads.lit = make_lit_renderer(static_cast<int>(lit_box_.w), static_cast<int>(lit_box_.h));
+        ++facts_.counts->gl_contexts;
+    }
     const LitScene scene = lit_scene(shape, look_, palette_, {lit_box_.x, lit_box_.y});
-    threads.lit->draw(scene, threads.lit_image);
+    if (threads.lit_shape != shape) {
+        threads.lit->draw(scene, threads.lit_image);
+        threads.lit_shape = shape;
+        ++facts_.counts->mechanisms_lit;
+    }
     canvas.image_part(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y), lit_bounds(scene));
 }
 

@@ -31,6 +31,7 @@ struct FilmFacts {
     double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
+    std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
 
     int frames() const { return static_cast<int>(setup->poses.size()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }

@@ -96,6 +96,7 @@ class ChartPanel : public Panel {
     ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
         : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
         const Fonts fonts(facts.cjk);
+        ++facts.counts->font_sets;
         past_ = chart_.past(fonts, *facts.palette);
     }
     void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }

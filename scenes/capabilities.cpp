@@ -13,8 +13,6 @@ struct Planned {
 constexpr Planned kPlanned[] = {
     {"outputs.type", "apng", "write a \"video\" whose \"file\" ends in .apng"},
     {"outputs.type", "gif", "write a \"video\" whose \"file\" ends in .gif"},
-    {"command", "concat", "render the film in one run"},
-    {"command", "cache", "nothing is cached yet"},
     {"command", "sweep", "run beamcam once for each value with --set"},
 };
 

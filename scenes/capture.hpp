@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "render/image.hpp"
 #include "scenes/plan.hpp"
@@ -12,7 +13,8 @@
 namespace beamcam::scenes {
 
 struct Capture {
-    sim::Result result;  // of the plan's simulation: what was integrated once for several plans; taken by the run
+    // Of requests_of the plan: what was integrated once for several plans; taken by the run.
+    std::vector<sim::Result> results;
     // Frame numbers count from 0 in each output; several threads call this at once, in any order.
     std::function<void(const Pictures&, long frame, const render::Image&)> picture;
     // A figure as pixels, whatever the ending of its file.

@@ -78,6 +78,8 @@ int command_line(int argc, const char* const* argv) {
         return parse_and_run(argc, argv);
     } catch (const UsageError& e) {
         return fail(kUsage, fmt::format("beamcam: {}", e.what()));
+    } catch (const NameClash& e) {
+        return fail(kUsage, fmt::format("beamcam: {}", e.what()));
     } catch (const SceneError& e) {
         return fail(kBadScene, e.what());
     } catch (const output::UnsupportedOption& e) {

@@ -240,18 +240,25 @@ std::string to_json(const Scene& scene) {
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+namespace {
+
+Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
+    return {{"stage", "simulate"},
+            {"model", name(problem.beam.model)},
+            {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
+            {"until", simulation.request.end_time},
+            {"because", simulation.until_because},
+            {"horizon", simulation.horizon},
+            {"from_cache", simulation.from_cache},
+            {"keep", simulation.keep}};
+}
+
+}  // namespace
+
 std::string to_json(const Plan& plan, const Scene& scene) {
     Json out, stages = Json::array();
     if (plan.impacts_until) stages.push_back({{"stage", "impacts"}, {"until", *plan.impacts_until}});
-    if (plan.simulation) {
-        const sim::Request& request = plan.simulation->request;
-        stages.push_back({{"stage", "simulate"},
-                          {"model", name(scene.problem.beam.model)},
-                          {"modes", scene.problem.beam.model == sim::ModelKind::rigid ? 0 : scene.problem.beam.modes},
-                          {"until", request.end_time},
-                          {"because", plan.simulation->until_because},
-                          {"horizon", request.horizon}});
-    }
+    if (plan.simulation) stages.push_back(stage_of(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         const std::vector<double>& times = plan.times(p);
         for (const ComparedMotion& motion : p.compared)
@@ -264,9 +271,9 @@ std::string to_json(const Plan& plan, const Scene& scene) {
                  {"label", motion.label}});
         Json stage = {{"stage", kind_name(p.kind)}, {"file", p.file}, {"output", p.output}};
         if (p.settled) {
-            stage["frames"] = times.size();
-            stage["from"] = times.front();
-            stage["last"] = times.back();
+            stage["frames"] = p.draw.size();
+            stage["from"] = times[static_cast<std::size_t>(p.draw.front())];
+            stage["last"] = times[static_cast<std::size_t>(p.draw.back())];
         }
         stage["size"] = {p.picture.size.width, p.picture.size.height};
         stage["style"] = view_name(p.picture.view);
@@ -278,13 +285,7 @@ std::string to_json(const Plan& plan, const Scene& scene) {
         }
         stages.push_back(std::move(stage));
     }
-    for (const Study& study : plan.studies)
-        stages.push_back({{"stage", "simulate"},
-                          {"model", name(study.problem.beam.model)},
-                          {"modes", study.problem.beam.model == sim::ModelKind::rigid ? 0 : study.problem.beam.modes},
-                          {"until", study.request.end_time},
-                          {"because", study.because},
-                          {"horizon", study.request.horizon}});
+    for (const Variant& variant : plan.variants) stages.push_back(stage_of(variant.simulation, variant.problem));
     for (const FigureFile& f : plan.figures)
         stages.push_back({{"stage", "figure"}, {"file", f.file}, {"output", f.output}, {"figure", f.figure}});
     for (const TableFile& t : plan.tables) {

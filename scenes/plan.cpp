@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "scenes/film_times.hpp"
+#include "scenes/motions.hpp"
 #include "scenes/time_map.hpp"
+#include "sim/observe.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -18,9 +21,28 @@ using sim::ChannelKind;
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
+// Which of the frames are asked for and not there yet.
+void choose_frames(Pictures& p, long count) {
+    const long begin = p.first_frame, end = begin + count;
+    long from = begin, to = end;
+    if (p.kind != Pictures::Kind::still && p.ask.frames) {
+        from = std::max(begin, p.ask.frames->first);
+        to = std::min(end, p.ask.frames->second);
+    } else if (p.kind != Pictures::Kind::still && p.ask.shards > 1) {
+        from = begin + count * (p.ask.shard - 1) / p.ask.shards;
+        to = begin + count * p.ask.shard / p.ask.shards;
+    }
+    if (p.kind == Pictures::Kind::video && (from > begin || to < end))
+        p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);
+    p.draw.clear();
+    for (long k = from; k < to; ++k)
+        if (!p.there.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
+}
+
 // Puts the instants of a picture where its runs are asked for them.
 void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     p.first_frame = times.first;
+    choose_frames(p, static_cast<long>(times.frames.size()));
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
     for (ComparedMotion& other : p.compared) {
@@ -48,19 +70,69 @@ std::vector<sim::Channel> channels_of(const Picture& picture, const FrameSpan& s
 // Collects what the outputs want of the one simulation.
 class Planner {
   public:
-    explicit Planner(const Scene& scene) : scene_(scene), studies_(scene.problem, simulation_.request) {}
+    Planner(const Scene& scene, const Ask& ask, const Known& known)
+        : scene_(scene), ask_(ask), known_(known), own_key_(Studies::key(scene.problem)) {}
 
     Plan make() {
-        for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
-            std::visit([&](const auto& output) { want(output, i); }, scene_.outputs[i]);
-        if (!studies_.main_because().empty()) look_until(studies_.main_until(), studies_.main_because());
-        plan_.studies = studies_.take();
-        if (needed_) plan_.simulation = std::move(simulation_);
+        for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
+            if (known_.finished.contains(i)) {
+                ++finished_;
+                skip(file_of(scene_.outputs[i]), "it is there already, made from the same inputs");
+            } else if (ask_.shard > 1 && !is_shared(scene_.outputs[i])) {
+                skip(file_of(scene_.outputs[i]), "the first shard makes it");
+            } else {
+                std::visit([&](const auto& output) { want(output, i); }, scene_.outputs[i]);
+            }
+        }
+        if (needed_) finish_simulation();
+        for (Variant& variant : plan_.variants) {
+            const auto kept = known_.variants_kept.find(Studies::key(variant.problem));
+            settle_cache(variant.simulation,
+                         kept == known_.variants_kept.end() ? std::nullopt : std::optional(kept->second));
+        }
         note_skipped();
         return std::move(plan_);
     }
 
   private:
+    // Films and sequences are what shards share.
+    static bool is_shared(const Output& output) {
+        return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output);
+    }
+
+    void finish_simulation() {
+        const double end = simulation_.request.end_time;
+        for (Pictures& p : plan_.pictures) {
+            if (!p.compared.empty() || !(p.end_time < end)) continue;
+            std::vector<double>& ends = simulation_.ends;
+            const auto at = std::find(ends.begin(), ends.end(), p.end_time);
+            p.until = static_cast<std::size_t>(at - ends.begin());
+            if (at == ends.end()) ends.push_back(p.end_time);
+        }
+        sim::Request& request = simulation_.request;
+        request.turning_points = !plan_.summaries.empty();
+        simulation_.keep = worth_keeping(scene_.problem, request);
+        for (const sim::Request& of_figure : figures_ask_)
+            simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
+        settle_cache(simulation_, known_.kept_until);
+        plan_.simulation = std::move(simulation_);
+    }
+
+    // `keep` says so far whether it is worth it.
+    void settle_cache(Simulation& simulation, std::optional<double> kept_until) const {
+        simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time;
+        simulation.keep = simulation.keep && known_.keeps && !simulation.from_cache;
+    }
+
+    void note_left_frames(const Pictures& p, std::size_t count) {
+        if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.there.size() < count))
+            skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.there.size(), count, p.file),
+                 p.ask.frames ? "outside the frames asked for" : "other shards draw them");
+        if (!p.there.empty())
+            skip(fmt::format("{} frames of {}", p.there.size(), p.file),
+                 "they are there already, made from the same inputs");
+    }
+
     void look_until(double t, const std::string& file) {
         needed_ = true;
         if (t > simulation_.request.end_time || simulation_.until_because.empty()) {
@@ -77,9 +149,19 @@ class Planner {
     // `ends` is the latest instant that the picture can look at.
     void want_pictures(Pictures p, double ends) {
         p.end_time = ends;
+        p.ask = ask_;
+        if (const auto there = known_.frames.find(p.output); there != known_.frames.end()) p.there = there->second;
+        if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
         const bool still = p.kind == Pictures::Kind::still;
         p.settled = still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts();
         p.chart_channels = channels_of(p.picture, p.span, scene_.problem);
+        if (p.settled) {
+            const FilmTimes times = times_of(p, ends, {});
+            p.first_frame = times.first;
+            choose_frames(p, static_cast<long>(times.frames.size()));
+            note_left_frames(p, times.frames.size());
+            if (p.draw.empty()) return;
+        }
         sim::Request& request = simulation_.request;
         if (p.picture.compare.empty()) {
             look_until(ends, p.file);
@@ -101,6 +183,7 @@ class Planner {
         for (const Compared& each : p.picture.compare) {
             ComparedMotion motion{each.label, each.problem, {}};
             motion.request.end_time = p.end_time;
+            motion.request.turning_points = false;
             motion.request.poses.push_back({});
             motion.request.tables.push_back({{}, p.chart_channels});
             if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
@@ -138,7 +221,35 @@ class Planner {
     void want(const FigureOutput& figure, std::size_t index) {
         const Recipe* recipe = recipe_named(figure.figure);
         if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure.figure);
-        plan_.figures.push_back({index, figure.file, figure.figure, recipe->prepare(scene_, figure.lang, studies_)});
+        Studies studies;
+        FigureFile file{index, figure.file, figure.figure, {}, recipe->prepare(scene_, figure.lang, studies)};
+        file.studies = studies.take();
+        for (Study& study : file.studies) add_study(study, figure.file);
+        plan_.figures.push_back(std::move(file));
+    }
+    // A figure's run joins others of its motion.
+    void add_study(Study& study, const std::string& file) {
+        const std::string key = Studies::key(study.problem);
+        study.of_scene = key == own_key_;
+        if (study.of_scene) {
+            look_until(end_of(study.request), file);
+            figures_ask_.push_back(study.request);
+            simulation_.horizon = simulation_.horizon || study.request.horizon;
+            return;
+        }
+        auto same = std::find_if(plan_.variants.begin(), plan_.variants.end(),
+                                 [&](const Variant& variant) { return Studies::key(variant.problem) == key; });
+        if (same == plan_.variants.end()) {
+            plan_.variants.push_back({study.problem, {}});
+            same = plan_.variants.end() - 1;
+        }
+        Simulation& all = same->simulation;
+        if (all.until_because.empty() || end_of(study.request) > all.request.end_time) {
+            all.request.end_time = std::max(all.request.end_time, end_of(study.request));
+            all.until_because = file;
+        }
+        all.horizon = all.horizon || study.request.horizon;
+        all.keep = all.keep || worth_keeping(study.problem, study.request);
     }
     void want(const TrajectoryOutput& table, std::size_t index) {
         std::vector<sim::Channel> channels = table.channels.empty() ? all_channels(scene_.problem) : table.channels;
@@ -149,15 +260,15 @@ class Planner {
         plan_.tables.push_back({index, table.file, add_table(std::move(times), std::move(channels))});
     }
     void want(const ImpactsOutput& impacts, std::size_t index) {
-        look_until(scene_.end_time, impacts.file);
+        look_until(std::max(scene_.end_time, known_.until), impacts.file);
         plan_.impacts.push_back({index, impacts.file});
     }
     void want(const SummaryOutput& summary, std::size_t index) {
-        look_until(scene_.end_time, summary.file);
+        look_until(std::max(scene_.end_time, known_.until), summary.file);
         if (simulation_.request.extrema.empty())
             for (const sim::Channel& channel : all_channels(scene_.problem))
                 if (channel.kind != ChannelKind::t) simulation_.request.extrema.push_back(channel);
-        if (summary.horizon) simulation_.request.horizon = true;
+        if (summary.horizon) simulation_.request.horizon = simulation_.horizon = true;
         plan_.summaries.push_back({index, summary.file});
     }
 
@@ -166,24 +277,27 @@ class Planner {
     void note_skipped() {
         const bool compares =
             std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
-        if (!needed_ && !compares && !plan_.studies.empty())
+        if (!needed_ && !compares && !plan_.variants.empty())
             return skip("simulation of the scene itself", "its figures look at variants of it");
         if (!needed_)
             return skip(compares ? "simulation of the scene itself" : "simulation",
-                        compares ? "only compared motions are shown" : "no output looks at the motion");
+                        compares        ? "only compared motions are shown"
+                        : finished_ > 0 ? "everything is there already"
+                                        : "no output looks at the motion");
         const double end = plan_.simulation->request.end_time;
         if (end < scene_.end_time)
             skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");
         if (!scene_.problem.cam) skip("contact", "the scene has no cam");
+        if (plan_.simulation->from_cache) skip("integration", "the motion is kept from an earlier run");
         note_unread_channels();
         if (plan_.pictures.empty())
             skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");
         else if (!plan_.needs_gl())
             skip("OpenGL", "every view is flat");
         if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
-        if (plan_.summaries.empty()) skip("extrema", "no output is a summary");
-        if (!plan_.simulation->request.horizon)
-            skip("second run for the reproducible horizon", "no summary asks for it");
+        if (plan_.summaries.empty()) skip("extrema and turning points", "no output is a summary");
+        if (!plan_.simulation->horizon)
+            skip("second run for the reproducible horizon", "nothing asks for it");
     }
 
     void note_unread_channels() {
@@ -193,8 +307,10 @@ class Planner {
             auto holds = [&](const std::vector<sim::Channel>& some) {
                 return std::find(some.begin(), some.end(), channel) != some.end();
             };
-            return holds(request.extrema) || std::any_of(request.tables.begin(), request.tables.end(),
-                                                         [&](const sim::TableRequest& t) { return holds(t.channels); });
+            const auto in_tables = [&](const sim::Request& some) {
+                return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
+            };
+            return holds(request.extrema) || in_tables(request) || std::ranges::any_of(figures_ask_, in_tables);
         };
         const auto unread = std::count_if(every.begin(), every.end(),
                                           [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
@@ -202,10 +318,14 @@ class Planner {
     }
 
     const Scene& scene_;
+    const Ask& ask_;
+    const Known& known_;
     Plan plan_;
     Simulation simulation_;
-    Studies studies_;
+    const std::string own_key_;
+    std::vector<sim::Request> figures_ask_;  // of the scene's motion
     bool needed_ = false;
+    int finished_ = 0;
 };
 
 }  // namespace
@@ -222,7 +342,7 @@ bool Plan::needs_encoder() const {
 
 std::size_t Plan::frames() const {
     std::size_t count = 0;
-    for (const Pictures& p : pictures) count += times(p).size();
+    for (const Pictures& p : pictures) count += p.draw.size();
     return count;
 }
 
@@ -231,7 +351,29 @@ const std::vector<double>& Plan::times(const Pictures& p) const {
                               : p.compared.front().request.poses.front().times;
 }
 
-Plan plan(const Scene& scene) { return Planner(scene).make(); }
+std::vector<sim::Request> requests_of(const Plan& plan) {
+    std::vector<sim::Request> all;
+    if (!plan.simulation) return all;
+    all.push_back(plan.simulation->request);
+    for (double end : plan.simulation->ends) {
+        all.emplace_back();
+        all.back().end_time = end;
+        all.back().turning_points = false;
+    }
+    for (const FigureFile& figure : plan.figures)
+        for (const Study& study : figure.studies)
+            if (study.of_scene) all.push_back(study.request);
+    return all;
+}
+
+std::string shard_file(const std::string& file, int shard, int shards) {
+    const std::filesystem::path path(file);
+    return (path.parent_path() /
+            fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
+        .string();
+}
+
+Plan plan(const Scene& scene, const Ask& ask, const Known& known) { return Planner(scene, ask, known).make(); }
 
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
     std::optional<sim::Result> own;

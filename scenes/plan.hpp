@@ -7,8 +7,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/figures/recipes.hpp"
@@ -18,10 +21,37 @@
 
 namespace beamcam::scenes {
 
+// A part of the work, to share it between machines.
+struct Ask {
+    std::optional<std::pair<long, long>> frames;  // numbers of the frames of films and sequences, half open
+    int shard = 1, shards = 1;                    // 1 <= shard <= shards
+};
+
+// What is there already. Found by looking at files (survey.hpp), so that a plan stays pure.
+struct Known {
+    std::set<std::size_t> finished;                // outputs whose files were made from the same inputs
+    std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the frames that are finished
+    std::optional<double> kept_until;              // how far a kept trajectory of this motion goes [s]
+    bool keeps = false;                            // trajectories are kept at all
+    std::map<std::string, double> variants_kept;   // the same of other motions, by Studies::key
+    double until = 0;                              // where the run of all outputs would end, finished ones too [s]
+};
+
 // One run of the mechanics serves every output.
 struct Simulation {
     sim::Request request;
     std::string until_because;  // the output that looks furthest: "fall.mp4"
+    // Pictures that end before the run: each tells of impacts and energy as if the run ended with it.
+    std::vector<double> ends;  // [s], distinct
+    bool horizon = false;      // somebody asks until when it is reproducible: a second run
+    bool from_cache = false;   // a kept trajectory goes far enough
+    bool keep = false;         // for later runs
+};
+
+// Other physics than the scene's, that figures compare it with: what serves all that look at it.
+struct Variant {
+    sim::Problem problem;
+    Simulation simulation;
 };
 
 // Another motion in the same picture: a run of its own, with the poses, the chart and the trace of that picture.
@@ -38,12 +68,18 @@ struct Pictures {
     std::size_t output = 0;  // index into the scene's outputs
     std::string file;
     Picture picture;
-    FrameSpan span;              // of video and frames
-    Instant at;                  // of a still
-    Encoding encoding;           // of video
-    bool settled = true;         // false: the frames' instants are not known before the impacts are
-    double end_time = 0;         // nothing is looked at beyond it [s]
-    long first_frame = 0;        // number of the first frame; the others follow
+    FrameSpan span;         // of video and frames
+    Instant at;             // of a still
+    Encoding encoding;      // of video
+    bool settled = true;    // false: the frames' instants are not known before the impacts are
+    double end_time = 0;    // nothing is looked at beyond it [s]
+    long first_frame = 0;   // number of the first frame; the others follow
+    Ask ask;                // which of them are asked for
+    std::set<long> there;   // numbers of those that are finished
+    std::vector<int> draw;  // which are drawn, ascending; camera and scales are those of all
+    std::string part;       // of a film: "30:60 of 0:90"; empty: the whole
+    // Index into Simulation::ends; absent: the run ends with it, or it compares motions.
+    std::optional<std::size_t> until;
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<sim::Channel> chart_channels;
@@ -56,7 +92,8 @@ struct Pictures {
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
-    FigureMaker make;  // from the results of the simulation, then of the studies
+    std::vector<Study> studies;  // what it looks at, as if it were alone
+    FigureMaker make;            // from their results
 };
 struct TableFile {
     std::size_t output = 0;
@@ -80,7 +117,7 @@ struct Plan {
     std::optional<Simulation> simulation;
     // Until when a first run has to find impacts, because pictures that are not settled look at them.
     std::optional<double> impacts_until;
-    std::vector<Study> studies;  // other physics than the scene's that figures compare it with
+    std::vector<Variant> variants;
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<TableFile> tables;
@@ -94,7 +131,14 @@ struct Plan {
     const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty before it is settled
 };
 
-Plan plan(const Scene& scene);
+Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
+
+// What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
+// in their order. None without a simulation.
+std::vector<sim::Request> requests_of(const Plan& plan);
+
+// "fall.mp4" as the second of three: "fall.2of3.mp4".
+std::string shard_file(const std::string& file, int shard, int shards);
 
 // Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
 // is called once for the scene's own motion, if a picture needs that, and for each compared one. Throws what `find`

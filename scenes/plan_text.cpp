@@ -56,7 +56,9 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
                             ? fmt::format("{}; until {:g} s, because of {}", model_words(problem), request.end_time,
                                           simulation.until_because)
                             : fmt::format("{}; the initial state only, nothing to integrate", model_words(problem));
-    if (request.horizon) words += "; a second run finds until when it is reproducible";
+    if (simulation.from_cache) words += "; kept from an earlier run";
+    if (simulation.keep) words += "; kept for later runs, unless it is short";
+    if (simulation.horizon) words += "; a second run finds until when it is reproducible";
     return words;
 }
 
@@ -70,7 +72,8 @@ std::string span_words(const Pictures& p, const std::vector<double>& times) {
                            p.end_time, p.span.fps.value());
     }
     if (still) return fmt::format("one picture of {:g} s", times.front());
-    return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", times.size(), times.front(), times.back(),
+    return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", p.draw.size(),
+                       times[static_cast<std::size_t>(p.draw.front())], times[static_cast<std::size_t>(p.draw.back())],
                        p.span.fps.value());
 }
 
@@ -102,8 +105,8 @@ std::string to_text(const Plan& plan, const Scene& scene) {
                                          motion.request.end_time, motion.label, p.file));
         line(kind_name(p.kind), picture_words(p, plan.times(p)));
     }
-    for (const Study& study : plan.studies)
-        line("simulate", simulation_words({study.request, study.because}, study.problem));
+    for (const Variant& variant : plan.variants)
+        line("simulate", simulation_words(variant.simulation, variant.problem));
     for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}", f.file, f.figure));
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];

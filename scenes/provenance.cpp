@@ -82,8 +82,8 @@ void read_film(const std::string& file, Provenance& p) {
 void read_manifest(const std::string& file, Provenance& p) {
     const auto made = output::Manifest::find(file);
     if (!made) return;
-    p.version = made->version;
-    p.scene = made->scene;
+    p.version = made->origin.version;
+    p.scene = made->origin.scene;
     p.facts["changed since"] = made->unchanged ? "no" : "yes";
 }
 

@@ -293,7 +293,10 @@ class Group {
         std::vector<sim::Result> results;
         try {
             std::vector<sim::Request> requests;
-            for (Job& job : jobs_) requests.push_back(request_of(job));
+            for (Job& job : jobs_) {
+                prepare(job);
+                for (sim::Request& request : requests_of(job.plan)) requests.push_back(std::move(request));
+            }
             results = sim::simulate(problem(), requests, [](double) { return !output::interrupted(); });
         } catch (const sim::SolverError& error) {
             return fail(fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));
@@ -301,9 +304,12 @@ class Group {
             return fail(error.what());
         }
         ++all.simulations;
-        for (std::size_t i = 0; i < jobs_.size(); ++i) {
-            judge(jobs_[i], std::move(results[i]), options);
-            all.pictures += jobs_[i].test->result().frames.size();
+        auto next = results.begin();
+        for (Job& job : jobs_) {
+            const auto last = next + static_cast<std::ptrdiff_t>(requests_of(job.plan).size());
+            judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options);
+            next = last;
+            all.pictures += job.test->result().frames.size();
         }
     }
 
@@ -321,7 +327,7 @@ class Group {
 
     const sim::Problem& problem() const { return jobs_.front().test->entry().scene.problem; }
 
-    static sim::Request request_of(Job& job) {
+    static void prepare(Job& job) {
         const Scene& scene = job.test->entry().scene;
         job.plan = plan(scene);
         settle(job.plan, scene, [](const sim::Problem& some, double until) {
@@ -335,8 +341,8 @@ class Group {
             job.plan.simulation.emplace();
             double& until = job.plan.simulation->request.end_time;
             for (const Pictures& p : job.plan.pictures) until = std::max(until, p.end_time);
-            for (const Study& study : job.plan.studies) until = std::max(until, study.request.end_time);
-            if (job.plan.pictures.empty() && job.plan.studies.empty() && !job.plan.figures.empty())
+            for (const Variant& v : job.plan.variants) until = std::max(until, v.simulation.request.end_time);
+            if (job.plan.pictures.empty() && job.plan.variants.empty() && !job.plan.figures.empty())
                 job.test->ask_for_no_motion();
         }
         sim::Request& request = job.plan.simulation->request;
@@ -347,20 +353,20 @@ class Group {
             job.motion = job.plan.tables.front().table;
         else if (job.test->asks_for_motion())
             request.tables.push_back(motion_behind_picture(scene.problem, job.until));
-        return request;
     }
 
-    static void judge(Job& job, sim::Result result, const RegressionOptions& options) {
+    static void judge(Job& job, std::vector<sim::Result> results, const RegressionOptions& options) {
+        const sim::Result& run = results.front();
         if (job.test->asks_for_motion())
-            job.test->judge_motion(result.tables[job.motion], result.impacts, job.until, result.reproducible_until);
-        Capture capture{std::move(result), [&](const Pictures&, long frame, const render::Image& image) {
+            job.test->judge_motion(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
+        Capture capture{std::move(results), [&](const Pictures&, long frame, const render::Image& image) {
                             job.test->judge_picture(frame, image);
                         },
                         [&](const render::Image& image) { job.test->judge_picture(0, image); }};
         RunOptions run_options = options.run;
-        run_options.capture = &capture;
+        run_options.no_cache = true;  // what is tested is what this program does now
         try {
-            scenes::run(job.plan, job.test->entry().scene, run_options);
+            scenes::draw(job.plan, job.test->entry().scene, capture, run_options);
         } catch (const sim::SolverError& error) {  // of a variant of the scene that a figure compares it with
             return job.test->make_impossible(
                 fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -21,10 +22,13 @@
 #include "output/records.hpp"
 #include "output/tables.hpp"
 #include "output/video.hpp"
+#include "output/work.hpp"
 #include "render/film.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/files.hpp"
+#include "scenes/motions.hpp"
+#include "scenes/survey.hpp"
 #include "scenes/version.hpp"
 
 namespace beamcam::scenes {
@@ -59,80 +63,206 @@ struct Times {
     double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
 };
 
+int thread_count(const RunOptions& options) {
+    if (options.threads > 0) return options.threads;
+    return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void stop_if_interrupted() {
+    if (output::interrupted()) throw Stopped();
+}
+
+// What the runners of one call share.
+struct Shop {
+    explicit Shop(const RunOptions& wanted)
+        : options(wanted),
+          progress(resolve(wanted.progress)),
+          manifest(wanted.force),
+          cache(open_cache(wanted.no_cache)),
+          motions(kept(), progress, {thread_count(wanted), wanted.quiet, wanted.verbose}) {}
+
+    const Cache* kept() const { return cache ? &*cache : nullptr; }
+
+    const RunOptions& options;
+    Progress progress;
+    output::Manifest manifest;
+    std::optional<Cache> cache;
+    Motions motions;
+    output::Work work;
+    Times times;
+    Clock::time_point started = Clock::now();
+};
+
+// Makes the outputs of one scene.
 class Runner {
   public:
-    Runner(const Plan& plan, const Scene& scene, const RunOptions& options)
-        : plan_(plan),
-          scene_(scene),
-          options_(options),
-          progress_(resolve(options.progress)),
-          manifest_(options.force) {}
+    Runner(const Scene& scene, Shop& shop)
+        : scene_(scene),
+          options_(shop.options),
+          shop_(shop),
+          found_(survey(scene, options_.ask, options_.directory, shop.manifest, shop.kept(), options_.force)),
+          plan_(plan(scene, options_.ask, found_.known)),
+          progress_(shop.progress),
+          manifest_(shop.manifest),
+          times_(shop.times),
+          work_(shop.work) {}
 
-    void go() {
-        started_ = Clock::now();
-        if (options_.capture) return hand_over();
+    // Draws for a command that compares: the same pixels, but no files.
+    Runner(Plan made, const Scene& scene, Capture& capture, Shop& shop)
+        : scene_(scene),
+          options_(shop.options),
+          shop_(shop),
+          capture_(&capture),
+          plan_(std::move(made)),
+          progress_(shop.progress),
+          manifest_(shop.manifest),
+          times_(shop.times),
+          work_(shop.work) {}
+    void hand_over() {
+        ask_for_others();
+        shop_.motions.make();
+        take(plan_.simulation ? std::move(capture_->results) : std::vector<sim::Result>());
+        for (std::size_t i = 0; i < plan_.figures.size(); ++i)
+            capture_->figure(figure_image(figure(i), figure_output(plan_.figures[i])));
+        for (std::size_t i = 0; i < plan_.pictures.size(); ++i) draw(i);
+    }
+
+    // All that can be refused before any work.
+    void prepare() {
+        tell_left();
         require_room();
         make_directories();
+        manifest_.announce(files());
         require_encoder();
-        if (plan_.impacts_until) {
-            find_impacts();
-            require_room();  // now that the number of frames is known
-            make_directories();
-        }
-        simulate();
+    }
+
+    // Slow motion and pictures of impacts ask where the impacts are, before anything else can be asked. `far`: until
+    // when the scene's motion is wanted.
+    void find_impacts(double far) {
+        if (!plan_.impacts_until) return;
+        const auto start = Clock::now();
+        settle(plan_, scene_, [&](const sim::Problem& problem, double until) {
+            sim::Request request;
+            request.end_time = until;
+            request.turning_points = false;
+            return shop_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
+        });
+        times_.simulate += seconds_since(start);
+        require_room();  // now that the number of frames is known
+        make_directories();
+        manifest_.announce(files());
+    }
+
+    const Plan& planned() const { return plan_; }
+    const std::string& motion() const { return found_.motion; }
+
+    // What this scene wants of its own motion and of others.
+    void ask() {
+        if (plan_.simulation) own_ = shop_.motions.want(scene_.problem, requests_of(plan_));
+        ask_for_others();
+    }
+    void take() { take(own_ ? shop_.motions.take(*own_) : std::vector<sim::Result>()); }
+
+    // Every file; the summaries last, because they tell of the work.
+    void deliver() {
         write_tables();
-        write_records();
+        write_impacts();
         write_figures();
-        for (const Pictures& p : plan_.pictures) draw(p);
-        manifest_.save();
-        if (options_.verbose) tell_times();
+        for (std::size_t i = 0; i < plan_.pictures.size(); ++i) draw(i);
+        write_summaries();
+    }
+
+    // What a failed run reached is worth looking at, under a name that no script takes for the result.
+    void keep_partial_tables() {
+        if (!own_ || shop_.motions.reached(*own_).empty()) return;
+        const sim::Result& partial = shop_.motions.reached(*own_).front();
+        for (const TableFile& t : plan_.tables) {
+            if (is_stdout(t.file) || t.table >= partial.tables.size() || partial.tables[t.table].rows() == 0) continue;
+            fs::path file = path_of(t.file);
+            file.replace_extension(".partial.csv");
+            manifest_.require_replaceable(file);
+            output::write_csv(file, partial.tables[t.table]);
+            wrote(file, "as far as the solver came", {});
+        }
+    }
+
+    // Files that will be written. Of sequences, the frames that are missing.
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> all;
+        for (const Pictures& p : plan_.pictures)
+            if (p.kind == Pictures::Kind::frames && !p.settled)
+                all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, also before it is known
+            else if (p.kind == Pictures::Kind::frames)
+                for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
+            else
+                all.push_back(path_of(p.file));
+        for (const FigureFile& f : plan_.figures)
+            for (const std::string& file : files_of(figure_output(f))) all.push_back(path_of(file));
+        const auto add = [&](const auto& list) {
+            for (const auto& each : list)
+                if (!is_stdout(each.file)) all.push_back(path_of(each.file));
+        };
+        add(plan_.tables);
+        add(plan_.impacts);
+        add(plan_.summaries);
+        return all;
     }
 
   private:
-    // The run of a command that compares: the same pixels, but no files.
-    void hand_over() {
-        result_ = std::move(options_.capture->result);
-        if (!plan_.figures.empty()) {
-            const std::vector<sim::Result> others = results_of_studies();
-            for (const FigureFile& f : plan_.figures)
-                options_.capture->figure(figure_image(f.make(by_study(others)), figure_output(f)));
+    // Variants of the scene that figures look at, and motions that pictures compare.
+    void ask_for_others() {
+        for (const FigureFile& f : plan_.figures)
+            for (const Study& study : f.studies)
+                if (!study.of_scene) others_.push_back(shop_.motions.want(study.problem, {study.request}, f.file));
+        for (const Pictures& p : plan_.pictures)
+            for (const ComparedMotion& each : p.compared)
+                others_.push_back(
+                    shop_.motions.want(each.problem, {each.request}, fmt::format("{}, {}", p.file, each.label)));
+    }
+
+    // The results in the order of the requests.
+    void take(std::vector<sim::Result> own) {
+        auto next = own.begin();
+        auto other = others_.begin();
+        const auto take_other = [&] { return std::move(shop_.motions.take(*other++).front()); };
+        if (plan_.simulation) {
+            result_ = std::move(*next++);
+            for (std::size_t i = 0; i < plan_.simulation->ends.size(); ++i) ends_.push_back(std::move(*next++));
         }
-        for (const Pictures& p : plan_.pictures) draw(p);
+        for (const FigureFile& f : plan_.figures) {
+            of_figures_.emplace_back();
+            for (const Study& study : f.studies)
+                of_figures_.back().push_back(study.of_scene ? std::move(*next++) : take_other());
+        }
+        for (const Pictures& p : plan_.pictures) {
+            compared_.emplace_back();
+            for (std::size_t i = 0; i < p.compared.size(); ++i) compared_.back().push_back(take_other());
+        }
+    }
+
+    void tell_left() {
+        for (std::size_t output : found_.known.finished) {
+            const std::string& file = file_of(scene_.outputs[output]);
+            ++work_.files_left;
+            if (!options_.quiet)
+                fmt::print(stderr, "left {} as it is: made from the same inputs (--force makes it anew)\n",
+                           path_of(file).string());
+        }
+        for (const auto& [output, frames] : found_.known.frames) {
+            work_.frames_left += static_cast<long>(frames.size());
+            if (!options_.quiet)
+                fmt::print(stderr, "left {} frames of {} as they are: made from the same inputs\n", frames.size(),
+                           path_of(file_of(scene_.outputs[output])).string());
+        }
     }
 
     // ---- files -----------------------------------------------------------------------------
 
-    fs::path path_of(const std::string& file) const {
-        return options_.directory.empty() ? fs::path(file) : fs::path(options_.directory) / file;
-    }
-
-    // At least one, also before it is known.
-    std::size_t frames_of(const Pictures& p) const { return std::max<std::size_t>(plan_.times(p).size(), 1); }
-
-    // Every file that will be written.
-    std::vector<fs::path> targets() const {
-        std::vector<fs::path> files;
-        auto add = [&](const std::string& file) {
-            if (!is_stdout(file)) files.push_back(path_of(file));
-        };
-        for (const Pictures& p : plan_.pictures) {
-            if (p.kind != Pictures::Kind::frames)
-                add(p.file);
-            else
-                for (std::size_t k = 0; k < frames_of(p); ++k)
-                    add(numbered_file(p.file, p.first_frame + static_cast<long>(k)));
-        }
-        for (const FigureFile& f : plan_.figures)
-            for (const std::string& file : files_of(figure_output(f))) add(file);
-        for (const TableFile& t : plan_.tables) add(t.file);
-        for (const ImpactsFile& i : plan_.impacts) add(i.file);
-        for (const SummaryFile& s : plan_.summaries) add(s.file);
-        return files;
-    }
+    fs::path path_of(const std::string& file) const { return place_of(options_.directory, file); }
 
     // Refuses before any work what would be refused after it.
     void require_room() {
-        for (const fs::path& file : targets()) {
+        for (const fs::path& file : files()) {
             std::error_code ignored;
             if (fs::is_directory(file, ignored))
                 throw output::IoError(
@@ -147,22 +277,32 @@ class Runner {
 
     void make_directories() {
         if (options_.directory.empty()) return;
-        for (const fs::path& file : targets()) output::ensure_directory(file.parent_path());
+        for (const fs::path& file : files()) output::ensure_directory(file.parent_path());
     }
 
-    void wrote(const fs::path& file, const std::string& what) {
-        // Most pictures and films carry their scene inside.
-        static constexpr std::string_view kSilent[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp"};
-        if (std::find(std::begin(kSilent), std::end(kSilent), file.extension().string()) != std::end(kSilent))
-            manifest_.record(file, std::string(kVersion), to_json(scene_));
-        else
-            manifest_.record(file);
+    void wrote(const fs::path& file, const std::string& what, const std::string& inputs) {
+        record(file, inputs);
         progress_.end();
         if (!options_.quiet) fmt::print(stderr, "wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
     }
 
-    std::map<std::string, std::string> metadata() const {
-        const std::string note = accuracy_note();
+    void record(const fs::path& file, const std::string& inputs) {
+        manifest_.record(file, origin(file, inputs));
+        std::error_code ignored;
+        ++work_.files_written;
+        work_.bytes_written += static_cast<long>(fs::file_size(file, ignored));
+    }
+
+    output::Origin origin(const fs::path& file, const std::string& inputs) const {
+        // Most pictures and films carry their scene inside.
+        static constexpr std::string_view kSilent[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp"};
+        if (std::find(std::begin(kSilent), std::end(kSilent), file.extension().string()) == std::end(kSilent))
+            return {inputs, {}, {}};
+        return {inputs, std::string(kVersion), to_json(scene_)};
+    }
+
+    std::map<std::string, std::string> metadata(const Pictures& p) const {
+        const std::string note = accuracy_note(p);
         std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
                                                   {"beamcam-scene", to_json(scene_)},
                                                   {"beamcam-accuracy", note}};
@@ -171,17 +311,18 @@ class Runner {
     }
 
     // What a film's players show, in the keys that MP4 knows.
-    std::map<std::string, std::string> film_metadata() const {
+    std::map<std::string, std::string> film_metadata(const Pictures& p) const {
         std::map<std::string, std::string> all = {{"comment", fmt::format("made by beamcam {}", kVersion)},
                                                   {"beamcam-scene", to_json(scene_)},
                                                   {"beamcam-version", std::string(kVersion)},
-                                                  {"beamcam-accuracy", accuracy_note()}};
+                                                  {"beamcam-accuracy", accuracy_note(p)}};
+        if (!p.part.empty()) all["beamcam-frames"] = p.part;
         if (!scene_.title.empty()) all["title"] = scene_.title;
         return all;
     }
 
     // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹"
-    std::string accuracy_note() const { return accuracy_note(scene_.problem, result_); }
+    std::string accuracy_note(const Pictures& p) const { return accuracy_note(scene_.problem, seen_by(p)); }
     static std::string accuracy_note(const sim::Problem& problem, const sim::Result& result) {
         std::string note = fmt::format("rtol {}", power_of_ten(problem.solver.rtol));
         if (result.energy_scale > 0 && result.energy_residual_max > 0)
@@ -189,6 +330,9 @@ class Runner {
                 fmt::format(" · energy closes to {}", power_of_ten(result.energy_residual_max / result.energy_scale));
         return note;
     }
+
+    // The run as if it had ended with these pictures.
+    const sim::Result& seen_by(const Pictures& p) const { return p.until ? ends_.at(*p.until) : result_; }
 
     // ---- stages ----------------------------------------------------------------------------
 
@@ -202,107 +346,19 @@ class Runner {
         video.crf = p.encoding.crf;
         video.preset = p.encoding.preset;
         if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
-        video.metadata = film_metadata();
+        video.metadata = film_metadata(p);
         return video;
     }
 
     // A film of each codec is opened and dropped, so that a missing encoder is told before anything is computed.
-    void require_encoder() const {
+    void require_encoder() {
         std::set<output::Codec> tried;
         for (const Pictures& p : plan_.pictures)
-            if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second)
+            if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
                 output::VideoWriter(path_of(p.file), video_options(p));
-    }
-
-    // Slow motion and pictures of impacts ask where the impacts are, before anything else can be asked.
-    void find_impacts() {
-        settle(plan_, scene_, [&](const sim::Problem& problem, double until) {
-            sim::Request request;
-            request.end_time = until;
-            return simulated("impacts", problem, request);
-        });
-    }
-
-    sim::Result simulated(const char* stage, const sim::Problem& problem, const sim::Request& request) {
-        progress_.begin(stage, request.end_time, "s");
-        const auto start = Clock::now();
-        sim::Result result = sim::simulate(problem, request, [&](double t) {
-            progress_.reach(t);
-            return !output::interrupted();
-        });
-        progress_.end();
-        times_.simulate += seconds_since(start);
-        return result;
-    }
-
-    void simulate() {
-        if (!plan_.simulation) return;
-        const sim::Request& request = plan_.simulation->request;
-        progress_.begin("simulate", request.end_time, "s");
-        const auto start = Clock::now();
-        try {
-            result_ = sim::simulate(scene_.problem, request, [&](double t) {
-                progress_.reach(t);
-                return !output::interrupted();
-            });
-        } catch (const sim::SolverError& error) {
-            progress_.end();
-            try {
-                keep_partial_tables(error.partials.front());
-            } catch (const output::IoError& also) {
-                fmt::print(stderr, "beamcam: {}\n", also.what());  // the solver's failure is the one to report
+                work_.encoder_modules = 1;
+                ++work_.encoders;
             }
-            throw;
-        }
-        progress_.end();
-        times_.simulate = seconds_since(start);
-        if (!options_.quiet)
-            for (const std::string& warning : result_.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    }
-
-    const FigureOutput& figure_output(const FigureFile& f) const {
-        return std::get<FigureOutput>(scene_.outputs[f.output]);
-    }
-
-    // Variants of the scene are integrated side by side; each figure then reads what it asked for.
-    std::vector<sim::Result> results_of_studies() {
-        const auto start = Clock::now();
-        std::vector<sim::Result> others =
-            simulate_studies(plan_.studies, thread_count(), progress_, options_.quiet);
-        times_.simulate += seconds_since(start);
-        return others;
-    }
-    Results by_study(const std::vector<sim::Result>& others) const {
-        Results results{&result_};
-        for (const sim::Result& other : others) results.push_back(&other);
-        return results;
-    }
-
-    void write_figures() {
-        if (plan_.figures.empty()) return;
-        const std::vector<sim::Result> others = results_of_studies();
-        for (const FigureFile& f : plan_.figures) {
-            stop_if_interrupted();
-            const auto begun = Clock::now();
-            const FigureOutput& how = figure_output(f);
-            for (const auto& [file, bytes] : figure_files(f.make(by_study(others)), how, scene_of_figure(scene_, how))) {
-                output::write_file(path_of(file), bytes);
-                wrote(path_of(file), file == how.file ? f.figure : "");
-            }
-            times_.write += seconds_since(begun);
-        }
-    }
-
-    // What a failed run reached is worth looking at, under a name that no script takes for the result.
-    void keep_partial_tables(const sim::Result& partial) {
-        for (const TableFile& t : plan_.tables) {
-            if (is_stdout(t.file) || t.table >= partial.tables.size() || partial.tables[t.table].rows() == 0) continue;
-            fs::path file = path_of(t.file);
-            file.replace_extension(".partial.csv");
-            manifest_.require_replaceable(file);
-            output::write_csv(file, partial.tables[t.table]);
-            wrote(file, "as far as the solver came");
-        }
     }
 
     void write_tables() {
@@ -317,34 +373,70 @@ class Runner {
                     throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
             } else {
                 output::write_table(path_of(t.file), table);
-                wrote(path_of(t.file), fmt::format("{} rows", table.rows()));
+                wrote(path_of(t.file), fmt::format("{} rows", table.rows()), inputs_of(t));
             }
             times_.write += seconds_since(start);
         }
     }
 
-    void write_records() {
+    template <class File>
+    const std::string& inputs_of(const File& file) const {
+        return found_.inputs[file.output];
+    }
+
+    const FigureOutput& figure_output(const FigureFile& f) const {
+        return std::get<FigureOutput>(scene_.outputs[f.output]);
+    }
+
+    render::figure::Figure figure(std::size_t i) {
+        Results results;
+        for (const sim::Result& result : of_figures_[i]) results.push_back(&result);
+        return plan_.figures[i].make(results);
+    }
+
+    void write_figures() {
+        for (std::size_t i = 0; i < plan_.figures.size(); ++i) {
+            stop_if_interrupted();
+            const auto begun = Clock::now();
+            const FigureFile& f = plan_.figures[i];
+            const FigureOutput& how = figure_output(f);
+            for (const auto& [file, bytes] : figure_files(figure(i), how, scene_of_figure(scene_, how))) {
+                output::write_file(path_of(file), bytes);
+                wrote(path_of(file), file == how.file ? f.figure : "", inputs_of(f));
+            }
+            ++work_.figures_drawn;
+            ++work_.font_sets;
+            times_.write += seconds_since(begun);
+        }
+    }
+
+    void write_impacts() {
         for (const ImpactsFile& i : plan_.impacts) {
             if (is_stdout(i.file)) {
                 print_data(output::impacts_json(result_));
             } else {
                 output::write_impacts(path_of(i.file), result_);
                 wrote(path_of(i.file),
-                      fmt::format("{} impacts in {} collisions", result_.impacts.size(), result_.collisions.size()));
-            }
-        }
-        for (const SummaryFile& s : plan_.summaries) {
-            const std::vector<sim::Channel>& extrema = plan_.simulation->request.extrema;
-            if (is_stdout(s.file)) {
-                print_data(output::summary_json(scene_.problem, result_, extrema));
-            } else {
-                output::write_summary(path_of(s.file), scene_.problem, result_, extrema);
-                wrote(path_of(s.file), "");
+                      fmt::format("{} impacts in {} collisions", result_.impacts.size(), result_.collisions.size()),
+                      inputs_of(i));
             }
         }
     }
 
-    render::Film film_of(const Pictures& p) {
+    void write_summaries() {
+        for (const SummaryFile& s : plan_.summaries) {
+            const std::vector<sim::Channel>& extrema = plan_.simulation->request.extrema;
+            if (is_stdout(s.file)) {
+                print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
+            } else {
+                output::write_summary(path_of(s.file), scene_.problem, result_, extrema, &work_);
+                wrote(path_of(s.file), "", inputs_of(s));
+            }
+        }
+    }
+
+    render::Film film_of(std::size_t index) {
+        const Pictures& p = plan_.pictures[index];
         render::FilmSetup setup;
         setup.title = scene_.title;
         setup.width = p.picture.size.width;
@@ -356,9 +448,10 @@ class Runner {
         setup.callouts = p.callouts;
         if (p.compared.empty()) {
             static_cast<render::Motion&>(setup) = motion_of(scene_.problem, result_, p.poses, p.chart, p.trace);
-            setup.accuracy_note = accuracy_note();
+            setup.accuracy_note = accuracy_note(p);
+            setup.impacts = seen_by(p).impacts;
         } else {
-            add_compared(p, setup);
+            add_compared(index, setup);
         }
         return render::Film(std::move(setup));
     }
@@ -375,12 +468,12 @@ class Runner {
     }
 
     // The least accurate motion speaks for the picture.
-    void add_compared(const Pictures& p, render::FilmSetup& setup) {
+    void add_compared(std::size_t index, render::FilmSetup& setup) {
+        const Pictures& p = plan_.pictures[index];
         double worst = -1;
         for (std::size_t i = 0; i < p.compared.size(); ++i) {
             const ComparedMotion& each = p.compared[i];
-            sim::Result result = simulated("simulate", each.problem, each.request);
-            stop_if_interrupted();
+            sim::Result& result = compared_[index][i];
             const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
             if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
             const bool traced = result.tables.size() > 1;
@@ -407,25 +500,28 @@ class Runner {
         return maker.colors();
     }
 
-    void draw(const Pictures& p) {
+    void draw(std::size_t index) {
+        const Pictures& p = plan_.pictures[index];
+        if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
         stop_if_interrupted();
-        render::Film film = film_of(p);
+        render::Film film = film_of(index);
         std::unique_ptr<output::VideoWriter> video;
-        if (p.kind == Pictures::Kind::video && !options_.capture) {
+        if (p.kind == Pictures::Kind::video && !capture_) {
             output::VideoOptions options = video_options(p);
             if (options.codec == output::Codec::gif) options.palette = palette_of(film);
             video = std::make_unique<output::VideoWriter>(path_of(p.file), options);
+            ++work_.encoders;
         }
-        const long count = film.frames();
+        const long count = static_cast<long>(p.draw.size());
         progress_.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
         Gate gate;
         std::mutex mutex;  // of the manifest, the times and the count
         long done = 0;
-        const std::map<std::string, std::string> meta = video ? std::map<std::string, std::string>() : metadata();
+        const std::map<std::string, std::string> meta = video ? std::map<std::string, std::string>() : metadata(p);
 
         auto put = [&](long k, const render::Image& image) {
-            if (options_.capture) {
-                options_.capture->picture(p, k, image);
+            if (capture_) {
+                capture_->picture(p, k, image);
                 const std::lock_guard lock(mutex);
                 return progress_.reach(static_cast<double>(++done));
             }
@@ -437,14 +533,16 @@ class Runner {
                 return;
             }
             const fs::path file =
-                path_of(p.kind == Pictures::Kind::still ? p.file : numbered_file(p.file, p.first_frame + k));
+                path_of(p.kind == Pictures::Kind::still
+                            ? p.file
+                            : numbered_file(p.file, p.first_frame + p.draw[static_cast<std::size_t>(k)]));
             const auto start = Clock::now();
             output::write_png(
                 file, image, {std::nullopt, meta},
                 p.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
             const std::lock_guard lock(mutex);
             times_.write += seconds_since(start);
-            if (p.kind == Pictures::Kind::frames) manifest_.record(file);
+            if (p.kind == Pictures::Kind::frames) record(file, inputs_of(p));
             progress_.reach(static_cast<double>(++done));
         };
         auto make_worker = [&]() -> Worker {
@@ -453,74 +551,148 @@ class Runner {
             return [&, own, image](long k) {
                 stop_if_interrupted();
                 const auto start = Clock::now();
-                own->draw(static_cast<int>(k), *image);
+                own->draw(p.draw[static_cast<std::size_t>(k)], *image);
                 const double spent = seconds_since(start);
                 {
                     const std::lock_guard lock(mutex);
                     times_.draw += spent;
+                    ++work_.frames_drawn;
                 }
                 put(k, *image);
             };
         };
-        fan_out(count, thread_count(), make_worker, gate);
+        fan_out(count, thread_count(options_), make_worker, gate);
+        const render::DrawingCounts& counts = film.counts();
+        work_.font_sets += counts.font_sets;
+        work_.gl_contexts += counts.gl_contexts;
+        work_.mechanisms_lit += counts.mechanisms_lit;
         finish(p, video.get(), count);
     }
 
     void finish(const Pictures& p, output::VideoWriter* video, long count) {
         stop_if_interrupted();
-        if (options_.capture) return progress_.end();
+        if (capture_) return progress_.end();
         if (video) {
             video->finish();
             progress_.reach(static_cast<double>(count));
             const output::VideoStatistics spent = video->statistics();
             times_.convert += spent.convert_seconds;
             times_.encode += spent.encode_seconds;
+            work_.frames_encoded += spent.frames;
         }
         if (p.kind != Pictures::Kind::frames)
-            return wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "");
+            return wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "", inputs_of(p));
         progress_.end();
         if (!options_.quiet)
-            fmt::print(stderr, "wrote {} … {} ({} frames)\n", path_of(numbered_file(p.file, p.first_frame)).string(),
-                       numbered_file(p.file, p.first_frame + count - 1), count);
+            fmt::print(stderr, "wrote {} … {} ({} frames)\n",
+                       path_of(numbered_file(p.file, p.first_frame + p.draw.front())).string(),
+                       numbered_file(p.file, p.first_frame + p.draw.back()), count);
     }
 
-    // ---- small things ----------------------------------------------------------------------
-
-    int thread_count() const {
-        if (options_.threads > 0) return options_.threads;
-        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    }
-
-    static void stop_if_interrupted() {
-        if (output::interrupted()) throw Stopped();
-    }
-
-    void tell_times() const {
-        fmt::print(stderr,
-                   "time: {:.2f} s in all; simulation {:.2f} s, drawing {:.2f} s ({} threads), conversion {:.2f} s, "
-                   "encoding {:.2f} s, other files {:.2f} s\n",
-                   seconds_since(started_), times_.simulate, times_.draw, thread_count(), times_.convert, times_.encode,
-                   times_.write);
-        if (plan_.simulation)
-            fmt::print(stderr,
-                       "simulation: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to "
-                       "{:.2e} of {:.3g} J\n",
-                       result_.counters.steps, result_.counters.rhs_evaluations, result_.impacts.size(),
-                       result_.collisions.size(), result_.energy_residual_max, result_.energy_scale);
-    }
-
-    Plan plan_;  // settled by find_impacts
     const Scene& scene_;
     const RunOptions& options_;
-    Progress progress_;
-    output::Manifest manifest_;
+    Shop& shop_;
+    Capture* capture_ = nullptr;  // absent: pictures become files
+    const Survey found_;
+    Plan plan_;  // settled by find_impacts
+    Progress& progress_;
+    output::Manifest& manifest_;
+    Times& times_;
+    output::Work& work_;
+    std::optional<std::size_t> own_;    // wish for the scene's own motion
+    std::vector<std::size_t> others_;  // wishes for others
     sim::Result result_;
-    Times times_;
-    Clock::time_point started_;
+    std::vector<sim::Result> ends_;                     // as Simulation::ends
+    std::vector<std::vector<sim::Result>> of_figures_;  // one for each study of each figure
+    std::vector<std::vector<sim::Result>> compared_;    // one for each motion of each picture
 };
+
+// ---- all together ------------------------------------------------------------------------------
+
+void refuse_clashes(std::span<const Scene> scenes) {
+    for (std::size_t later = 1; later < scenes.size(); ++later)
+        for (std::size_t earlier = 0; earlier < later; ++earlier)
+            for (const Output& a : scenes[later].outputs)
+                for (const Output& b : scenes[earlier].outputs)
+                    if (may_collide(file_of(a), file_of(b)))
+                        throw NameClash(
+                            fmt::format("{} of the scene {} and {} of the scene {} are one file; give them different "
+                                        "names, or run the scenes one by one with -o",
+                                        file_of(a), scenes[later].name, file_of(b), scenes[earlier].name));
+}
+
+// Until when anybody wants the motion that this one wants.
+double far(const Runner& one, const std::vector<std::unique_ptr<Runner>>& runners) {
+    double until = 0;
+    for (const auto& other : runners)
+        if (other->planned().simulation && other->motion() == one.motion())
+            until = std::max(until, other->planned().simulation->request.end_time);
+    return until;
+}
+
+void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runners) {
+    const auto start = Clock::now();
+    for (const auto& runner : runners) runner->ask();
+    try {
+        shop.motions.make();
+    } catch (const sim::SolverError&) {
+        try {
+            for (const auto& runner : runners) runner->keep_partial_tables();
+        } catch (const output::IoError& also) {
+            fmt::print(stderr, "beamcam: {}\n", also.what());  // the solver's failure is the one to report
+        }
+        throw;
+    }
+    for (const auto& runner : runners) runner->take();
+    shop.times.simulate += seconds_since(start);
+    const sim::Effort& effort = shop.motions.effort();
+    shop.work.integrations = effort.integrations;
+    shop.work.steps = effort.spent.steps;
+    shop.work.rhs_evaluations = effort.spent.rhs_evaluations;
+    shop.work.gap_evaluations = effort.spent.gap_evaluations;
+    shop.work.trajectories_from_cache = shop.motions.from_cache();
+    shop.work.trajectories_kept = shop.motions.kept();
+}
+
+void tell(const Shop& shop) {
+    fmt::print(stderr,
+               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads), conversion {:.2f} s, "
+               "encoding {:.2f} s, other files {:.2f} s\n",
+               seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options),
+               shop.times.convert, shop.times.encode, shop.times.write);
+    std::string text;
+    for_each_count(shop.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
+    fmt::print(stderr, "work:{}\n", text);
+}
 
 }  // namespace
 
-void run(const Plan& plan, const Scene& scene, const RunOptions& options) { Runner(plan, scene, options).go(); }
+void run(std::span<const Scene> scenes, const RunOptions& options) {
+    refuse_clashes(scenes);
+    Shop shop(options);
+    std::vector<std::unique_ptr<Runner>> runners;
+    for (const Scene& scene : scenes) runners.push_back(std::make_unique<Runner>(scene, shop));
+    for (const auto& runner : runners) runner->prepare();
+    for (const auto& runner : runners) runner->find_impacts(far(*runner, runners));
+    make_motions(shop, runners);
+    for (const auto& runner : runners) runner->deliver();
+    shop.manifest.save();
+    if (options.verbose) tell(shop);
+}
+
+void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }
+
+void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptions& options) {
+    Shop shop(options);
+    Runner(plan, scene, capture, shop).hand_over();
+}
+
+Plan plan_for(const Scene& scene, const RunOptions& options) {
+    const std::optional<Cache> cache = open_cache(options.no_cache);
+    output::Manifest manifest(options.force);
+    const Survey found =
+        survey(scene, options.ask, options.directory, manifest, cache ? &*cache : nullptr, options.force);
+    return plan(scene, options.ask, found.known);
+}
 
 }  // namespace beamcam::scenes

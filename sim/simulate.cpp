@@ -765,12 +765,18 @@ SolverError::SolverError(const std::string& what, double last_good_time, std::ve
     : std::runtime_error(what), last_time(last_good_time), partials(std::move(partial_results)) {}
 
 void Effort::add(const Counters& counters) {
-    ++integrations;
+    if (counters.steps > 0) ++integrations;  // else the initial state was all
     spent.steps += counters.steps;
     spent.rejected += counters.rejected;
     spent.rhs_evaluations += counters.rhs_evaluations;
     spent.gap_evaluations += counters.gap_evaluations;
     spent.jacobians += counters.jacobians;
+}
+
+void Effort::add(const Effort& more) {
+    const long together = integrations + more.integrations;
+    add(more.spent);
+    integrations = together;
 }
 
 std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress,

@@ -126,7 +126,8 @@ using Progress = std::function<bool(double t)>;
 struct Effort {
     long integrations = 0;
     Counters spent;
-    void add(const Counters& counters);
+    void add(const Counters& counters);  // of one integration
+    void add(const Effort& more);
 };
 
 class Trajectory;

@@ -9,6 +9,7 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,7 @@ extern "C" {
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -112,6 +114,20 @@ BeamcamVideoStatus open_codec(BeamcamVideoSession& session, const AVCodec* encod
     return code < 0 ? fail(error, "opening the encoder", code) : beamcam_video_ok;
 }
 
+BeamcamVideoStatus write_header(BeamcamVideoSession& session, const char* const* container_options,
+                                BeamcamVideoError* error) {
+    int code = avio_open(&session.format->pb, session.format->url, AVIO_FLAG_WRITE);
+    if (code < 0) return fail_to_write(error, code);
+
+    // bitexact: no library version, no date.
+    session.format->flags |= AVFMT_FLAG_BITEXACT;
+    AVDictionary* options = nullptr;
+    add_options(&options, container_options, "");
+    code = avformat_write_header(session.format, &options);
+    av_dict_free(&options);
+    return code < 0 ? fail_to_write(error, code) : beamcam_video_ok;
+}
+
 BeamcamVideoStatus open_file(BeamcamVideoSession& session, const BeamcamVideoSettings& s, BeamcamVideoError* error) {
     session.stream = avformat_new_stream(session.format, nullptr);
     if (session.stream == nullptr) return fail(error, "setting up the film", AVERROR(ENOMEM));
@@ -123,16 +139,7 @@ BeamcamVideoStatus open_file(BeamcamVideoSession& session, const BeamcamVideoSet
 
     for (const char* const* entry = s.metadata; *entry != nullptr; entry += 2)
         av_dict_set(&session.format->metadata, entry[0], entry[1], 0);
-    code = avio_open(&session.format->pb, session.format->url, AVIO_FLAG_WRITE);
-    if (code < 0) return fail_to_write(error, code);
-
-    // bitexact: no library version, no date.
-    session.format->flags |= AVFMT_FLAG_BITEXACT;
-    AVDictionary* options = nullptr;
-    add_options(&options, s.container_options, "");
-    code = avformat_write_header(session.format, &options);
-    av_dict_free(&options);
-    return code < 0 ? fail_to_write(error, code) : beamcam_video_ok;
+    return write_header(session, s.container_options, error);
 }
 
 BeamcamVideoStatus open_session(BeamcamVideoSession& session, const BeamcamVideoSettings& s, BeamcamVideoError* error) {
@@ -146,6 +153,14 @@ BeamcamVideoStatus open_session(BeamcamVideoSession& session, const BeamcamVideo
     if (session.packet == nullptr) return fail(error, "setting up the film", AVERROR(ENOMEM));
     if (const auto status = open_codec(session, encoder, s, error); status != beamcam_video_ok) return status;
     return open_file(session, s, error);
+}
+
+BeamcamVideoStatus end_file(BeamcamVideoSession& session, BeamcamVideoError* error) {
+    int code = av_write_trailer(session.format);
+    if (code >= 0 && session.format->pb->error < 0) code = session.format->pb->error;
+    const int closed = avio_closep(&session.format->pb);
+    if (code >= 0) code = closed;
+    return code < 0 ? fail_to_write(error, code) : beamcam_video_ok;
 }
 
 // Moves what the encoder has ready into the file.
@@ -224,16 +239,193 @@ BeamcamVideoStatus finish(BeamcamVideoSession* session, BeamcamVideoError* error
     int code = avcodec_send_frame(session->codec, nullptr);
     if (code < 0) return fail(error, "encoding", code);
     if (const auto status = drain(*session, error); status != beamcam_video_ok) return status;
-    code = av_write_trailer(session->format);
-    if (code >= 0 && session->format->pb->error < 0) code = session->format->pb->error;
-    const int closed = avio_closep(&session->format->pb);
-    if (code >= 0) code = closed;
-    return code < 0 ? fail_to_write(error, code) : beamcam_video_ok;
+    return end_file(*session, error);
 }
 
 void close(BeamcamVideoSession* session) noexcept { delete session; }
 
-constexpr BeamcamVideoModule kModule = {kBeamcamVideoModuleVersion, open, make_frame, encode, finish, close};
+// ---- joining films ------------------------------------------------------------------------------
+
+struct Segment {
+    std::string name;
+    AVFormatContext* format = nullptr;
+    AVStream* stream = nullptr;
+    long first = 0, end = 0, begin_of_all = 0, end_of_all = 0;  // frame numbers, where the segment tells them
+    bool numbered = false;
+
+    Segment() = default;
+    Segment(Segment&& other) noexcept
+        : name(std::move(other.name)),
+          format(std::exchange(other.format, nullptr)),
+          stream(other.stream),
+          first(other.first),
+          end(other.end),
+          begin_of_all(other.begin_of_all),
+          end_of_all(other.end_of_all),
+          numbered(other.numbered) {}
+    ~Segment() { avformat_close_input(&format); }
+
+    std::string tag(const char* key) const {
+        const AVDictionaryEntry* entry = av_dict_get(format->metadata, key, nullptr, 0);
+        return entry != nullptr ? entry->value : "";
+    }
+};
+
+BeamcamVideoStatus refuse(BeamcamVideoError* error, BeamcamVideoStatus status, const std::string& text) {
+    std::snprintf(error->text, sizeof error->text, "%s", text.c_str());
+    return status;
+}
+
+BeamcamVideoStatus open_segment(const char* name, Segment& segment, BeamcamVideoError* error) {
+    segment.name = name;
+    const std::string url = "file:" + segment.name;
+    int code = avformat_open_input(&segment.format, url.c_str(), nullptr, nullptr);
+    if (code >= 0) code = avformat_find_stream_info(segment.format, nullptr);
+    if (code < 0) {
+        char reason[AV_ERROR_MAX_STRING_SIZE] = "";
+        av_strerror(code, reason, sizeof reason);
+        return refuse(error, beamcam_video_read_failed, "cannot read " + segment.name + " as a film: " + reason);
+    }
+    for (unsigned i = 0; i < segment.format->nb_streams; ++i)
+        if (segment.format->streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO)
+            segment.stream = segment.format->streams[i];
+    if (segment.stream == nullptr || segment.format->nb_streams != 1)
+        return refuse(error, beamcam_video_differs,
+                      segment.name +
+                          " is not one of beamcam's films: it should hold one "
+                          "stream of pictures and nothing else");
+    const std::string part = segment.tag("beamcam-frames");
+    segment.numbered = std::sscanf(part.c_str(), "%ld:%ld of %ld:%ld", &segment.first, &segment.end,
+                                   &segment.begin_of_all, &segment.end_of_all) == 4;
+    return beamcam_video_ok;
+}
+
+std::string size_of(const AVCodecParameters& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); }
+
+// A scene without the names of its outputs, which say nothing about pictures.
+std::string without_files(std::string scene) {
+    const std::string key = "\"file\": \"";
+    for (std::size_t at = scene.find(key); at != std::string::npos; at = scene.find(key, at)) {
+        std::size_t end = at + key.size();
+        while (end < scene.size() && scene[end] != '"') end += scene[end] == '\\' ? 2 : 1;
+        scene.erase(at, std::min(end, scene.size()) - at);
+    }
+    return scene;
+}
+
+// Why `b` cannot follow `a`; empty when it can.
+std::string mismatch(const Segment& a, const Segment& b) {
+    const AVCodecParameters &p = *a.stream->codecpar, &q = *b.stream->codecpar;
+    if (p.codec_id != q.codec_id)
+        return std::string("codecs ") + avcodec_get_name(p.codec_id) + " and " + avcodec_get_name(q.codec_id);
+    if (p.width != q.width || p.height != q.height) return "sizes " + size_of(p) + " and " + size_of(q);
+    if (av_cmp_q(a.stream->avg_frame_rate, b.stream->avg_frame_rate) != 0 ||
+        av_cmp_q(a.stream->time_base, b.stream->time_base) != 0)
+        return "frame rates";
+    if (p.extradata_size != q.extradata_size ||
+        std::memcmp(p.extradata, q.extradata, static_cast<std::size_t>(p.extradata_size)) != 0)
+        return "settings of the encoder";
+    if (without_files(a.tag("beamcam-scene")) != without_files(b.tag("beamcam-scene"))) return "scenes";
+    if (a.tag("beamcam-version") != b.tag("beamcam-version")) return "versions of beamcam";
+    return {};
+}
+
+BeamcamVideoStatus check_order(const std::vector<Segment>& segments, BeamcamVideoError* error) {
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+        const Segment &a = segments[i - 1], &b = segments[i];
+        if (const std::string what = mismatch(a, b); !what.empty())
+            return refuse(error, beamcam_video_differs,
+                          a.name + " and " + b.name + " have different " + what + " and make no one film");
+        if (a.numbered && b.numbered &&
+            (a.end != b.first || a.begin_of_all != b.begin_of_all || a.end_of_all != b.end_of_all))
+            return refuse(error, beamcam_video_differs,
+                          a.name + " holds the frames " + a.tag("beamcam-frames") + ", " + b.name + " " +
+                              b.tag("beamcam-frames") + ": name the segments in order, without gaps");
+    }
+    return beamcam_video_ok;
+}
+
+// The packets of one segment, moved by so many frames. The segment's own first picture is its instant 0.
+BeamcamVideoStatus copy_packets(Segment& segment, BeamcamVideoSession& session, std::int64_t& frames,
+                                BeamcamVideoError* error) {
+    const AVRational frame = av_inv_q(segment.stream->avg_frame_rate), base = segment.stream->time_base;
+    const std::int64_t shift = av_rescale_q(frames, frame, base);
+    std::int64_t earliest = AV_NOPTS_VALUE;
+    for (;;) {
+        int code = av_read_frame(segment.format, session.packet);
+        if (code == AVERROR_EOF) return beamcam_video_ok;
+        if (code < 0) {
+            fail(error, "reading", code);
+            return refuse(error, beamcam_video_read_failed, segment.name + ": " + std::string(error->text));
+        }
+        // The first packet is a key picture and the first that is shown.
+        if (earliest == AV_NOPTS_VALUE) earliest = session.packet->pts;
+        session.packet->pts += shift - earliest;
+        session.packet->dts += shift - earliest;
+        session.packet->stream_index = 0;
+        session.packet->pos = -1;
+        av_packet_rescale_ts(session.packet, base, session.stream->time_base);
+        code = av_interleaved_write_frame(session.format, session.packet);
+        if (code >= 0 && session.format->pb->error < 0) code = session.format->pb->error;
+        if (code < 0) return fail_to_write(error, code);
+        ++frames;
+    }
+}
+
+BeamcamVideoStatus start_joined(const std::vector<Segment>& segments, BeamcamVideoSession& session, const char* file,
+                                BeamcamVideoError* error) {
+    const Segment &first = segments.front(), &last = segments.back();
+    const std::string url = std::string("file:") + file;
+    int code = avformat_alloc_output_context2(&session.format, nullptr, "mp4", url.c_str());
+    if (code < 0) return fail(error, "setting up the film", code);
+    session.packet = av_packet_alloc();
+    session.stream = avformat_new_stream(session.format, nullptr);
+    if (session.packet == nullptr || session.stream == nullptr)
+        return fail(error, "setting up the film", AVERROR(ENOMEM));
+    code = avcodec_parameters_copy(session.stream->codecpar, first.stream->codecpar);
+    if (code < 0) return fail(error, "setting up the film", code);
+    session.stream->time_base = first.stream->time_base;
+    session.stream->avg_frame_rate = first.stream->avg_frame_rate;
+    session.stream->sample_aspect_ratio = first.stream->sample_aspect_ratio;
+    for (const AVDictionaryEntry* entry = nullptr;
+         (entry = av_dict_get(first.format->metadata, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr;) {
+        const std::string key = entry->key;
+        if (key == "title" || key == "comment" || (key.starts_with("beamcam-") && key != "beamcam-frames"))
+            av_dict_set(&session.format->metadata, entry->key, entry->value, 0);
+    }
+    const bool whole =
+        first.numbered && last.numbered && first.first == first.begin_of_all && last.end == last.end_of_all;
+    if (first.numbered && last.numbered && !whole) {
+        const std::string part = std::to_string(first.first) + ":" + std::to_string(last.end) + " of " +
+                                 std::to_string(first.begin_of_all) + ":" + std::to_string(first.end_of_all);
+        av_dict_set(&session.format->metadata, "beamcam-frames", part.c_str(), 0);
+    }
+    // As in every MP4 of the program: index first, keys of our own.
+    constexpr const char* kOptions[] = {"movflags", "+faststart+use_metadata_tags", nullptr};
+    return write_header(session, kOptions, error);
+}
+
+BeamcamVideoStatus concat(const char* const* names, const char* file, std::int64_t* frames,
+                          BeamcamVideoError* error) noexcept try {
+    av_log_set_level(AV_LOG_FATAL);
+    std::vector<Segment> segments;
+    for (; *names != nullptr; ++names) {
+        segments.emplace_back();
+        if (const auto status = open_segment(*names, segments.back(), error); status != beamcam_video_ok) return status;
+    }
+    if (const auto status = check_order(segments, error); status != beamcam_video_ok) return status;
+    BeamcamVideoSession session;
+    if (const auto status = start_joined(segments, session, file, error); status != beamcam_video_ok) return status;
+    *frames = 0;
+    for (Segment& segment : segments)
+        if (const auto status = copy_packets(segment, session, *frames, error); status != beamcam_video_ok)
+            return status;
+    return end_file(session, error);
+} catch (const std::bad_alloc&) {
+    return fail(error, "joining films", AVERROR(ENOMEM));
+}
+
+constexpr BeamcamVideoModule kModule = {kBeamcamVideoModuleVersion, open, make_frame, encode, finish, close, concat};
 
 }  // namespace
 

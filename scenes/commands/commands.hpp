@@ -6,6 +6,8 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -45,6 +47,8 @@ void add_simulate(Grammar& grammar);
 void add_modes(Grammar& grammar);
 void add_check(Grammar& grammar);
 void add_plan(Grammar& grammar);
+void add_cache(Grammar& grammar);
+void add_concat(Grammar& grammar);
 void add_init(Grammar& grammar);
 void add_stress(Grammar& grammar);
 void add_schema(Grammar& grammar);
@@ -59,8 +63,8 @@ void add_paper(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,  add_render, add_simulate, add_modes,  add_check,    add_plan,   add_init,  add_schema, add_hash,
-    add_diff, add_test,   add_info,     add_doctor, add_accuracy, add_figure, add_paper, add_stress,
+    add_run,  add_render, add_simulate, add_modes, add_check, add_plan, add_cache,  add_concat,   add_init,   add_schema,
+    add_hash, add_diff,   add_test,     add_info,  add_doctor, add_accuracy, add_figure, add_paper, add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------
@@ -77,6 +81,8 @@ void add_set(CLI::App& app, Common& common);                        // --set
 void add_quiet(CLI::App& app, Common& common);                      // -q
 void add_scene(CLI::App& app, std::string& scene, Common& common);  // SCENE, --set, -q
 void add_work(CLI::App& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
+void add_shard(CLI::App& app, std::optional<std::string>& shard);
+Ask shard_argument(const std::string& text);  // "2/3"; throws UsageError
 
 // ---- what they do alike -------------------------------------------------------------------------
 
@@ -88,7 +94,7 @@ void print_data(std::string_view text);
 Scene read_or_refuse(const std::string& path, const Common& common);
 // The scene with the film that one without outputs yields.
 Scene with_default_output(Scene scene);
-void show_plan(const Scene& scene, bool json);
+void show_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 RunOptions run_options(const Common& common, std::string directory);
 
 // The value of an option with a unit or without; throws UsageError. Not negative.

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -29,14 +30,15 @@ void add_scene(CLI::App& app, std::string& scene, Common& common) {
 }
 
 void add_work(CLI::App& app, Common& common) {
-    app.add_flag("-v,--verbose", common.verbose, "Tell where the time went");
+    app.add_flag("-v,--verbose", common.verbose, "Tell where the time went, and count the work");
     app.add_option("-j,--jobs", common.threads, "Threads that draw (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     app.add_option("--progress", common.progress, "Progress on standard error: auto, bar, plain, json or none")
         ->type_name("STYLE");
-    app.add_flag("--force", common.force, "Replace files that beamcam did not make");
-    app.add_flag("--no-cache", common.no_cache, "Neither read nor keep cached results (this version keeps none)");
+    app.add_flag("--force", common.force,
+                 "Replace files that beamcam did not make, and make anew what is there already");
+    app.add_flag("--no-cache", common.no_cache, "Neither read nor keep trajectories (beamcam cache --help)");
     app.add_flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
     app.add_flag("--json", common.json, "With -n: the plan as JSON");
 }
@@ -57,9 +59,39 @@ Scene read_or_refuse(const std::string& path, const Common& common) {
     return std::move(*reading.scene);
 }
 
-void show_plan(const Scene& scene, bool json) {
-    const Plan made = plan(scene);
-    print_data(json ? to_json(made, scene) : to_text(made, scene));
+void show_plans(std::span<const Scene> scenes, const RunOptions& options, bool json) {
+    std::string text;
+    for (const Scene& scene : scenes) {
+        const Plan made = plan_for(scene, options);
+        if (json) {
+            text += (text.empty() ? "" : ",\n") + to_json(made, scene);
+        } else {
+            if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
+            text += to_text(made, scene);
+        }
+    }
+    print_data(json && scenes.size() > 1 ? "[" + text + "]\n" : text);
+}
+
+void add_shard(CLI::App& app, std::optional<std::string>& shard) {
+    app.add_option("--shard", shard,
+                   "The I-th of N parts of every film and sequence, with the pixels of the whole: 2/3 makes "
+                   "NAME.2of3.mp4. Other outputs belong to the first")
+        ->type_name("I/N");
+}
+
+Ask shard_argument(const std::string& text) {
+    Ask ask;
+    const char* end = text.data() + text.size();
+    const auto [slash, error] = std::from_chars(text.data(), end, ask.shard);
+    const bool cut = error == std::errc{} && slash != end && *slash == '/';
+    const auto [last, bad] =
+        cut ? std::from_chars(slash + 1, end, ask.shards) : std::from_chars_result{end, std::errc::invalid_argument};
+    constexpr int kMost = 10000;
+    if (bad != std::errc{} || last != end || ask.shards < 1 || ask.shards > kMost || ask.shard < 1 ||
+        ask.shard > ask.shards)
+        throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3", text));
+    return ask;
 }
 
 Scene with_default_output(Scene scene) {
@@ -72,6 +104,7 @@ RunOptions run_options(const Common& common, std::string directory) {
     options.directory = std::move(directory);
     options.threads = common.threads;
     options.force = common.force;
+    options.no_cache = common.no_cache;
     options.quiet = common.quiet;
     options.verbose = common.verbose;
     const auto style = progress_style_named(common.progress);

@@ -81,10 +81,11 @@ int act(const Arguments& args) {
     if (const auto refusal = recipe->refusal(scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
     scene.outputs = {wanted(args, *recipe)};
+    const RunOptions options = run_options(args.common, "");
     if (args.common.dry_run)
-        show_plan(scene, args.common.json);
+        show_plans({&scene, 1}, options, args.common.json);
     else
-        run(plan(scene), scene, run_options(args.common, ""));
+        run(scene, options);
     return 0;
 }
 

@@ -13,7 +13,9 @@
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/motions.hpp"
 #include "scenes/reader.hpp"
+#include "scenes/survey.hpp"
 #include "scenes/version.hpp"
 
 namespace beamcam::scenes {
@@ -91,7 +93,7 @@ class Writer {
         if (output::interrupted()) throw Stopped();
         const fs::path path = fs::path(args_.directory) / file;
         output::write_file(path, bytes);
-        manifest_.record(path, std::string(kVersion));
+        manifest_.record(path, {{}, std::string(kVersion), {}});
         ++count_;
     }
     void finish() {
@@ -123,7 +125,12 @@ int act(const Arguments& args) {
     const int threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Progress progress(resolve(options.progress));
-    const std::vector<sim::Result> made = simulate_studies(all, threads, progress, args.common.quiet);
+    const std::optional<Cache> cache = open_cache(options.no_cache);
+    Motions motions(cache ? &*cache : nullptr, progress, {threads, options.quiet, options.verbose});
+    for (const Study& study : all) motions.want(study.problem, {study.request}, study.because);
+    motions.make();
+    std::vector<sim::Result> made;
+    for (std::size_t i = 0; i < all.size(); ++i) made.push_back(std::move(motions.take(i).front()));
     Results results;
     for (const sim::Result& result : made) results.push_back(&result);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 #include <optional>
 
@@ -17,7 +18,8 @@ struct Arguments {
     Common common;
     std::string scene, file;
     std::vector<std::string> others;
-    std::optional<std::string> at, from, to, size, fps, style, theme, speed, codec, background, comparison;
+    std::optional<std::string> at, from, to, size, fps, style, theme, speed, codec, background, comparison, frames,
+        shard;
 };
 
 // What `render` draws like: the scene's first film, sequence or still, else the default film.
@@ -159,6 +161,42 @@ Output render_output(const Arguments& args, VideoOutput film) {
     return film;
 }
 
+// "12:40", ":40" or "12:" of the frames that the film has.
+std::pair<long, long> frames_argument(const std::string& text, long begin, long end) {
+    const std::size_t colon = text.find(':');
+    const auto number = [&](std::string_view part, long otherwise) {
+        if (part.empty()) return otherwise;
+        long value = -1;
+        const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        return error == std::errc{} && last == part.data() + part.size() ? value : -1;
+    };
+    if (colon == std::string::npos)
+        throw UsageError(
+            fmt::format("--frames {}: write FIRST:END, for example {}:{} for all of them", text, begin, end));
+    const long from = number(std::string_view(text).substr(0, colon), begin),
+               to = number(std::string_view(text).substr(colon + 1), end);
+    if (from < begin || to > end || from >= to)
+        throw UsageError(
+            fmt::format("--frames {}: the frames are {}:{}, the last one not included; name at least one of them", text,
+                        begin, end));
+    return {from, to};
+}
+
+Ask asked_part(const Arguments& args, const Scene& scene) {
+    Ask ask;
+    if (!args.frames && !args.shard) return ask;
+    if (args.at) throw UsageError("--at makes one picture; --frames and --shard belong to films");
+    if (args.frames && args.shard) throw UsageError("--frames and --shard exclude each other; keep one");
+    if (args.shard) return shard_argument(*args.shard);
+    const Plan made = plan(scene);
+    const Pictures& whole = made.pictures.at(0);
+    if (!whole.settled)
+        throw UsageError("--frames: only the impacts tell how many frames a film in slow motion has; use --shard");
+    ask.frames =
+        frames_argument(*args.frames, whole.first_frame, whole.first_frame + static_cast<long>(whole.draw.size()));
+    return ask;
+}
+
 int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     VideoOutput film = film_to_imitate(scene);
@@ -168,10 +206,12 @@ int act(const Arguments& args) {
         if (std::string problem = problem_with_span(film.span, scene.end_time); !problem.empty())
             throw UsageError(problem);
     scene.outputs = {render_output(args, std::move(film))};
+    RunOptions options = run_options(args.common, "");
+    options.ask = asked_part(args, scene);
     if (args.common.dry_run)
-        show_plan(scene, args.common.json);
+        show_plans({&scene, 1}, options, args.common.json);
     else
-        run(plan(scene), scene, run_options(args.common, ""));
+        run(scene, options);
     return 0;
 }
 
@@ -206,6 +246,11 @@ void add_render(Grammar& grammar) {
     app->add_option("--comparison", args->comparison, "Several scenes as panels, or as ghosts in one")
         ->check(CLI::IsMember({"panels", "ghosts"}))
         ->type_name("HOW");
+    app->add_option("--frames", args->frames,
+                    "Only these frames of the film, by number, the last one not included: 30:60. Scales and camera are "
+                    "those of the whole film")
+        ->type_name("A:B");
+    add_shard(*app, args->shard);
     add_work(*app, args->common);
     grammar.bind(app, args, act);
 }

@@ -1,22 +1,29 @@
 #include "scenes/run.hpp"
 
+#include <optional>
+
 #include "scenes/commands/commands.hpp"
-#include "scenes/plan.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 struct Arguments {
     Common common;
-    std::string scene, directory = ".";
+    std::vector<std::string> scenes;
+    std::string directory = ".";
+    std::optional<std::string> shard;
 };
 
 int act(const Arguments& args) {
-    const Scene scene = with_default_output(read_or_refuse(args.scene, args.common));
+    std::vector<Scene> scenes;
+    for (const std::string& path : args.scenes)
+        scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
+    RunOptions options = run_options(args.common, args.directory);
+    if (args.shard) options.ask = shard_argument(*args.shard);
     if (args.common.dry_run)
-        show_plan(scene, args.common.json);
+        show_plans(scenes, options, args.common.json);
     else
-        run(plan(scene), scene, run_options(args.common, args.directory));
+        run(scenes, options);
     return 0;
 }
 
@@ -24,11 +31,17 @@ int act(const Arguments& args) {
 
 void add_run(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("run", "Make every output that the scene lists; none: a film named after the scene");
-    add_scene(*app, args->scene, args->common);
+    CLI::App* app = grammar.app.add_subcommand(
+        "run", "Make every output that the scenes list; a scene that lists none: a film named after it");
+    app->add_option("SCENE", args->scenes,
+                    "Scenes, JSON files; - is standard input. Those of one motion are simulated once")
+        ->required()
+        ->type_name("");
+    add_set(*app, args->common);
+    add_quiet(*app, args->common);
     app->add_option("-o,--output", args->directory, "Directory of the outputs (default: the current one)")
         ->type_name("DIR");
+    add_shard(*app, args->shard);
     add_work(*app, args->common);
     grammar.bind(app, args, act);
 }

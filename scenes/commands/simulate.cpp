@@ -77,10 +77,11 @@ std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) 
 int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     scene.outputs = simulate_outputs(args, scene);
+    const RunOptions options = run_options(args.common, "");
     if (args.common.dry_run)
-        show_plan(scene, args.common.json);
+        show_plans({&scene, 1}, options, args.common.json);
     else
-        run(plan(scene), scene, run_options(args.common, ""));
+        run(scene, options);
     return 0;
 }
 

@@ -62,6 +62,7 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
     const auto want = [&](const sim::Problem& p, bool enlarged) {
         Fall fall;
         fall.study = studies.of(p, end, "free-fall");
+        studies.turning_points(fall.study);
         fall.table = studies.table(fall.study, {0, end, kCurve}, {ChannelKind::t, ChannelKind::theta});
         if (enlarged)
             fall.close = studies.table(fall.study, {*exact - kAround, *exact + kAround, 241}, {ChannelKind::t, ChannelKind::theta});

@@ -90,6 +90,8 @@ std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& st
         repeated[k] = studies.of(p, kRepeated, who);
         studies.horizon(repeated[k]);
     }
+    for (const std::size_t study : {flexible, printed, long_beam, long_printed, repeated[0], repeated[1], repeated[2]})
+        studies.turning_points(study);
     return [=](const Results& results) {
         std::vector<Finding> out;
         const sim::Result& flex = *results[flexible];

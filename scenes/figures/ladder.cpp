@@ -51,6 +51,7 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
             // Cantilever shapes with many modes lose the inertia of a light hub; see the model's limits.
             if (basis == Basis::cantilever && modes > 6) continue;
             runs.push_back({basis, modes, studies.of(p, scene.end_time, "apex-modes"), p});
+            studies.turning_points(runs.back().study);
         }
     return [runs, lang, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;

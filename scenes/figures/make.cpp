@@ -5,13 +5,10 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
-#include <mutex>
 
-#include "output/interrupt.hpp"
 #include "output/png.hpp"
 #include "render/error.hpp"
 #include "render/figure/text.hpp"
-#include "scenes/fan_out.hpp"
 #include "scenes/version.hpp"
 
 namespace beamcam::scenes {
@@ -110,34 +107,6 @@ std::vector<std::pair<std::string, std::string>> figure_files(const figure::Figu
     if (!how.data_file.empty()) files.emplace_back(how.data_file, figure::data_csv(f));
     if (!how.caption_file.empty()) files.emplace_back(how.caption_file, caption_text(f, how.caption_file));
     return files;
-}
-
-std::vector<sim::Result> simulate_studies(const std::vector<Study>& studies, int threads, Progress& progress, bool quiet) {
-    std::vector<sim::Result> results(studies.size());
-    if (studies.empty()) return results;
-    double total = 0;
-    for (const Study& study : studies) total += study.request.end_time;
-    progress.begin("simulate", total, "s");
-    std::mutex mutex;
-    std::vector<double> reached(studies.size(), 0);
-    Gate gate;
-    const auto one = [&](long k) {
-        const auto i = static_cast<std::size_t>(k);
-        results[i] = sim::simulate(studies[i].problem, studies[i].request, [&](double t) {
-            const std::lock_guard lock(mutex);
-            reached[i] = t;
-            double sum = 0;
-            for (const double r : reached) sum += r;
-            progress.reach(sum);
-            return !output::interrupted();
-        });
-    };
-    fan_out(static_cast<long>(studies.size()), threads, [&]() -> Worker { return one; }, gate);
-    progress.end();
-    for (std::size_t i = 0; !quiet && i < studies.size(); ++i)
-        for (const std::string& warning : results[i].warnings)
-            fmt::print(stderr, "warning: {}: {}\n", studies[i].because, warning);
-    return results;
 }
 
 }  // namespace beamcam::scenes

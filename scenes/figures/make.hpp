@@ -1,4 +1,4 @@
-// From a figure and the way it is wanted to the bytes of its files; and the simulations of studies, side by side.
+// From a figure and the way it is wanted to the bytes of its files.
 #pragma once
 
 #include <string>
@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "render/figure/figure.hpp"
-#include "scenes/figures/studies.hpp"
-#include "scenes/progress.hpp"
 #include "scenes/scene.hpp"
 
 namespace beamcam::scenes {
@@ -28,8 +26,5 @@ std::string scene_of_figure(Scene scene, FigureOutput how);
 
 // The caption with its accuracy statement: plain text, then LaTeX; `.tex`: LaTeX, the plain text as its comment.
 std::string caption_text(const render::figure::Figure& figure, const std::string& file);
-
-// One result a study, in their order, on several threads. Throws what sim::simulate throws.
-std::vector<sim::Result> simulate_studies(const std::vector<Study>& studies, int threads, Progress& progress, bool quiet);
 
 }  // namespace beamcam::scenes

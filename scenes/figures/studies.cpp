@@ -28,13 +28,13 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time, const std:
     const auto index = static_cast<std::size_t>(known - keys_.begin());
     if (known == keys_.end()) {
         keys_.push_back(wanted);
-        own_.push_back({problem, {}, {}});
+        all_.push_back({problem, {}, {}, false});
+        all_.back().request.turning_points = false;
     }
-    std::string& whose = main_ && index == 0 ? main_because_ : own_[main_ ? index - 1 : index].because;
-    double& until = main_ && index == 0 ? main_until_ : own_[main_ ? index - 1 : index].request.end_time;
-    if (whose.empty() || end_time > until) {
-        until = std::max(end_time, until);
-        whose = because;
+    Study& study = all_[index];
+    if (study.because.empty() || end_time > study.request.end_time) {
+        study.request.end_time = std::max(end_time, study.request.end_time);
+        study.because = because;
     }
     return index;
 }

@@ -11,7 +11,8 @@ namespace beamcam::scenes {
 struct Study {
     sim::Problem problem;
     sim::Request request;
-    std::string because;  // who looks furthest
+    std::string because;    // who looks furthest
+    bool of_scene = false;  // the scene's own physics; told by the plan
 };
 
 // Equally spaced instants, both ends included.
@@ -24,33 +25,23 @@ std::vector<double> instants(const Instants& wanted);
 
 class Studies {
   public:
-    Studies() = default;
-    // With a main physics: its request is the caller's, as study 0, and grows with what figures add.
-    Studies(const sim::Problem& main, sim::Request& request) : main_(&request) { keys_.push_back(key(main)); }
-
-    // The study of this physics, at least until `end_time` [s].
+    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings only with `turning_points`.
     std::size_t of(const sim::Problem& problem, double end_time, const std::string& because);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
     std::size_t point(std::size_t study, double x, const Instants& at);
+    void turning_points(std::size_t study) { request(study).turning_points = true; }
     void horizon(std::size_t study) { request(study).horizon = true; }
 
-    sim::Request& request(std::size_t i) { return main_ ? (i == 0 ? *main_ : own_[i - 1].request) : own_[i].request; }
-    // Who needs the main physics longest, and until when; nothing when nobody does.
-    const std::string& main_because() const { return main_because_; }
-    double main_until() const { return main_until_; }
-    // Those that are not the caller's.
-    std::vector<Study> take() { return std::move(own_); }
+    sim::Request& request(std::size_t i) { return all_[i].request; }
+    std::vector<Study> take() { return std::move(all_); }
 
     // Equal for problems that move alike: every number of the physics.
     static std::string key(const sim::Problem& problem);
 
   private:
-    sim::Request* main_ = nullptr;
-    std::string main_because_;
-    double main_until_ = 0;
-    std::vector<Study> own_;
-    std::vector<std::string> keys_;  // of all, main first
+    std::vector<Study> all_;
+    std::vector<std::string> keys_;  // of all
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 

@@ -107,8 +107,57 @@ TEST(Manifest, ProcessesSideBySideLoseNoEntry) {
     EXPECT_EQ(files->size(), std::size_t(kProcesses * kFiles));
 }
 
+TEST(Manifest, KnowsWhatAFileWasMadeFrom) {
+    Scratch scratch;
+    write_file(scratch / "a.csv", "first");
+    {
+        Manifest manifest(false);
+        manifest.record(scratch / "a.csv", {"recipe", "", ""});
+    }
+    EXPECT_TRUE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "other"));
+    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", ""));
+    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "b.csv", "recipe"));
+    write_file(scratch / "a.csv", "edits");
+    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+}
+
+TEST(Manifest, AFileThatAKilledRunPutInItsPlaceIsOnesOwn) {
+    Scratch scratch;
+    const pid_t child = fork();
+    if (child == 0) {
+        Manifest manifest(false);
+        manifest.announce({scratch / "a.csv", scratch / "b.csv"});
+        write_file(scratch / "a.csv", "made");
+        _exit(0);  // as a kill does: no destructor, no record
+    }
+    waitpid(child, nullptr, 0);
+    EXPECT_EQ(refusal(scratch / "a.csv"), "");
+    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+    // What stood there before stays foreign.
+    write_file(scratch / "b.csv", "precious");
+    fs::last_write_time(scratch / "b.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
+    EXPECT_NE(refusal(scratch / "b.csv"), "");
+}
+
+TEST(Manifest, WhatWasAnnouncedAndNotMadeIsForgottenByARunThatEnds) {
+    Scratch scratch;
+    make(scratch / "a.csv", "first");
+    {
+        Manifest manifest(false);
+        manifest.announce({scratch / "a.csv", scratch / "b.csv"});
+    }
+    const auto files = parse_manifest(read_file(scratch / Manifest::kFileName));
+    ASSERT_TRUE(files.has_value());
+    EXPECT_EQ(files->size(), 1u);
+    EXPECT_EQ(files->at("a.csv").making, 0);
+    EXPECT_EQ(refusal(scratch / "a.csv"), "");
+    write_file(scratch / "b.csv", "precious");
+    EXPECT_NE(refusal(scratch / "b.csv"), "");
+}
+
 TEST(Manifest, NamesOfAnyBytesSurvive) {
-    const MadeFiles files = {{"Balken θ \"x\"\n.mp4", {"00", 3}}};
+    const MadeFiles files = {{"Balken θ \"x\"\n.mp4", {"00", 3, {"recipe", "0.1", "{}"}, "1:2", 4}}};
     EXPECT_EQ(parse_manifest(manifest_json(files)), files);
 }
 

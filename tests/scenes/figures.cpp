@@ -36,9 +36,8 @@ Scene scene(const std::string& text) {
 render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
     Studies studies;
     const FigureMaker make = recipe_named(name)->prepare(s, lang, studies);
-    const std::vector<Study> all = studies.take();
-    Progress silent(ProgressStyle::none);
-    const std::vector<sim::Result> made = simulate_studies(all, 1, silent, true);
+    std::vector<sim::Result> made;
+    for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
     Results results;
     for (const sim::Result& r : made) results.push_back(&r);
     return make(results);
@@ -48,7 +47,7 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
     const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "schematic"},
                                               {"type": "figure", "figure": "deflection"}]})"));
     EXPECT_FALSE(p.simulation);
-    EXPECT_TRUE(p.studies.empty());
+    EXPECT_TRUE(p.variants.empty());
     EXPECT_FALSE(p.needs_gl());
     EXPECT_EQ(p.figures.size(), 2u);
 }
@@ -57,8 +56,8 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
     const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
         {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
     ASSERT_TRUE(p.simulation);
-    EXPECT_TRUE(p.studies.empty());
-    EXPECT_TRUE(p.simulation->request.horizon);
+    EXPECT_TRUE(p.variants.empty());
+    EXPECT_TRUE(p.simulation->horizon);
 }
 
 TEST(Figures, EqualPhysicsIsOneStudy) {
@@ -193,9 +192,9 @@ TEST(Figures, DataAndCaptionLieBesideThem) {
 TEST(Figures, RunMakesThoseThatASceneLists) {
     const Folder folder;
     folder.write("s.json", R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
     EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"89mm\""));
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
 }
 
 sim::Accuracy measured() {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -106,8 +108,8 @@ TEST(PlanText, AFilm) {
   video     scene.mp4: 600 frames of 0 s to 9.98333 s at 60 a second, 1920 × 1080, lit; H.264, crf 18, veryfast
 skipped
   20 of 24 channels: no output reads them
-  extrema: no output is a summary
-  second run for the reproducible horizon: no summary asks for it
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -124,8 +126,8 @@ skipped
   21 of 22 channels: no output reads them
   pictures, fonts and OpenGL: no output is a picture
   video encoder: no output is a video
-  extrema: no output is a summary
-  second run for the reproducible horizon: no summary asks for it
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -139,8 +141,8 @@ skipped
   20 of 24 channels: no output reads them
   OpenGL: every view is flat
   video encoder: no output is a video
-  extrema: no output is a summary
-  second run for the reproducible horizon: no summary asks for it
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -157,6 +159,103 @@ TEST(PlanText, EveryOutputAtOnce) {
 skipped
   video encoder: no output is a video
 )");
+}
+
+// ---- in the light of what is there -------------------------------------------------------------
+
+constexpr const char* kTwo = R"({"outputs": [
+    {"type": "frames", "file": "f-##.png", "fps": 20, "to": 0.5, "size": [320, 180], "view": {"style": "flat"}},
+    {"type": "trajectory", "file": "t.csv", "times": [0.4]}]})";
+
+std::string text_with(const Known& known, const Ask& ask = {}) {
+    const Scene scene = scene_of(kTwo);
+    return to_text(plan(scene, ask, known), scene);
+}
+
+TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
+    Known known;
+    known.finished = {1};
+    known.frames[0] = {0, 1, 2, 7};
+    known.keeps = true;
+    known.kept_until = 0.6;
+    EXPECT_EQ(text_with(known), R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, because of f-##.png; kept from an earlier run
+  frames    f-##.png: 6 frames of 0.15 s to 0.45 s at 20 a second, 320 × 180, flat
+skipped
+  4 frames of f-##.png: they are there already, made from the same inputs
+  t.csv: it is there already, made from the same inputs
+  simulation from 0.5 s to 1.5 s: no output looks that far
+  integration: the motion is kept from an earlier run
+  20 of 24 channels: no output reads them
+  OpenGL: every view is flat
+  video encoder: no output is a video
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
+)");
+    known.kept_until = 0.4;  // too short
+    EXPECT_THAT(text_with(known), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
+    known.finished = {0, 1};
+    EXPECT_EQ(text_with(known), R"(to do
+skipped
+  f-##.png: it is there already, made from the same inputs
+  t.csv: it is there already, made from the same inputs
+  simulation: everything is there already
+)");
+}
+
+TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
+    Ask ask;
+    ask.shard = 2;
+    ask.shards = 3;
+    const std::string text = text_with({}, ask);
+    EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames of 0.15 s to 0.25 s"));
+    EXPECT_THAT(text, HasSubstr("  7 of 10 frames of f-##.png: other shards draw them\n"));
+    EXPECT_THAT(text, HasSubstr("  t.csv: the first shard makes it\n"));
+}
+
+TEST(Plan, ShardsCoverEveryFrameOnce) {
+    const Scene scene = scene_of(R"({"outputs": [{"type": "video", "fps": 20, "from": 0.3}]})");
+    for (int shards : {1, 2, 3, 7, 24}) {
+        std::vector<int> all;
+        for (int shard = 1; shard <= shards; ++shard) {
+            Ask ask;
+            ask.shard = shard;
+            ask.shards = shards;
+            const Plan p = plan(scene, ask);
+            ASSERT_EQ(p.pictures.size(), 1u);
+            all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
+            // Scales and camera are those of the whole film.
+            EXPECT_EQ(p.simulation->request.poses[0].times.size(), 24u);
+        }
+        EXPECT_EQ(all.size(), 24u);
+        EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+    }
+    Ask ask;
+    ask.shard = 25;
+    ask.shards = 30;
+    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), ask).pictures.empty());
+    EXPECT_EQ(shard_file("out/fall.mp4", 2, 3), "out/fall.2of3.mp4");
+}
+
+TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
+    Known known;
+    known.keeps = true;
+    const auto keeps = [&](const char* outputs) {
+        return plan(scene_of(std::string("{\"outputs\": ") + outputs + "}"), {}, known).simulation->keep;
+    };
+    EXPECT_FALSE(keeps(R"([{"type": "summary"}, {"type": "impacts"}])"));
+    EXPECT_FALSE(keeps(R"([{"type": "still", "at": 0}])"));
+    EXPECT_TRUE(keeps(R"([{"type": "summary"}, {"type": "trajectory"}])"));
+    EXPECT_TRUE(keeps(R"([{"type": "still", "at": 0.1}])"));
+}
+
+TEST(Plan, PicturesThatEndBeforeTheRunAreToldOfNoMoreThanTheirs) {
+    const Plan p = plan_of(
+        R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
+    EXPECT_THAT(p.simulation->ends, ElementsAre(0.5));
+    EXPECT_EQ(p.pictures[0].until, 0u);
+    EXPECT_FALSE(p.pictures[1].until);
+    EXPECT_EQ(p.pictures[2].until, 0u);
 }
 
 }  // namespace

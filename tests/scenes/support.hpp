@@ -69,10 +69,11 @@ class Folder {
     std::filesystem::path path_;
 };
 
-// Runs a shell command in a folder; the program is $BEAMCAM.
+// Runs a shell command in a folder; the program is $BEAMCAM, its cache the folder's own.
 inline Finished shell(const Folder& folder, const std::string& command) {
-    const std::string line = "cd '" + folder.path().string() + "' && BEAMCAM='" BEAMCAM_PROGRAM "'; { " + command +
-                             " ; } >.stdout 2>.stderr </dev/null";
+    const std::string line = "cd '" + folder.path().string() +
+                             "' && export BEAMCAM_CACHE_DIR=\"$PWD/.cache\"; BEAMCAM='" BEAMCAM_PROGRAM "'; { " +
+                             command + " ; } >.stdout 2>.stderr </dev/null";
     const int status = std::system(line.c_str());
     Finished finished;
     finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -143,6 +143,12 @@ std::vector<Case> cases() {
         p.hub.drive = SpinUp{4, 0.2};
     });
     add("TorqueTable", 0.3, [](Problem& p) { p.hub.drive = TorqueTable{{0, 0.1, 0.25}, {0, 0.2, 0}}; });
+    add("Exponential", 0.3, [](Problem& p) {
+        p.solver.method = Method::exponential;
+        p.beam.modes = 6;
+        p.beam.damping_ratio = {0.01};
+    });
+    add("Rk8", 0.3, [](Problem& p) { p.solver.method = Method::rk8; });
     add("Adams", 0.3, [](Problem& p) {
         p.solver.method = Method::cvode_adams;
         p.solver.rtol = 1e-6;
@@ -201,6 +207,40 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Everything, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return std::string(each.param.name); });
+
+// Turning points cost a look at every ripple: a run that nobody asked for them has none to keep, and a later one finds
+// them in the kept steps.
+TEST(KeptTrajectory, FindsTheTurningPointsThatTheRunDidNotLookFor) {
+    for (const Method method : {Method::automatic, Method::rk8}) {
+        Problem problem;
+        problem.solver.method = method;
+        problem.cam.reset();
+        problem.initial.angular_velocity = 2;  // it rises, turns back and falls past the horizontal
+        Request request = curious(problem, 0.8);
+        std::vector<double> numbers;
+        TrajectoryWriter writer(
+            [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
+        request.turning_points = false;
+        const Result without = simulate(problem, {&request, 1}, {}, &writer).front();
+        EXPECT_TRUE(without.apexes.empty());
+        request.turning_points = true;
+        const Result direct = simulate(problem, request);
+        ASSERT_FALSE(direct.apexes.empty());
+        ASSERT_FALSE(direct.theta_zero.empty());
+        expect_equal(replay(problem, Trajectory(problem, numbers), {&request, 1}).front(), direct);
+        // Not looking is all that it changes.
+        Result bare = direct;
+        bare.apexes.clear(), bare.theta_zero.clear();
+        expect_equal(without, bare);
+        // Either beside the other in one run.
+        Request ignorant = request;
+        ignorant.turning_points = false;
+        const Request both[] = {ignorant, request};
+        const std::vector<Result> together = simulate(problem, both);
+        expect_equal(together[0], bare);
+        expect_equal(together[1], direct);
+    }
+}
 
 TEST(KeptTrajectory, GivesTheHorizonAfterOneRunMore) {
     Problem problem;

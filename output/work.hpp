@@ -1,0 +1,42 @@
+// What a run really did, counted where it is done: the proof that nothing is done which nobody asked for.
+#pragma once
+
+namespace beamcam::output {
+
+struct Work {
+    long integrations = 0;  // of equations of motion; a horizon takes two
+    long steps = 0, rhs_evaluations = 0, gap_evaluations = 0;
+    long trajectories_from_cache = 0, trajectories_kept = 0;
+    long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
+    long frames_drawn = 0, figures_drawn = 0;
+    long mechanisms_lit = 0;  // drawn by OpenGL; a frame whose mechanism stands still takes the last one's
+    long frames_encoded = 0;
+    long frames_left = 0;  // of sequences, there already
+    long files_written = 0, files_left = 0;
+    long bytes_written = 0;
+};
+
+// Calls visit(name, value) for every count, in the order they are told.
+template <class Visit>
+void for_each_count(const Work& w, Visit visit) {
+    visit("integrations", w.integrations);
+    visit("steps", w.steps);
+    visit("rhs_evaluations", w.rhs_evaluations);
+    visit("gap_evaluations", w.gap_evaluations);
+    visit("trajectories_from_cache", w.trajectories_from_cache);
+    visit("trajectories_kept", w.trajectories_kept);
+    visit("font_sets", w.font_sets);
+    visit("gl_contexts", w.gl_contexts);
+    visit("encoder_modules", w.encoder_modules);
+    visit("encoders", w.encoders);
+    visit("frames_drawn", w.frames_drawn);
+    visit("figures_drawn", w.figures_drawn);
+    visit("mechanisms_lit", w.mechanisms_lit);
+    visit("frames_encoded", w.frames_encoded);
+    visit("frames_left", w.frames_left);
+    visit("files_written", w.files_written);
+    visit("files_left", w.files_left);
+    visit("bytes_written", w.bytes_written);
+}
+
+}  // namespace beamcam::output

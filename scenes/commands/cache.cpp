@@ -1,0 +1,65 @@
+#include "scenes/cache.hpp"
+
+#include <fmt/format.h>
+
+#include "scenes/commands/commands.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+};
+
+Cache the_cache() {
+    const auto directory = cache_directory();
+    if (!directory)
+        throw UsageError("there is no place for a cache: HOME is not set; set BEAMCAM_CACHE_DIR or XDG_CACHE_HOME");
+    return Cache(*directory, cache_limit());
+}
+
+std::string megabytes(std::uintmax_t bytes) {
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
+}
+
+int list(const Arguments& args) {
+    const Cache cache = the_cache();
+    std::uintmax_t sum = 0;
+    std::string text;
+    for (const Cache::Kept& kept : cache.list()) {
+        sum += kept.size;
+        text += fmt::format("{}  {:>10}  {:>9}  {:>9} steps  {}\n", kept.key.substr(0, 12), megabytes(kept.size),
+                            fmt::format("{:g} s", kept.end), kept.steps,
+                            kept.about.empty() ? "damaged, or of another version" : kept.about);
+    }
+    print_data(text);
+    say(args.common,
+        fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
+    return 0;
+}
+
+int clear(const Arguments& args) {
+    const auto [count, bytes] = the_cache().clear();
+    say(args.common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
+    return 0;
+}
+
+}  // namespace
+
+void add_cache(Grammar& grammar) {
+    CLI::App* app = grammar.app.add_subcommand("cache", "The trajectories that are kept between runs");
+    app->require_subcommand(1);
+    app->footer(
+        "They are kept below $BEAMCAM_CACHE_DIR, else in beamcam below $XDG_CACHE_HOME, else in ~/.cache/beamcam, up "
+        "to\n"
+        "$BEAMCAM_CACHE_SIZE MiB (1024); those used longest ago go first.");
+    auto args = std::make_shared<Arguments>();
+    CLI::App* ls = app->add_subcommand("ls", "List them, the last used first: size, duration, steps, model");
+    add_quiet(*ls, args->common);
+    grammar.bind(ls, args, list);
+    CLI::App* all = app->add_subcommand("clear", "Remove them all");
+    add_quiet(*all, args->common);
+    grammar.bind(all, args, clear);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include "output/manifest.hpp"
+#include "output/video.hpp"
+#include "scenes/commands/commands.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::vector<std::string> segments;
+    std::string file;
+};
+
+int act(const Arguments& args) {
+    if (args.file == "-") throw UsageError("-o -: films go to files; name one that ends in .mp4");
+    need_ending("-o", args.file, {".mp4"});
+    for (const std::string& segment : args.segments) {
+        std::error_code unreadable;
+        if (std::filesystem::equivalent(segment, args.file, unreadable))
+            throw UsageError(fmt::format("-o {}: it is one of the segments; name another file", args.file));
+    }
+    output::Manifest manifest(args.common.force);
+    manifest.require_replaceable(args.file);
+    manifest.announce({args.file});
+    const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, args.file);
+    manifest.record(args.file);
+    manifest.save();
+    say(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
+    return 0;
+}
+
+}  // namespace
+
+void add_concat(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    CLI::App* app =
+        grammar.app.add_subcommand("concat", "Join segments of a film (--shard, --frames) without re-encoding");
+    app->add_option("SEGMENT", args->segments, "Films, in order")->required()->type_name("");
+    app->add_option("-o,--output", args->file, "Film to make, .mp4")->required()->type_name("FILE");
+    app->add_flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_quiet(*app, args->common);
+    grammar.bind(app, args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,436 @@
+// What is not done because nobody asks for it, or because it is done already. Counted, never timed.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::shell;
+using testing::slurp;
+
+// A count of the line that -v ends with.
+long count(const Finished& finished, const std::string& what) {
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    const std::size_t line = finished.err.rfind("work:");
+    const std::size_t at = line == std::string::npos ? line : finished.err.find(" " + what + "=", line);
+    if (at == std::string::npos) {
+        ADD_FAILURE() << "no count of " << what << " in " << finished.err;
+        return -1;
+    }
+    return std::stol(finished.err.substr(at + what.size() + 2));
+}
+
+// The compressed pixels of a PNG file, without what it says about itself.
+std::string pixels(const fs::path& file) {
+    const std::string bytes = slurp(file);
+    std::string data;
+    for (std::size_t at = 8; at + 12 <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+        if (bytes.compare(at + 4, 4, "IDAT") == 0) data += bytes.substr(at + 8, length);
+        at += length + 12;
+    }
+    EXPECT_GT(data.size(), 100u) << file;
+    return data;
+}
+
+// Changes whenever the file is replaced or written to.
+std::pair<ino_t, long> stamp(const fs::path& file) {
+    struct stat status {};
+    EXPECT_EQ(stat(file.c_str(), &status), 0) << file;
+    return {status.st_ino, status.st_mtim.tv_nsec};
+}
+
+constexpr const char* kStill =
+    R"({"type": "still", "file": "s.png", "at": 0.29, "size": [320, 180], "view": {"style": "flat"}})";
+
+std::string scene(const std::string& outputs, const std::string& physics = "") {
+    // A method of many steps, so that the motion is worth keeping.
+    return "{" + physics + "\"solver\": {\"method\": \"rk8\"}, \"time\": {\"end\": 0.3}, \"outputs\": [" + outputs + "]}";
+}
+
+// ---- only what is asked for ----------------------------------------------------------------------
+
+TEST(Skipping, ATableLoadsNeitherFontsNorOpenGlNorTheEncoder) {
+    const Folder folder;
+    folder.write("s.json", scene(R"({"type": "trajectory", "file": "t.csv", "channels": ["theta"]})"));
+    // The dynamic linker tells of every library it opens; fonts and the renderer's module are not even there.
+    const Finished run = shell(folder,
+                               "BEAMCAM_FONT_DIR=/nowhere BEAMCAM_MODULE_DIR=/nowhere LD_DEBUG=files $BEAMCAM run -v "
+                               "s.json");
+    EXPECT_EQ(count(run, "integrations"), 1);
+    for (const char* what : {"font_sets", "gl_contexts", "encoder_modules", "encoders", "frames_drawn"})
+        EXPECT_EQ(count(run, what), 0) << what;
+    for (const char* library : {"libOSMesa", "libavcodec", "libavformat", "libx264"})
+        EXPECT_THAT(run.err, Not(HasSubstr(library)));
+    EXPECT_THAT(run.err, HasSubstr("libc.so"));  // the linker did tell
+}
+
+TEST(Skipping, TheSummaryCarriesTheWork) {
+    const Folder folder;
+    folder.write("s.json", "{\"time\": {\"end\": 0.3}}");
+    const Finished run = shell(folder, "$BEAMCAM simulate s.json --summary - -v");
+    EXPECT_THAT(run.out, HasSubstr("\"work\": {"));
+    EXPECT_THAT(run.out, HasSubstr("\"integrations\": 1"));
+    EXPECT_THAT(run.out, HasSubstr(fmt::format("\"rhs_evaluations\": {}", count(run, "rhs_evaluations"))));
+    EXPECT_EQ(count(run, "trajectories_kept"), 0);  // extremes and events alone are not worth storing it
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM simulate s.json --summary - --horizon -v"), "integrations"), 2);
+}
+
+TEST(Skipping, NoContactIsSearchedWhereTheBeamCannotReach) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const auto looks = [&](const char* end) {
+        return count(shell(folder, fmt::format("$BEAMCAM simulate s.json --summary - -v --set time.end={}", end)),
+                     "gap_evaluations");
+    };
+    EXPECT_EQ(looks("0.15"), 0);
+    EXPECT_GT(looks("0.3"), 0);
+}
+
+TEST(Skipping, AFlatStillOpensNoOpenGlAndAnInstantAtTheStartIntegratesNothing) {
+    const Folder folder;
+    folder.write("s.json", scene(kStill));
+    const Finished run = shell(folder, "$BEAMCAM run -v s.json --set outputs.0.at=0");
+    EXPECT_EQ(count(run, "steps"), 0);
+    EXPECT_EQ(count(run, "gl_contexts"), 0);
+    EXPECT_EQ(count(run, "encoder_modules"), 0);
+    EXPECT_EQ(count(run, "frames_drawn"), 1);
+}
+
+TEST(GlSkipping, AMechanismThatStandsStillIsLitOnce) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null, "gravity": 0, "time": {"end": 0.5}, "outputs": [
+        {"type": "frames", "file": "f-##.png", "size": [320, 180], "fps": 12}]})");
+    const Finished run = shell(folder, "$BEAMCAM run -v -j 1 s.json");
+    EXPECT_EQ(count(run, "frames_drawn"), 6);  // the clock runs
+    EXPECT_EQ(count(run, "mechanisms_lit"), 1);
+    EXPECT_EQ(count(run, "gl_contexts"), 1);
+}
+
+// ---- not twice -----------------------------------------------------------------------------------
+
+constexpr const char* kSeveral = R"({"type": "trajectory", "file": "t.csv"}, {"type": "impacts", "file": "i.json"},
+    {"type": "summary", "file": "s-summary.json"}, )";
+
+TEST(Skipping, ASecondRunLeavesEverythingAsItIs) {
+    const Folder folder;
+    folder.write("s.json", scene(std::string(kSeveral) + kStill));
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json"), "files_written"), 4);
+    const auto before = stamp(folder / "t.csv");
+    const Finished again = shell(folder, "$BEAMCAM run -v s.json");
+    for (const char* what : {"integrations", "trajectories_from_cache", "frames_drawn", "files_written", "font_sets"})
+        EXPECT_EQ(count(again, what), 0) << what;
+    EXPECT_EQ(count(again, "files_left"), 4);
+    EXPECT_THAT(again.err, HasSubstr("left ./t.csv as it is"));
+    EXPECT_EQ(stamp(folder / "t.csv"), before);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out,
+                HasSubstr("t.csv: it is there already, made from the same inputs"));
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v --force s.json"), "files_written"), 4);
+    // A file that was changed is not taken for the output, and not replaced either.
+    folder.write("t.csv", "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 6);
+}
+
+TEST(Skipping, OneChangedOutputIsMadeAloneAndSimulatesNothing) {
+    const Folder folder;
+    folder.write("s.json", scene(std::string(kSeveral) + kStill));
+    shell(folder, "$BEAMCAM run s.json");
+    const Finished dark = shell(folder, "$BEAMCAM run -v s.json --set outputs.3.theme=dark");
+    EXPECT_EQ(count(dark, "integrations"), 0);
+    EXPECT_EQ(count(dark, "trajectories_from_cache"), 1);
+    EXPECT_EQ(count(dark, "frames_drawn"), 1);
+    EXPECT_EQ(count(dark, "files_left"), 3);
+    // The same picture as without any cache.
+    shell(folder, "$BEAMCAM run -q --no-cache -o fresh s.json --set outputs.3.theme=dark");
+    EXPECT_EQ(slurp(folder / "s.png"), slurp(folder / "fresh/s.png"));
+    EXPECT_EQ(slurp(folder / "t.csv"), slurp(folder / "fresh/t.csv"));
+    // The title is on the picture, not in the data.
+    const Finished title = shell(folder, "$BEAMCAM run -v s.json --set outputs.3.theme=dark --set title=x");
+    EXPECT_EQ(count(title, "files_left"), 3);
+    EXPECT_EQ(count(title, "integrations"), 0);
+}
+
+TEST(Skipping, WhatIsOnlyDrawnDoesNotChangeTheMotion) {
+    const Folder folder;
+    folder.write("s.json", scene(kStill));
+    shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.depth=0.05"), "integrations"), 0);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.basis=hub-beam"), "integrations"), 0);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.modes=3"), "integrations"), 1);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set solver.rtol=2e-8"), "integrations"), 1);
+}
+
+TEST(Skipping, ALongerMotionServesAShorterAndReplacesIt) {
+    const Folder folder;
+    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
+    const auto run = [&](const char* times) {
+        return shell(folder, fmt::format("$BEAMCAM simulate s.json -v --channels theta,gap --times {}", times));
+    };
+    EXPECT_EQ(count(run("0.29"), "trajectories_kept"), 1);
+    const Finished longer = run("0.1,0.285,0.4");
+    EXPECT_EQ(count(longer, "integrations"), 1);
+    EXPECT_EQ(count(longer, "trajectories_kept"), 1);
+    for (const char* times : {"0.285", "0.277", "0.4", "0.399999"}) {
+        const Finished kept = run(times);
+        EXPECT_EQ(count(kept, "integrations"), 0) << times;
+        EXPECT_EQ(
+            kept.out,
+            shell(folder, fmt::format("$BEAMCAM simulate s.json --no-cache --channels theta,gap --times {}", times))
+                .out);
+    }
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls").out, HasSubstr("0.4 s"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM cache clear").code, 0);
+    EXPECT_EQ(count(run("0.285"), "integrations"), 1);
+}
+
+TEST(Skipping, ScenesOfOneMotionAreSimulatedOnce) {
+    const Folder folder;
+    folder.write("a.json", scene(R"({"type": "trajectory", "file": "a.csv"})"));
+    folder.write("b.json", scene(R"({"type": "trajectory", "file": "b.csv", "times": [0.2]})"));
+    folder.write("c.json", scene(R"({"type": "trajectory", "file": "c.csv"})", R"("cam": {"speed": 2}, )"));
+    const Finished all = shell(folder, "$BEAMCAM run -v --no-cache a.json b.json c.json");
+    EXPECT_EQ(count(all, "integrations"), 2);
+    EXPECT_EQ(count(all, "files_written"), 3);
+    const std::string before = slurp(folder / "b.csv");
+    shell(folder, "$BEAMCAM run -q --no-cache -o alone b.json");
+    EXPECT_EQ(before, slurp(folder / "alone/b.csv"));
+    // One of three changed.
+    const Finished one = shell(folder, "sed -i 's/0.2/0.25/' b.json; $BEAMCAM run -v --no-cache a.json b.json c.json");
+    EXPECT_EQ(count(one, "integrations"), 1);
+    EXPECT_EQ(count(one, "files_written"), 1);
+    EXPECT_EQ(count(one, "files_left"), 2);
+}
+
+TEST(Skipping, AFilmThatSlowsDownAroundImpactsIntegratesOnce) {
+    const Folder folder;
+    folder.write("s.json", scene(R"({"type": "frames", "file": "f-##.png", "size": [160, 90], "fps": 60, "from": 0.25,
+        "speed": {"around": "impacts", "factor": 0.5, "ease": "5 ms"}, "view": {"style": "flat"}},
+        {"type": "trajectory", "file": "t.csv", "times": [0.35]})"));
+    const Finished run = shell(folder, "$BEAMCAM run -v --no-cache s.json");
+    EXPECT_EQ(count(run, "integrations"), 1);
+    EXPECT_GT(count(run, "frames_drawn"), 1);
+}
+
+TEST(Skipping, PicturesThatCompareTheSameMotionsIntegrateEachOnce) {
+    const Folder folder;
+    const std::string compare = R"("size": [320, 180], "view": {"style": "flat"}, "compare": [{"label": "as it is"},
+        {"label": "rigid", "set": {"beam.model": "rigid"}}]})";
+    folder.write("s.json", scene(R"({"type": "still", "file": "a.png", "at": 0.29, )" + compare +
+                                 R"(, {"type": "still", "file": "b.png", "at": 0.1, )" + compare +
+                                 R"(, {"type": "trajectory", "file": "t.csv"})"));
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v --no-cache s.json"), "integrations"), 2);
+}
+
+// ---- figures ---------------------------------------------------------------------------------------
+
+constexpr const char* kFigures = R"({"type": "figure", "figure": "energy", "file": "e.svg"},
+    {"type": "figure", "figure": "phase", "file": "p.png", "dpi": 60})";
+
+TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
+    const Folder folder;
+    folder.write("s.json", scene(kFigures));
+    const Finished first = shell(folder, "$BEAMCAM run -v s.json");
+    EXPECT_EQ(count(first, "integrations"), 1);
+    EXPECT_EQ(count(first, "figures_drawn"), 2);
+    for (const char* what : {"gl_contexts", "encoder_modules", "frames_drawn"}) EXPECT_EQ(count(first, what), 0) << what;
+    const Finished again = shell(folder, "$BEAMCAM run -v s.json");
+    EXPECT_EQ(count(again, "files_left"), 2);
+    EXPECT_EQ(count(again, "integrations"), 0);
+    EXPECT_EQ(count(again, "font_sets"), 0);
+    const Finished chinese = shell(folder, "$BEAMCAM run -v s.json --set outputs.0.lang=zh");
+    EXPECT_EQ(count(chinese, "integrations"), 0);
+    EXPECT_EQ(count(chinese, "trajectories_from_cache"), 1);
+    EXPECT_EQ(count(chinese, "figures_drawn"), 1);
+    EXPECT_EQ(count(chinese, "files_left"), 1);
+    // The instant that a document carries is one of its inputs.
+    EXPECT_EQ(count(shell(folder, "SOURCE_DATE_EPOCH=86400 $BEAMCAM run -v s.json --set outputs.0.lang=zh"),
+                    "figures_drawn"), 1);
+}
+
+TEST(Skipping, AFigureAndItsDataAreLeftAloneOnlyTogether) {
+    const Folder folder;
+    folder.write("s.json", scene(""));
+    const std::string command = "$BEAMCAM figure s.json phase -v -o p.svg --data p.csv";
+    EXPECT_EQ(count(shell(folder, command), "files_written"), 2);
+    EXPECT_EQ(count(shell(folder, command), "files_left"), 1);
+    EXPECT_EQ(count(shell(folder, "rm p.csv; " + command), "files_written"), 2);
+}
+
+TEST(Skipping, AFigureSeesNothingOfWhatOtherOutputsLookAt) {
+    const Folder folder;
+    folder.write("a.json", scene(kFigures));
+    folder.write("b.json", scene(std::string(kFigures) + R"(, {"type": "summary", "file": "s.json"},
+        {"type": "trajectory", "file": "t.csv", "times": [0.5]})"));
+    shell(folder, "$BEAMCAM run -q --no-cache a.json -o a; $BEAMCAM run -q --no-cache b.json -o b");
+    EXPECT_EQ(pixels(folder / "a/p.png"), pixels(folder / "b/p.png"));
+    const auto without_scene = [&](const char* file) {
+        return shell(folder, fmt::format("sed 's/<metadata.*//; /beamcam-scene/d' {}", file)).out;
+    };
+    EXPECT_EQ(without_scene("a/e.svg"), without_scene("b/e.svg"));
+}
+
+TEST(Skipping, ScenesThatWouldWriteOneFileAreRefusedBeforeAnyWork) {
+    const Folder folder;
+    folder.write("a.json", scene(R"({"type": "trajectory", "file": "t.csv"})"));
+    folder.write("b.json", scene(R"({"type": "trajectory", "file": "t.csv"})"));
+    const Finished run = shell(folder, "$BEAMCAM run a.json b.json");
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr("t.csv of the scene b and t.csv of the scene a"));
+    EXPECT_FALSE(fs::exists(folder / "t.csv"));
+}
+
+// ---- sequences, parts ----------------------------------------------------------------------------
+
+constexpr const char* kFrames = R"({"type": "frames", "file": "f-###.png", "size": [320, 180], "fps": 40, "from": 0.1,
+    "view": {"style": "flat"}})";
+
+TEST(Skipping, AnInterruptedSequenceResumes) {
+    const Folder folder;
+    folder.write("s.json", scene(kFrames));
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json -o whole"), "frames_drawn"), 8);
+    shell(folder, "cp -a whole part; cd part; rm f-005.png f-009.png");
+    const Finished rest = shell(folder, "$BEAMCAM run -v s.json -o part");
+    EXPECT_EQ(count(rest, "frames_drawn"), 2);
+    EXPECT_EQ(count(rest, "frames_left"), 6);
+    EXPECT_EQ(shell(folder, "for f in whole/f-*.png; do cmp $f part/${f#whole/} || exit 1; done").code, 0);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json -o part"), "files_left"), 1);
+}
+
+TEST(Skipping, PartsHaveThePixelsOfTheWhole) {
+    const Folder folder;
+    folder.write("s.json", scene(std::string(kFrames) + ", " + kStill));
+    shell(folder, "$BEAMCAM run -q s.json -o whole");
+    for (const char* shard : {"3/3", "1/3", "2/3"}) {
+        const Finished run = shell(folder, fmt::format("$BEAMCAM run -v s.json -o parts --no-cache --shard {}", shard));
+        EXPECT_LE(count(run, "frames_drawn"), 4) << shard;
+    }
+    EXPECT_EQ(shell(folder, "cd whole && for f in *.png; do cmp $f ../parts/$f || exit 1; done").code, 0);
+    const Finished two = shell(folder, "$BEAMCAM render s.json -v -o g-###.png --frames 6:8");
+    EXPECT_EQ(count(two, "frames_drawn"), 2);
+    EXPECT_EQ(pixels(folder / "g-006.png"), pixels(folder / "whole/f-006.png"));
+    EXPECT_EQ(pixels(folder / "g-007.png"), pixels(folder / "whole/f-007.png"));
+    for (const char* wrong : {"--frames 3:8", "--frames 6:13", "--frames 7:7", "--frames 7", "--frames a:b",
+                              "--shard 0/3", "--shard 4/3", "--shard 2", "--frames 6:8 --shard 1/2"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json -o h-###.png {}", wrong)).code, 2) << wrong;
+}
+
+TEST(Skipping, AnotherOutputThatLooksFurtherLeavesThePixelsAsTheyWere) {
+    const Folder folder;
+    const std::string still =
+        R"({"type": "still", "file": "s.png", "at": 0.278, "size": [640, 360], "view": {"style": "flat"}})";
+    folder.write("a.json", "{\"outputs\": [" + still + "]}");
+    folder.write("b.json",
+                 "{\"outputs\": [" + still + R"(, {"type": "trajectory", "file": "t.csv", "times": [0.9]}]})");
+    shell(folder, "$BEAMCAM run -q a.json -o a; $BEAMCAM run -q b.json -o b");
+    EXPECT_EQ(pixels(folder / "a/s.png"), pixels(folder / "b/s.png"));
+}
+
+// Segments are encoded each for itself, so only lossless ones (crf 0) can be compared with the film made in one go.
+TEST(Skipping, JoinedSegmentsDecodeToThePicturesOfTheWholeFilm) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}, "title": "A fall", "outputs": [{"type": "video", "file": "f.mp4",
+        "size": [320, 180], "fps": 40, "crf": 0, "view": {"style": "flat"}}]})");
+    shell(folder, "$BEAMCAM run -q s.json");
+    for (const char* shard : {"1/3", "2/3", "3/3"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM run -q s.json --shard {}", shard)).code, 0);
+    const Finished joined = shell(folder, "$BEAMCAM concat f.1of3.mp4 f.2of3.mp4 f.3of3.mp4 -o j.mp4");
+    ASSERT_EQ(joined.code, 0) << joined.err;
+    EXPECT_THAT(joined.err, HasSubstr("12 frames of 3 segments"));
+    const auto digests = [&](const char* file) {
+        return shell(folder, fmt::format("ffmpeg -v error -i {} -f framemd5 - | grep -v '^#'", file)).out;
+    };
+    EXPECT_EQ(std::ranges::count(digests("f.mp4"), '\n'), 12);
+    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
+    const auto tags = [&](const char* file) {
+        return shell(folder, fmt::format("ffprobe -v error -show_entries format_tags {}", file)).out;
+    };
+    EXPECT_EQ(tags("j.mp4"), tags("f.mp4"));
+    EXPECT_THAT(tags("f.2of3.mp4"), HasSubstr("beamcam-frames=4:8 of 0:12"));
+    // Parts of parts keep their numbers.
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.2of3.mp4 f.3of3.mp4 -o late.mp4").code, 0);
+    EXPECT_THAT(tags("late.mp4"), HasSubstr("beamcam-frames=4:12 of 0:12"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of3.mp4 late.mp4 -o j.mp4").code, 0);
+    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
+    shell(folder, "$BEAMCAM render -q s.json --frames :5 -o a.mp4; $BEAMCAM render -q s.json --frames 5: -o b.mp4");
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat a.mp4 b.mp4 -o j.mp4").code, 0);
+    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
+}
+
+TEST(Skipping, WhatMakesNoFilmIsRefusedInWords) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "video", "file": "f.mp4", "size": [320, 180],
+        "fps": 20, "view": {"style": "flat"}}]})");
+    shell(folder, "for k in 1 2; do $BEAMCAM run -q s.json --shard $k/2; done");
+    shell(folder,
+          "$BEAMCAM render -q s.json --size 160x90 -o small.mp4; $BEAMCAM render -q s.json --theme dark -o dark.mp4");
+    folder.write("text.mp4", "no film");
+    const auto refusal = [&](const char* segments) {
+        const Finished run = shell(folder, fmt::format("$BEAMCAM concat {} -o j.mp4", segments));
+        EXPECT_EQ(run.code, 6) << segments;
+        EXPECT_FALSE(fs::exists(folder / "j.mp4"));
+        return run.err;
+    };
+    EXPECT_THAT(refusal("f.2of2.mp4 f.1of2.mp4"), HasSubstr("in order, without gaps"));
+    EXPECT_THAT(refusal("f.1of2.mp4 f.1of2.mp4"), HasSubstr("in order, without gaps"));
+    EXPECT_THAT(refusal("f.1of2.mp4 small.mp4"), HasSubstr("different sizes 320x180 and 160x90"));
+    EXPECT_THAT(refusal("f.1of2.mp4 dark.mp4"), HasSubstr("different scenes"));
+    EXPECT_THAT(refusal("f.1of2.mp4 text.mp4"), HasSubstr("cannot read text.mp4"));
+    EXPECT_THAT(refusal("absent.mp4"), HasSubstr("cannot read absent.mp4"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o f.1of2.mp4").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o j.avi").code, 2);
+}
+
+// ---- whatever is wrong with the cache ------------------------------------------------------------
+
+class BadCache : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BadCache, GivesTheRightResultsAtWorstSlower) {
+    const Folder folder;
+    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
+    const std::string command =
+        "$BEAMCAM simulate s.json --channels theta,gap,contact_force --rate 200 --set time.end=0.3";
+    const Finished right = shell(folder, command);
+    EXPECT_EQ(right.code, 0) << right.err;
+    const Finished bad =
+        shell(folder, std::string("f=$(echo .cache/*.trajectory); ") + GetParam() + "; " + command + " -v");
+    EXPECT_EQ(bad.code, 0) << bad.err;
+    EXPECT_EQ(bad.out, right.out);
+    EXPECT_EQ(count(bad, "integrations"), 1);
+    EXPECT_EQ(shell(folder, "$BEAMCAM cache ls").code, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, BadCache,
+    ::testing::Values("truncate -s 1000 $f", "truncate -s -8 $f", "truncate -s 0 $f", "echo hello > $f",
+                      "rm $f; mkdir $f", "printf X | dd of=$f bs=1 seek=5000 conv=notrunc 2>/dev/null",
+                      "printf XXXXXXXX | dd of=$f bs=1 seek=$(($(stat -c %s $f) - 20)) conv=notrunc 2>/dev/null",
+                      "mv $f .cache/$(printf %064d 7).trajectory", "rm -r .cache; touch .cache",
+                      "export BEAMCAM_CACHE_DIR=/dev/null/no", "export BEAMCAM_CACHE_DIR=/proc/no",
+                      "export BEAMCAM_CACHE_SIZE=0; rm $f", "rm $f; ln -s /dev/full $f",
+                      "rm $f; trap '' XFSZ; ulimit -f 40", "unset BEAMCAM_CACHE_DIR XDG_CACHE_HOME HOME"));
+
+TEST(Skipping, ACacheFromTheFutureStillServes) {
+    const Folder folder;
+    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
+    const std::string command = "$BEAMCAM simulate s.json -v --channels theta --times 0.3";
+    const Finished right = shell(folder, command);
+    EXPECT_EQ(count(right, "trajectories_kept"), 1);
+    const Finished later = shell(folder, "touch -d '2 years' .cache/*; " + command);  // the clock was set back
+    EXPECT_EQ(later.out, right.out);
+    EXPECT_EQ(count(later, "integrations"), 0);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
