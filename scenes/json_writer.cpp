@@ -242,8 +242,14 @@ std::string to_json(const Scene& scene) {
 
 namespace {
 
+void put_cost(Json& stage, const std::optional<Cost>& cost, const char* amount) {
+    if (!cost) return;
+    stage["seconds"] = cost->seconds;
+    stage[amount] = cost->amount;
+}
+
 Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
-    return {{"stage", "simulate"},
+    Json stage = {{"stage", "simulate"},
             {"model", name(problem.beam.model)},
             {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
             {"until", simulation.request.end_time},
@@ -251,6 +257,8 @@ Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
             {"horizon", simulation.horizon},
             {"from_cache", simulation.from_cache},
             {"keep", simulation.keep}};
+    put_cost(stage, simulation.cost, "steps");
+    return stage;
 }
 
 }  // namespace
@@ -283,26 +291,33 @@ std::string to_json(const Plan& plan, const Scene& scene) {
             if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
             if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
         }
+        put_cost(stage, p.cost, "bytes");
         stages.push_back(std::move(stage));
     }
     for (const Variant& variant : plan.variants) stages.push_back(stage_of(variant.simulation, variant.problem));
-    for (const FigureFile& f : plan.figures)
-        stages.push_back({{"stage", "figure"}, {"file", f.file}, {"output", f.output}, {"figure", f.figure}});
+    for (const FigureFile& f : plan.figures) {
+        Json stage = {{"stage", "figure"}, {"file", f.file}, {"output", f.output}, {"figure", f.figure}};
+        put_cost(stage, f.cost, "bytes");
+        stages.push_back(std::move(stage));
+    }
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];
         Json channels = Json::array();
         for (const sim::Channel& channel : table.channels) channels.push_back(name(channel));
-        stages.push_back({{"stage", "table"},
-                          {"file", t.file},
-                          {"output", t.output},
-                          {"rows", table.times.size()},
-                          {"channels", channels}});
+        Json stage = {{"stage", "table"},
+                      {"file", t.file},
+                      {"output", t.output},
+                      {"rows", table.times.size()},
+                      {"channels", channels}};
+        put_cost(stage, t.cost, "bytes");
+        stages.push_back(std::move(stage));
     }
     for (const ImpactsFile& i : plan.impacts)
         stages.push_back({{"stage", "impacts"}, {"file", i.file}, {"output", i.output}});
     for (const SummaryFile& s : plan.summaries)
         stages.push_back({{"stage", "summary"}, {"file", s.file}, {"output", s.output}});
     out["stages"] = std::move(stages);
+    put_cost(out, plan.cost(), "bytes");
     Json skipped = Json::array();
     for (const Skipped& s : plan.skipped) skipped.push_back({{"what", s.what}, {"why", s.why}});
     out["skipped"] = std::move(skipped);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "output/interrupt.hpp"
@@ -166,8 +167,22 @@ sim::Result Motions::find(const sim::Problem& problem, const sim::Request& reque
 // ---- one motion ------------------------------------------------------------------------------------
 
 std::vector<sim::Result> Motions::run(const Job& job, const sim::Progress& progress) {
-    if (auto results = read_back(job, progress)) return std::move(*results);
-    return integrate(job, progress);
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto results = read_back(job, progress);
+    const bool was_kept = results.has_value();
+    if (!results) results = integrate(job, progress);
+    long steps = 0;
+    for (const sim::Result& result : *results) steps = std::max(steps, result.counters.steps);
+    note(job, was_kept, std::chrono::duration<double>(Clock::now() - start).count(), steps);
+    return std::move(*results);
+}
+
+void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
+    if (!history_) return;
+    const bool horizon = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.horizon; });
+    const std::lock_guard lock(mutex_);
+    history_->note(motion_work(job.problem, read_back, horizon), job.until, seconds, static_cast<double>(steps));
 }
 
 std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenes/cache.hpp"
+#include "scenes/history.hpp"
 #include "scenes/progress.hpp"
 #include "sim/simulate.hpp"
 
@@ -23,9 +24,9 @@ class Motions {
         int threads = 1;
         bool quiet = false, verbose = false;
     };
-    // `cache`: null when there is none; it and `progress` must outlive this.
-    Motions(const Cache* cache, Progress& progress, const Options& options)
-        : cache_(cache), progress_(progress), options_(options) {}
+    // `cache` and `history`: null when there are none; they and `progress` must outlive this.
+    Motions(const Cache* cache, History* history, Progress& progress, const Options& options)
+        : cache_(cache), history_(history), progress_(progress), options_(options) {}
 
     // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number.
     std::size_t want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {});
@@ -66,10 +67,12 @@ class Motions {
     void make(const Group& group, const sim::Progress& progress);
     void tell(const Group& group) const;
     std::vector<sim::Result> run(const Job& job, const sim::Progress& progress);
+    void note(const Job& job, bool read_back, double seconds, long steps);
     std::optional<std::vector<sim::Result>> read_back(const Job& job, const sim::Progress& progress);
     std::vector<sim::Result> integrate(const Job& job, const sim::Progress& progress);
 
     const Cache* cache_;
+    History* history_;
     Progress& progress_;
     Options options_;
     std::deque<Wish> wishes_;

@@ -181,7 +181,7 @@ class Planner {
 
     void add_compared(Pictures& p) {
         for (const Compared& each : p.picture.compare) {
-            ComparedMotion motion{each.label, each.problem, {}};
+            ComparedMotion motion{each.label, each.problem, {}, {}};
             motion.request.end_time = p.end_time;
             motion.request.turning_points = false;
             motion.request.poses.push_back({});
@@ -222,7 +222,7 @@ class Planner {
         const Recipe* recipe = recipe_named(figure.figure);
         if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure.figure);
         Studies studies;
-        FigureFile file{index, figure.file, figure.figure, {}, recipe->prepare(scene_, figure.lang, studies)};
+        FigureFile file{index, figure.file, figure.figure, {}, recipe->prepare(scene_, figure.lang, studies), {}};
         file.studies = studies.take();
         for (Study& study : file.studies) add_study(study, figure.file);
         plan_.figures.push_back(std::move(file));
@@ -257,7 +257,7 @@ class Planner {
         if (std::find(channels.begin(), channels.end(), t) == channels.end()) channels.insert(channels.begin(), t);
         std::vector<double> times = table.times.empty() ? rows(0, scene_.end_time, table.rate) : table.times;
         look_until(*std::max_element(times.begin(), times.end()), table.file);
-        plan_.tables.push_back({index, table.file, add_table(std::move(times), std::move(channels))});
+        plan_.tables.push_back({index, table.file, add_table(std::move(times), std::move(channels)), {}});
     }
     void want(const ImpactsOutput& impacts, std::size_t index) {
         look_until(std::max(scene_.end_time, known_.until), impacts.file);
@@ -338,6 +338,25 @@ bool Plan::needs_gl() const {
 bool Plan::needs_encoder() const {
     return std::any_of(pictures.begin(), pictures.end(),
                        [](const Pictures& p) { return p.kind == Pictures::Kind::video; });
+}
+
+std::optional<Cost> Plan::cost() const {
+    std::optional<Cost> all;
+    const auto add = [&](const std::optional<Cost>& one, bool bytes) {
+        if (!one) return;
+        if (!all) all.emplace();
+        all->seconds += one->seconds;
+        if (bytes) all->amount += one->amount;
+    };
+    if (simulation) add(simulation->cost, false);
+    for (const Variant& v : variants) add(v.simulation.cost, false);
+    for (const Pictures& p : pictures) {
+        for (const ComparedMotion& each : p.compared) add(each.cost, false);
+        add(p.cost, true);
+    }
+    for (const FigureFile& f : figures) add(f.cost, true);
+    for (const TableFile& t : tables) add(t.cost, true);
+    return all;
 }
 
 std::size_t Plan::frames() const {

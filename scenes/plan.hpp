@@ -37,6 +37,12 @@ struct Known {
     double until = 0;                              // where the run of all outputs would end, finished ones too [s]
 };
 
+// What a stage took in earlier runs (history.hpp).
+struct Cost {
+    double seconds = 0;
+    double amount = 0;  // steps of a motion, bytes of a file
+};
+
 // One run of the mechanics serves every output.
 struct Simulation {
     sim::Request request;
@@ -46,6 +52,7 @@ struct Simulation {
     bool horizon = false;      // somebody asks until when it is reproducible: a second run
     bool from_cache = false;   // a kept trajectory goes far enough
     bool keep = false;         // for later runs
+    std::optional<Cost> cost;
 };
 
 // Other physics than the scene's, that figures compare it with: what serves all that look at it.
@@ -59,6 +66,7 @@ struct ComparedMotion {
     std::string label;
     sim::Problem problem;
     sim::Request request;  // one pose request, then the tables: chart and, with a cam, trace
+    std::optional<Cost> cost;
 };
 
 // A film, a sequence or a still: the same pictures, put away differently.
@@ -88,17 +96,20 @@ struct Pictures {
     std::size_t poses = 0;             // index into Request::poses, whose times are the frames' instants
     std::size_t chart = 0;             // index into Request::tables: what the panels show
     std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
+    std::optional<Cost> cost;
 };
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
     std::vector<Study> studies;  // what it looks at, as if it were alone
     FigureMaker make;            // from their results
+    std::optional<Cost> cost;
 };
 struct TableFile {
     std::size_t output = 0;
     std::string file;
     std::size_t table = 0;  // index into Request::tables
+    std::optional<Cost> cost;
 };
 struct ImpactsFile {
     std::size_t output = 0;
@@ -127,6 +138,7 @@ struct Plan {
 
     bool needs_gl() const;                                             // a lit view
     bool needs_encoder() const;                                        // a video
+    std::optional<Cost> cost() const;                                  // of all whose cost is known; amount: bytes
     std::size_t frames() const;                                        // drawn altogether
     const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty before it is settled
 };

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scenes/plan.hpp"
 
 namespace beamcam::scenes {
@@ -50,6 +53,27 @@ std::string model_words(const sim::Problem& problem) {
     return words;
 }
 
+// Two digits: "0.31", "5200".
+std::string about(double value) {
+    if (!(value > 0)) return "0";
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return fmt::format("{:.10g}", std::round(value / unit) * unit);
+}
+
+// "; about 0.31 s, 5200 steps"
+std::string motion_cost(const std::optional<Cost>& cost) {
+    return cost ? fmt::format("; about {} s, {} steps", about(cost->seconds), about(cost->amount)) : "";
+}
+
+std::string size_words(double bytes) {
+    return bytes < 1e6 ? about(std::max(1.0, bytes / 1e3)) + " kB" : about(bytes / 1e6) + " MB";
+}
+
+// "; about 12 s, 3.1 MB"
+std::string file_cost(const std::optional<Cost>& cost) {
+    return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_words(cost->amount)) : "";
+}
+
 std::string simulation_words(const Simulation& simulation, const sim::Problem& problem) {
     const sim::Request& request = simulation.request;
     std::string words = request.end_time > 0
@@ -59,7 +83,7 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
     if (simulation.from_cache) words += "; kept from an earlier run";
     if (simulation.keep) words += "; kept for later runs, unless it is short";
     if (simulation.horizon) words += "; a second run finds until when it is reproducible";
-    return words;
+    return words + motion_cost(simulation.cost);
 }
 
 std::string span_words(const Pictures& p, const std::vector<double>& times) {
@@ -87,7 +111,7 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
     words += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
     if (p.picture.view.transparent) words += ", transparent";
     if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
-    return words;
+    return words + file_cost(p.cost);
 }
 
 }  // namespace
@@ -102,18 +126,21 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared)
             line("simulate", fmt::format("{}; until {:g} s, as \"{}\" of {}", model_words(motion.problem),
-                                         motion.request.end_time, motion.label, p.file));
+                                         motion.request.end_time, motion.label, p.file) +
+                                 motion_cost(motion.cost));
         line(kind_name(p.kind), picture_words(p, plan.times(p)));
     }
     for (const Variant& variant : plan.variants)
         line("simulate", simulation_words(variant.simulation, variant.problem));
-    for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}", f.file, f.figure));
+    for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];
-        line("table", fmt::format("{}: {} rows of {} channels", t.file, table.times.size(), table.channels.size()));
+        line("table", fmt::format("{}: {} rows of {} channels{}", t.file, table.times.size(), table.channels.size(),
+                                  file_cost(t.cost)));
     }
     for (const ImpactsFile& i : plan.impacts) line("impacts", i.file);
     for (const SummaryFile& s : plan.summaries) line("summary", s.file);
+    if (const auto cost = plan.cost()) line("in all", file_cost(cost).substr(2) + ", as past runs tell");
     text += "skipped\n";
     for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
     return text;

@@ -79,7 +79,8 @@ struct Shop {
           progress(resolve(wanted.progress)),
           manifest(wanted.force),
           cache(open_cache(wanted.no_cache)),
-          motions(kept(), progress, {thread_count(wanted), wanted.quiet, wanted.verbose}) {}
+          history(cache ? History(cache->directory()) : History()),
+          motions(kept(), &history, progress, {thread_count(wanted), wanted.quiet, wanted.verbose}) {}
 
     const Cache* kept() const { return cache ? &*cache : nullptr; }
 
@@ -87,6 +88,7 @@ struct Shop {
     Progress progress;
     output::Manifest manifest;
     std::optional<Cache> cache;
+    History history;
     Motions motions;
     output::Work work;
     Times times;
@@ -301,6 +303,24 @@ class Runner {
         return {inputs, std::string(kVersion), to_json(scene_)};
     }
 
+    // What this took, for the plans of later runs.
+    void note(const std::vector<std::string>& work, double units, Clock::time_point since,
+              const std::vector<fs::path>& made) {
+        double bytes = 0;
+        for (const fs::path& file : made) {
+            std::error_code gone;
+            const std::uintmax_t size = fs::file_size(file, gone);
+            if (!gone) bytes += static_cast<double>(size);
+        }
+        shop_.history.note(work, units, seconds_since(since), bytes);
+    }
+    std::vector<fs::path> made_of(const Pictures& p) const {
+        if (p.kind != Pictures::Kind::frames) return {path_of(p.file)};
+        std::vector<fs::path> all;
+        for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
+        return all;
+    }
+
     std::map<std::string, std::string> metadata(const Pictures& p) const {
         const std::string note = accuracy_note(p);
         std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
@@ -374,6 +394,8 @@ class Runner {
             } else {
                 output::write_table(path_of(t.file), table);
                 wrote(path_of(t.file), fmt::format("{} rows", table.rows()), inputs_of(t));
+                note(table_work(t), static_cast<double>(table.rows() * table.channels.size()), start,
+                     {path_of(t.file)});
             }
             times_.write += seconds_since(start);
         }
@@ -404,6 +426,7 @@ class Runner {
                 output::write_file(path_of(file), bytes);
                 wrote(path_of(file), file == how.file ? f.figure : "", inputs_of(f));
             }
+            note(figure_work(f), 1, begun, {path_of(f.file)});
             ++work_.figures_drawn;
             ++work_.font_sets;
             times_.write += seconds_since(begun);
@@ -504,6 +527,7 @@ class Runner {
         const Pictures& p = plan_.pictures[index];
         if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
         stop_if_interrupted();
+        const auto begun = Clock::now();
         render::Film film = film_of(index);
         std::unique_ptr<output::VideoWriter> video;
         if (p.kind == Pictures::Kind::video && !capture_) {
@@ -567,6 +591,7 @@ class Runner {
         work_.gl_contexts += counts.gl_contexts;
         work_.mechanisms_lit += counts.mechanisms_lit;
         finish(p, video.get(), count);
+        if (!capture_) note(picture_work(p, thread_count(options_)), static_cast<double>(count), begun, made_of(p));
     }
 
     void finish(const Pictures& p, output::VideoWriter* video, long count) {
@@ -677,6 +702,7 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     make_motions(shop, runners);
     for (const auto& runner : runners) runner->deliver();
     shop.manifest.save();
+    shop.history.save();
     if (options.verbose) tell(shop);
 }
 
@@ -692,7 +718,9 @@ Plan plan_for(const Scene& scene, const RunOptions& options) {
     output::Manifest manifest(options.force);
     const Survey found =
         survey(scene, options.ask, options.directory, manifest, cache ? &*cache : nullptr, options.force);
-    return plan(scene, options.ask, found.known);
+    Plan made = plan(scene, options.ask, found.known);
+    if (cache) estimate(made, scene, History(cache->directory()), thread_count(options));
+    return made;
 }
 
 }  // namespace beamcam::scenes

@@ -126,7 +126,7 @@ int act(const Arguments& args) {
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Progress progress(resolve(options.progress));
     const std::optional<Cache> cache = open_cache(options.no_cache);
-    Motions motions(cache ? &*cache : nullptr, progress, {threads, options.quiet, options.verbose});
+    Motions motions(cache ? &*cache : nullptr, nullptr, progress, {threads, options.quiet, options.verbose});
     for (const Study& study : all) motions.want(study.problem, {study.request}, study.because);
     motions.make();
     std::vector<sim::Result> made;

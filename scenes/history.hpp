@@ -1,0 +1,50 @@
+// What work took in earlier runs of this user, from which a plan says what the next takes: a small text file beside the kept
+// trajectories. Whatever is wrong with it, nothing is known; it decides nothing but the words of a plan.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/plan.hpp"
+
+namespace beamcam::scenes {
+
+// What one unit of some work took: a second of motion, a picture, a number of a table.
+struct Rate {
+    double seconds = 0;
+    double amount = 0;  // steps of a motion, bytes of a file
+};
+
+class History {
+  public:
+    // Knows nothing and keeps nothing.
+    History() = default;
+    explicit History(const std::filesystem::path& directory);
+
+    // Of the first of these names of work that is known.
+    std::optional<Rate> find(const std::vector<std::string>& names) const;
+    // So many units took so long. Later runs count as much as all before them.
+    void note(const std::vector<std::string>& names, double units, double seconds, double amount);
+    // Beside what other processes have noted meanwhile. That it fails is of no consequence.
+    void save();
+
+  private:
+    std::filesystem::path file_;  // empty: none
+    std::map<std::string, Rate> known_;
+    std::vector<std::pair<std::string, Rate>> noted_;
+};
+
+// Names of work: this very motion or kind of picture first, then those that are like it.
+std::vector<std::string> motion_work(const sim::Problem& problem, bool read_back, bool horizon);  // per second of motion
+std::vector<std::string> picture_work(const Pictures& pictures, int threads);                     // per picture
+std::vector<std::string> figure_work(const FigureFile& figure);                                   // per figure
+std::vector<std::string> table_work(const TableFile& table);                                      // per number
+
+// Puts what past runs tell into the plan.
+void estimate(Plan& plan, const Scene& scene, const History& history, int threads);
+
+}  // namespace beamcam::scenes
