@@ -122,7 +122,7 @@ class Exponential final : public Integrator {
             count();
             return;
         }
-        first_limit_ = std::numeric_limits<double>::infinity();
+        first_flight_ = limited(std::numeric_limits<double>::infinity());
         t_ = t;
         std::copy_n(y, segment_->end.size(), segment_->end.begin());
     }
@@ -210,20 +210,23 @@ class Exponential final : public Integrator {
         begin();
         bool rejected = false;
         for (;;) {
-            int k = flight_rung_;
-            const StepTable* now = nullptr;
-            if (t_ + 1.01 * rung(k) >= stop_) {
+            const int k = flight_rung_;
+            const double h = std::min(rung(k), std::max(first_flight_, 1e-14 * std::fabs(t_)));
+            const bool last = t_ + 1.01 * h >= stop_;
+            const StepTable* now = &odd_;
+            if (last)
                 odd_.build(form_->oscillators, stop_ - t_);
-                now = &odd_;
-            } else {
+            else if (h < rung(k))
+                odd_.build(form_->oscillators, h);
+            else
                 now = &table(k);
-            }
             const double error = advance(*now);
             if (error <= 1) {
                 // Order eight: a rung is a factor of 16 in the error.
                 if (now != &odd_ && !rejected && error < 0.5 / 16)
                     flight_rung_ = std::min(k + (error < 1e-5 ? 2 : 1), kHighest);
-                s.t1 = now == &odd_ ? stop_ : t_ + now->h;
+                s.t1 = last ? stop_ : t_ + now->h;
+                first_flight_ = std::numeric_limits<double>::infinity();
                 break;
             }
             rejected = true;
@@ -490,6 +493,8 @@ class Exponential final : public Integrator {
         const Lanes gravity = form.gravity * (form.S * cos_ - form.mass * (weighted * sin_ + 0.5 * cos_ * fall));
         slope(acceleration_, growth);
         s.rate[kWorkDrive] = growth * follow - acceleration_ * (form.J + quadratic) * s.spin + s.spin * gravity;
+        // What the contact pushes, the drive holds.
+        if (touching_) s.rate[kWorkDrive] -= s.spin * (force_ * touch_.hub + friction_ * touch_.hub_t);
     }
 
     // ---- a step in contact ----
@@ -870,6 +875,7 @@ class Exponential final : public Integrator {
     std::vector<StepTable> ladder_;
     StepTable odd_;
     int flight_rung_ = kFirstFlight;
+    double first_flight_ = std::numeric_limits<double>::infinity();  // [s] the next step of flight is at most this long
     double t_ = 0, spin0_ = 0, largest_change_ = 0;
     double scale_modes_ = 1, scale_spin_ = 1, scale_theta_ = 1;
     Lanes time_{}, theta_{}, sin_{}, cos_{}, acceleration_{}, torque_{}, inertia_{};

@@ -54,13 +54,15 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b) 
 
 enum class EventKind { none, touch, release, clamp, grip, lift };
 
-constexpr int kMaxLooks = 16;         // into one step, for events
-constexpr double kMostPieces = 1e5;   // of one step, for touches
-constexpr long kMostLooks = 100000;   // of the advancement through one step
+constexpr int kMaxLooks = 16;        // into one step, for events
+constexpr double kMostPieces = 1e5;  // of one step, for touches
+constexpr long kMostLooks = 100000;  // of the advancement through one step
 // Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
 // events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
 constexpr int kMostFlips = 10;
-constexpr double kRestSpeed = 1e-12;  // [m/s] slower is rounding
+constexpr double kBounces = 4;           // a first step in flight spans, at most
+constexpr double kLowestBounce = 1e-13;  // of the beam's length: the gap is known to about 1e-15 of it
+constexpr double kRestSpeed = 1e-12;     // [m/s] slower is rounding
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -302,6 +304,8 @@ class Run {
             c.gap = std::max(c.gap, 0.0);  // rounding of the release
         }
         for (long looks = 0; looks < kMostLooks; ++looks) {
+            // It opens, and is below zero by rounding only.
+            if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem_.beam.length) c.gap = 0;
             if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return {EventKind::touch, t};
             const double falls = c.gap_rate * c.gap_rate - 2 * most * c.gap;
             if (c.gap_rate < 0 && falls > 0) {
@@ -540,18 +544,25 @@ class Run {
         ImpactResult impact =
             resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
         // A rebound that the integrator cannot tell from a touch at the same instant has ended, too.
-        const bool slow = impact.v_n < chatter || idle_events_ > kMostFlips;
+        // Nor will bounces end that rounding of the gap keeps from falling.
+        const double pull = -scout_.free_gap_acceleration(t_, y_.data());
+        const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem_.beam.length;
+        const bool slow = impact.v_n < chatter || (low && impact.v_n >= last_rebound_) || idle_events_ > kMostFlips;
+        last_rebound_ = impact.v_n;
         if (slow)
             impact =
                 resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
         if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
         phase_start_ = t_;
-        if (slow && scout_.free_gap_acceleration(t_, y_.data()) < 0) {
+        const double falls = -scout_.free_gap_acceleration(t_, y_.data());
+        if (slow && falls > 0) {
             phase_.touching = phase_.held = true;
             enter_phase();
             ++chatters_;
             return;
         }
+        // A step much longer than the bounce errs by more than the bounce is high: bounces would never die out.
+        if (falls > 0) integrator_->limit_first_step(kBounces * 2 * impact.v_n / falls);
         ContactState after = c;
         after.gap_rate = impact.v_n;
         after.slip = impact.v_t;
@@ -685,7 +696,8 @@ class Run {
     std::optional<double> last_release_;
     long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
-    double last_step_ = 0;  // [s]
+    double last_rebound_ = 0;  // [m/s]
+    double last_step_ = 0;     // [s]
     bool sunk_ = false, spent_ = false;
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };

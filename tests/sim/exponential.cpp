@@ -145,7 +145,7 @@ TEST(GapProbe, SeesWhatTheContactIs) {
             p.beam.model = kind;
             p.beam.modes = modes;
             p.hub.radius = 0.02;
-                System system(p), alone(p);
+            System system(p), alone(p);
             GapProbe probe(system);
             std::vector<double> y(static_cast<std::size_t>(system.size));
             const auto n = static_cast<std::size_t>(system.coordinates());
@@ -358,6 +358,18 @@ TEST(ExponentialContact, KeepsTheLedger) {
             EXPECT_LT(r.energy_residual_max, 10 * rtol * r.energy_scale) << seed << " " << rtol;
         }
     }
+}
+
+TEST(ExponentialContact, ADriveHoldsWhatTheContactPushes) {
+    // The work of a prescribed hub includes that against the cam.
+    Problem p;
+    p.hub.drive = ConstantSpeed{-2};
+    p.initial = {0.4, 0, InitialShape::straight};
+    p.solver.method = Method::automatic;
+    const Result r = run(p, 0.04);
+    ASSERT_FALSE(r.impacts.empty());
+    EXPECT_GT(r.energy_scale, 1);
+    EXPECT_LT(r.energy_residual_max, 10 * p.solver.rtol * r.energy_scale);
 }
 
 TEST(ExponentialContact, MirrorsAMirroredScene) {

@@ -64,6 +64,19 @@ TEST(Flips, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
     }
 }
 
+TEST(Flips, OfBouncesAsLowAsRoundingOfTheGapEnd) {
+    Problem p;  // the cam comes back at 30 m/s: bounces are pressed together within microseconds
+    p.cam->speed = -300;
+    p.cam->eccentricity = 0.099;
+    p.contact.model = ContactModel::restitution;
+    p.contact.friction = CoulombFriction{0.3, 1e-3};
+    p.contact.offset.reset();
+    p.initial = {0.376, -2, InitialShape::straight};
+    const Result r = run(p, 0.02);
+    EXPECT_GT(r.impacts.size(), 10u);
+    EXPECT_LT(r.impacts.size(), 1000u);
+}
+
 TEST(Flips, OfAGripThatCanNeitherHoldNorSlideEnd) {
     Problem p = fixed_cam(ModelKind::rigid);
     p.hub.radius = 0.1;
