@@ -50,6 +50,7 @@ TEST(RightHandSide, AllocatesNothingInFlightAndInContact) {
     for (const ModelKind kind : {ModelKind::rigid, ModelKind::zeroth_order, ModelKind::first_order, ModelKind::paper,
                                  ModelKind::second_order, ModelKind::exact}) {
         for (const int modes : {2, 8, 20}) {
+            if (kind == ModelKind::exact && modes == 20) continue;  // its rest takes seconds to find
             for (const ContactModel contact : {ContactModel::compliant, ContactModel::restitution}) {
                 Problem problem;
                 problem.beam.model = kind;
