@@ -83,7 +83,7 @@ enum class Legend { direct, box, none };  // labels at the curves where they hav
 
 struct Panel;
 struct Inset {
-    std::vector<Panel> panel = {};        // one; a vector because a panel may hold insets
+    std::vector<Panel> panel;            // one; a vector because a panel may hold insets
     double width = 0.42, height = 0.42;  // of the parent's plot
     // What of the parent is shown enlarged: a frame there, and lines to the inset.
     struct Source {
