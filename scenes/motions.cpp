@@ -127,7 +127,7 @@ void Motions::make(const Group& group, const sim::Progress& progress) {
     try {
         hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
     } catch (const sim::SolverError& error) {
-        hand_out(error.partials, &Wish::reached);
+        if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
         throw;
     }
 }

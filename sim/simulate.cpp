@@ -93,6 +93,9 @@ class Run {
         try {
             integrate();
         } catch (const StepFailure& failure) {
+            if (!started_) throw SolverError(fmt::format("at the start: {}; give another initial.shape or initial.angle",
+                                              failure.what()),
+                                  0, {});
             audience_.give_up(t_, y_, tally_source_);
             throw SolverError(explain(failure), t_, audience_.results());
         }
@@ -124,6 +127,7 @@ class Run {
         kinks_ = dynamics_.drive().kinks();
         phase_ = start.phase;
         enter_phase();
+        started_ = true;
         audience_.begin(phase_, y_);
         if (keep_) keep_->begin(phase_, y_);
         integrator_->stop_at(next_kink());
@@ -699,6 +703,7 @@ class Run {
     double last_rebound_ = 0;  // [m/s]
     double last_step_ = 0;     // [s]
     bool sunk_ = false, spent_ = false;
+    bool started_ = false;  // a state to begin with was found
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 

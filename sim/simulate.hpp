@@ -113,7 +113,7 @@ struct Result {
 struct SolverError : std::runtime_error {
     SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results);
     double last_time;
-    std::vector<Result> partials;  // one per Request
+    std::vector<Result> partials;  // one per Request; none where no state to start from was found
 };
 struct Interrupted : std::runtime_error {
     Interrupted() : std::runtime_error("interrupted") {}

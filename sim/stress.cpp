@@ -705,10 +705,11 @@ StressResult survive(const StressCase& one) {
         out.outcome = told || one.problem.beam.model == ModelKind::paper ? Outcome::open : Outcome::closed;
         if (!r.warnings.empty()) out.words = r.warnings.front();
     } catch (const SolverError& error) {
-        judge(one, error.partials.at(0), request, out);
+        if (!error.partials.empty()) judge(one, error.partials.at(0), request, out);
         if (!out.words.empty()) return out;
         out.words = error.what();
-        out.outcome = error.partials.at(0).end_time == error.last_time ? Outcome::stopped : Outcome::failed;
+        const double reached = error.partials.empty() ? 0 : error.partials.at(0).end_time;
+        out.outcome = reached == error.last_time ? Outcome::stopped : Outcome::failed;
     } catch (const Interrupted&) {
         out.words = fmt::format("still running after {:g} s", kPatience);
     } catch (const std::exception& error) {

@@ -199,6 +199,12 @@ void check_geometry(Findings& out, const Problem& p) {
                         reach, nearest_axis));
         return;
     }
+    const bool rigid = p.beam.model == ModelKind::rigid || p.beam.modes == 0;
+    if (rigid && is_prescribed(p.hub.drive) && p.contact.model == ContactModel::restitution) {
+        out.refuse("contact.model", "nothing gives way to an impulse when a rigid beam meets the cam at a prescribed angle; use "
+                                    "\"compliant\" contact, a flexible beam, or a torque instead of the angle");
+        return;
+    }
     if (p.initial.shape == InitialShape::resting) return;
     try {
         const auto [gap, x] = p.initial.shape == InitialShape::straight ? straight_gap(p) : gap_at_start(p);

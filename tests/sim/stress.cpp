@@ -1,5 +1,6 @@
 #include "sim/stress.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -48,6 +49,41 @@ TEST(Budget, OfStepsEndsTheRunInWordsAndKeepsWhatWasReached) {
         EXPECT_EQ(error.partials.at(0).tables[0].values[0][0], p.initial.angle);
         EXPECT_TRUE(std::isnan(error.partials.at(0).tables[0].values[0][1]));
     }
+}
+
+// Where not even a state to start from is found there is no partial trajectory, and no talk of steps.
+TEST(Starts, ThatDoNotExistAreToldAndLeaveNothing) {
+    int found = 0;
+    for (const StressCase& one : stress_campaign(true).cases) {
+        if (one.variant != "seed 91" && one.variant != "seed 300") continue;
+        ++found;
+        const StressResult result = survive(one);
+        EXPECT_EQ(result.outcome, Outcome::stopped) << result.words;
+        EXPECT_THAT(result.words, ::testing::StartsWith("at the start: no equilibrium"));
+        Request request;
+        request.end_time = one.end;
+        try {
+            simulate(one.problem, request);
+            ADD_FAILURE() << "it has a start after all";
+        } catch (const SolverError& error) {
+            EXPECT_TRUE(error.partials.empty());
+        }
+    }
+    EXPECT_EQ(found, 2);
+}
+
+TEST(Starts, OfWhatCannotGiveWayToAnImpulseAreRefused) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.beam.basis = Basis::cantilever;
+    p.hub.drive = ConstantSpeed{-1};
+    p.contact.model = ContactModel::restitution;
+    const std::vector<Finding> findings = validate(p);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].path, "contact.model");
+    EXPECT_TRUE(findings[0].fatal);
+    p.contact.model = ContactModel::compliant;
+    EXPECT_TRUE(validate(p).empty());
 }
 
 TEST(Flips, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
