@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 
@@ -12,8 +11,6 @@
 
 namespace beamcam::sim::testing {
 namespace {
-
-bool long_tests() { return std::getenv("BEAMCAM_LONG") != nullptr; }
 
 // ---- published times -----------------------------------------------------------------------------
 
@@ -669,7 +666,6 @@ TEST(FirstRebound, ConvergesToTheSameApexInBothBases) {
 }
 
 TEST(Inertia, LostByManyCantileverModesIsToldWithItsRemedy) {
-    if (!long_tests()) GTEST_SKIP() << "long: set BEAMCAM_LONG=1";
     Problem p = fixed_cam(ModelKind::first_order, 12);
     p.beam.basis = Basis::cantilever;
     p.solver.rtol = 1e-6;
