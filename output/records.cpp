@@ -268,7 +268,8 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
     const Json entries = json.value("files", Json());
     if (!entries.is_object()) return {};
     MadeFiles files;
-    for (const auto& [name, entry] : entries.items()) {
+    for (const auto& item : entries.items()) {
+        const Json& entry = item.value();
         if (!entry.is_object()) return {};
         const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
         if (!digest.is_string() || !size.is_number_unsigned()) return {};
@@ -277,7 +278,7 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
             return value.is_string() ? value.get<std::string>() : std::string();
         };
         const Json making = entry.value("making", Json());
-        files[name] = {digest.get<std::string>(), size.get<std::uintmax_t>(),
+        files[item.key()] = {digest.get<std::string>(), size.get<std::uintmax_t>(),
                        Origin{word("inputs"), word("version"), word("scene")}, word("stamp"),
                        making.is_number_integer() ? making.get<std::int64_t>() : 0};
     }
