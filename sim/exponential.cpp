@@ -27,28 +27,31 @@ constexpr double kShareOfIteration = 0.02;  // of the tolerance, for what the sw
 
 double rung(int k) { return std::ldexp(k & 1 ? 1.4142135623730951 : 1.0, (k - (k & 1)) / 2); }
 
-// Interpolation error of a forcing with these Legendre coefficients, times the step. Coefficients that fall show a
+// How the Legendre coefficients of nodal values end: the size of the last two, and by how much they fell from the two
+// before (at most 1).
+struct Ending {
+    double last, ratio;
+};
+Ending ending(const Lanes& nodal) {
+    const auto& legendre = Collocation::get().legendre;
+    const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
+    const double last = std::max(size(6), size(7)), before = std::max(size(4), size(5));
+    return {last, last == 0 ? 0 : std::min(1.0, last / before)};
+}
+
+// Interpolation error of a forcing with these nodal values, times the step. Coefficients that fall show a
 // resolved forcing, whose error the integration smooths as well; coefficients that do not are vibration sampled too
 // seldom, and count in full.
 double tail(const Lanes& nodal) {
-    const auto& legendre = Collocation::get().legendre;
-    const double a4 = std::fabs(sum(legendre[4] * nodal)), a5 = std::fabs(sum(legendre[5] * nodal)),
-                 a6 = std::fabs(sum(legendre[6] * nodal)), a7 = std::fabs(sum(legendre[7] * nodal));
-    const double last = std::max(a6, a7), before = std::max(a4, a5);
-    if (last == 0) return 0;
-    const double ratio = std::min(1.0, last / before);
+    const auto [last, ratio] = ending(nodal);
     return last * ratio * std::max(ratio, 1.0 / 30);
 }
 
 // Error of what a step leaves of a nodal force: coefficients that fall by r from pair to pair make the quadrature of
 // order sixteen err by the last times r⁴; where the force starts like a power of time it is that power which falls.
 double quadrature_tail(const Lanes& nodal) {
-    const auto& legendre = Collocation::get().legendre;
-    const double a4 = std::fabs(sum(legendre[4] * nodal)), a5 = std::fabs(sum(legendre[5] * nodal)),
-                 a6 = std::fabs(sum(legendre[6] * nodal)), a7 = std::fabs(sum(legendre[7] * nodal));
-    const double last = std::max(a6, a7), before = std::max(a4, a5);
-    if (last == 0) return 0;
-    const double ratio = std::min(1.0, last / before), r2 = ratio * ratio;
+    const auto [last, ratio] = ending(nodal);
+    const double r2 = ratio * ratio;
     return last * std::max(r2 * r2, 1e-5);
 }
 
@@ -183,7 +186,7 @@ class Exponential final : public Integrator {
 
     const StepTable& table(int k) {
         StepTable& entry = ladder_[static_cast<std::size_t>(k - kLowest)];
-        if (entry.h == 0) entry.build(form_->oscillators, rung(k));
+        if (entry.h == 0) entry.build(form_->oscillators, form_->groups, rung(k));
         return entry;
     }
 
@@ -215,9 +218,9 @@ class Exponential final : public Integrator {
             const bool last = t_ + 1.01 * h >= stop_;
             const StepTable* now = &odd_;
             if (last)
-                odd_.build(form_->oscillators, stop_ - t_);
+                odd_.build(form_->oscillators, form_->groups, stop_ - t_);
             else if (h < rung(k))
-                odd_.build(form_->oscillators, h);
+                odd_.build(form_->oscillators, form_->groups, h);
             else
                 now = &table(k);
             const double error = advance(*now);
@@ -249,12 +252,7 @@ class Exponential final : public Integrator {
         const double h = s.h = table.h;
         s.changed();
         place_hub(h);
-        for (std::size_t i = 0; i < n_; ++i) {
-            const StepTable::Row& row = table.rows[i];
-            base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
-            base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
-            smooth_force(i, s.f[i]);
-        }
+        swing_freely(table);
         double before = 0;
         bool settled = false;
         for (int sweep = 0; sweep < kMostSweeps && !settled; ++sweep) {
@@ -277,6 +275,17 @@ class Exponential final : public Integrator {
         propagate_rates(table);
         arrive(table);
         return error(h);
+    }
+
+    // What the step does to q and q̇ without forcing, and the forcing that does not depend on them.
+    void swing_freely(const StepTable& table) {
+        ExponentialSegment& s = *segment_;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const StepTable::Row& row = table.rows[i];
+            base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
+            base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
+            smooth_force(i, s.f[i]);
+        }
     }
 
     void propagate_rates(const StepTable& table) {
@@ -541,7 +550,7 @@ class Exponential final : public Integrator {
         for (;;) {
             const StepTable* now = nullptr;
             if (t_ + 1.01 * rung(touch_rung_) >= stop_) {
-                odd_.build(form_->oscillators, stop_ - t_);
+                odd_.build(form_->oscillators, form_->groups, stop_ - t_);
                 now = &odd_;
             } else {
                 now = &table(touch_rung_);
@@ -602,7 +611,7 @@ class Exponential final : public Integrator {
     // Ends the step at `at` instead; for the caller.
     bool touch_cut(double at) {
         ExponentialSegment& s = *segment_;
-        odd_.build(form_->oscillators, at - s.t0);
+        odd_.build(form_->oscillators, form_->groups, at - s.t0);
         if (!std::isfinite(solve_contact(odd_))) return false;
         touch_accept(TouchSamples::Ending::open);
         return true;
@@ -634,13 +643,8 @@ class Exponential final : public Integrator {
                 by_rate);
         }
         friction_ = Lanes{};
-        for (std::size_t i = 0; i < n_; ++i) {
-            const StepTable::Row& row = table.rows[i];
-            base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
-            base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
-            smooth_force(i, s.f[i]);
-            s.f[i] += force_ * (row_[i] / form_->mass);
-        }
+        swing_freely(table);
+        for (std::size_t i = 0; i < n_; ++i) s.f[i] += force_ * (row_[i] / form_->mass);
         s.push = force_ * start_touch_.hub - form_->gravity * form_->S * cos_ + torque_;
         if (!form_->prescribed) hub_from_push(h);
         double before = 0;
@@ -805,7 +809,7 @@ class Exponential final : public Integrator {
         double h = end, error = 0, closest = std::numeric_limits<double>::infinity();
         for (int i = 0; i < kMostCuts; ++i) {
             if (!(h > 1e-14)) return std::numeric_limits<double>::infinity();
-            odd_.build(form_->oscillators, h);
+            odd_.build(form_->oscillators, form_->groups, h);
             error = solve_contact(odd_);
             if (!(error <= 1)) return error;
             double dt;

@@ -5,9 +5,9 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kCorrections = 3;      // of the foot in a look: Newton's method, from the foot of the look before
-constexpr int kMostCentres = 8;      // until the expansion is where the foot is
-constexpr double kSettled = 3e-3;    // of the length: corrections that move the foot no further have converged
+constexpr int kCorrections = 3;    // of the foot in a look: Newton's method, from the foot of the look before
+constexpr int kMostCentres = 8;    // until the expansion is where the foot is
+constexpr double kSettled = 3e-3;  // of the length: corrections that move the foot no further have converged
 
 }  // namespace
 
@@ -32,7 +32,6 @@ ContactState GapProbe::look(double t, const double* y, bool search) {
 bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c) {
     const double length = system_.model().length();
     const int n = system_.coordinates();
-    system_.place(t, y);
     const CamPose pose = system_.cam(t);
     double hub = y[0], rate = y[n];
     if (system_.drive().prescribed()) {
@@ -43,6 +42,7 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
     const Frame<double> frame{std::sin(hub), std::cos(hub), rate, pose.disc.x, pose.disc.y, pose.velocity.x,
                               pose.velocity.y};
     if (search || x_ < 0) {
+        system_.place(t, y);
         if (!system_.nearly_straight()) return false;
         x_ = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
     }

@@ -6,6 +6,12 @@
 #include "sim/lane_kernels.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+// [rad/s] Slower oscillators hardly have a period: their inverse frequencies are best left alone.
+constexpr double kStill = 1e-6;
+
+}  // namespace
 
 // With g_j the responses (g₋₁ = s, g₋₂ = ṡ, ġ_j = g_{j−1}) the equation of motion itself is the recursion     (S52)
 //   g_{j−1} + 2γ g_j + ω² g_{j+1} = τ^{j+1}/(j+1)!,
@@ -50,9 +56,6 @@ void respond(const Oscillator& o, double tau, double* r) {
     for (int j = kNodes - 2; j > 0; --j) r[1 + j] = power[j + 1] - damping * r[2 + j] - w2 * r[3 + j];
 }
 
-// [rad/s] Slower oscillators hardly have a period: their inverse frequencies are best left alone.
-constexpr double kStill = 1e-6;
-
 std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators) {
     std::vector<OscillatorLanes> groups((oscillators.size() + kNodes - 1) / kNodes);
     for (std::size_t i = 0; i < groups.size() * kNodes; ++i) {
@@ -89,15 +92,15 @@ void respond(const OscillatorLanes& group, double tau, Lanes* r) {
     lane_kernels().respond(group, tau, decay, r);
 }
 
-void StepTable::build(const std::vector<Oscillator>& oscillators, double length) {
+void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups,
+                      double length) {
     const Collocation& gauss = Collocation::get();
     h = length;
     rows.resize(oscillators.size());
-    // Scaled derivatives: derive/hʲ times the responses_.
+    // Scaled derivatives: derive/hʲ times the responses.
     double inverse[kNodes];
     inverse[0] = 1;
     for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
-    const std::vector<OscillatorLanes> groups = side_by_side(oscillators);
     responses_.resize(groups.size() * (kNodes + 1) * kResponse);
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (std::size_t k = 0; k <= kNodes; ++k) {

@@ -39,7 +39,8 @@ struct StepTable {
     };
     double h = 0;
     std::vector<Row> rows;
-    void build(const std::vector<Oscillator>& oscillators, double length);
+    // `groups`: the same oscillators side by side.
+    void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
 
   private:
     std::vector<Lanes> responses_;  // kept for its memory

@@ -53,7 +53,7 @@ TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
     const double h = 0.003;
     std::vector<Oscillator> oscillators{{0, 0}, {300, 0}, {3000, 40}, {2e5, 0}};
     StepTable table;
-    table.build(oscillators, h);
+    table.build(oscillators, side_by_side(oscillators), h);
     const Collocation& gauss = Collocation::get();
     for (std::size_t i = 0; i < oscillators.size(); ++i) {
         const StepTable::Row& row = table.rows[i];
