@@ -26,9 +26,7 @@ std::string math(std::string_view symbol) {
 
 struct Canvas::Handles {
     cairo_surface_t* surface = nullptr;
-    cairo_t* cr = nullptr;
     ~Handles() {
-        if (cr) cairo_destroy(cr);
         if (surface) {
             cairo_surface_flush(surface);
             cairo_surface_destroy(surface);
@@ -44,8 +42,6 @@ cairo_surface_t* surface_of(const Image& image) {
     return cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
 }
 
-void use(cairo_t* cr, Color c) { cairo_set_source_rgba(cr, c.r, c.g, c.b, c.a); }
-
 // The source, its corner at (x, y), within a rectangle of whole pixels: no edge is blended.
 void blend(cairo_t* cr, const Image& source, int x, int y, int left, int top, int width, int height) {
     if (width <= 0 || height <= 0) return;
@@ -54,7 +50,6 @@ void blend(cairo_t* cr, const Image& source, int x, int y, int left, int top, in
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
     cairo_rectangle(cr, left, top, width, height);
     cairo_fill(cr);
-    use(cr, {});
     cairo_surface_destroy(surface);
 }
 
@@ -102,81 +97,32 @@ Metrics metrics(PangoLayout* layout) {
 
 Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), fonts_(fonts) {
     handles_->surface = surface_of(image);
-    handles_->cr = cairo_create(handles_->surface);
-    if (cairo_status(handles_->cr) != CAIRO_STATUS_SUCCESS)
+    begin(cairo_create(handles_->surface));
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
         throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn: {}", image.width, image.height,
-                                       cairo_status_to_string(cairo_status(handles_->cr))));
-    cairo_set_line_join(handles_->cr, CAIRO_LINE_JOIN_ROUND);
+                                       cairo_status_to_string(cairo_status(cr_))));
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
 }
-Canvas::~Canvas() = default;
-
-void Canvas::move_to(Vec2 p) { cairo_move_to(handles_->cr, p.x, p.y); }
-void Canvas::line_to(Vec2 p) { cairo_line_to(handles_->cr, p.x, p.y); }
-void Canvas::close() { cairo_close_path(handles_->cr); }
-
-void Canvas::polyline(std::span<const Vec2> points) {
-    bool pen_down = false;
-    for (Vec2 p : points) {
-        if (std::isnan(p.x) || std::isnan(p.y)) {
-            pen_down = false;
-        } else {
-            pen_down ? line_to(p) : move_to(p);
-            pen_down = true;
-        }
-    }
-}
-
-void Canvas::arc(Vec2 c, double radius, double from, double to) {
-    if (to >= from)
-        cairo_arc_negative(handles_->cr, c.x, c.y, radius, -from, -to);
-    else
-        cairo_arc(handles_->cr, c.x, c.y, radius, -from, -to);
-}
-
-void Canvas::circle(Vec2 c, double radius) {
-    cairo_new_sub_path(handles_->cr);
-    cairo_arc(handles_->cr, c.x, c.y, radius, 0, 2 * std::numbers::pi);
-    cairo_close_path(handles_->cr);
-}
-
-void Canvas::rectangle(const Box& b) { cairo_rectangle(handles_->cr, b.x, b.y, b.w, b.h); }
+Canvas::~Canvas() { end(); }
 
 void Canvas::rounded(const Box& b, double r) {
     constexpr double q = std::numbers::pi / 2;
-    cairo_t* cr = handles_->cr;
-    cairo_new_sub_path(cr);
-    cairo_arc(cr, b.right() - r, b.y + r, r, -q, 0);
-    cairo_arc(cr, b.right() - r, b.bottom() - r, r, 0, q);
-    cairo_arc(cr, b.x + r, b.bottom() - r, r, q, 2 * q);
-    cairo_arc(cr, b.x + r, b.y + r, r, 2 * q, 3 * q);
-    cairo_close_path(cr);
+    cairo_new_sub_path(cr_);
+    cairo_arc(cr_, b.right() - r, b.y + r, r, -q, 0);
+    cairo_arc(cr_, b.right() - r, b.bottom() - r, r, 0, q);
+    cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
+    cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
+    cairo_close_path(cr_);
 }
 
-void Canvas::fill(Color c) {
-    use(handles_->cr, c);
-    cairo_fill(handles_->cr);
-}
-void Canvas::fill_keeping_path(Color c) {
-    use(handles_->cr, c);
-    cairo_fill_preserve(handles_->cr);
-}
 void Canvas::fill_even_odd(Color c) {
-    cairo_set_fill_rule(handles_->cr, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_EVEN_ODD);
     fill(c);
-    cairo_set_fill_rule(handles_->cr, CAIRO_FILL_RULE_WINDING);
+    cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
 }
-void Canvas::stroke(const Pen& pen) {
-    cairo_t* cr = handles_->cr;
-    use(cr, pen.color);
-    cairo_set_line_width(cr, pen.width);
-    cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-    cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
-    cairo_stroke(cr);
-}
-
 void Canvas::paint(Color c) {
-    use(handles_->cr, c);
-    cairo_paint(handles_->cr);
+    use(c);
+    cairo_paint(cr_);
 }
 
 // A shaft and a filled head; an arrow shorter than its head is a smaller head.
@@ -200,7 +146,8 @@ void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
 }
 
 void Canvas::image_until(const Image& source, int x, int y, int end) {
-    blend(handles_->cr, source, x, y, x, y, std::clamp(end - x, 0, source.width), source.height);
+    blend(cr_, source, x, y, x, y, std::clamp(end - x, 0, source.width), source.height);
+    use({});
 }
 
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
@@ -208,19 +155,20 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     const int y0 = std::clamp(static_cast<int>(std::floor(part.y)), 0, source.height);
     const int x1 = std::clamp(static_cast<int>(std::ceil(part.right())), x0, source.width);
     const int y1 = std::clamp(static_cast<int>(std::ceil(part.bottom())), y0, source.height);
-    blend(handles_->cr, source, x, y, x + x0, y + y0, x1 - x0, y1 - y0);
+    blend(cr_, source, x, y, x + x0, y + y0, x1 - x0, y1 - y0);
+    use({});
 }
 
 void Canvas::smooth_edges(bool on) {
-    cairo_set_antialias(handles_->cr, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+    cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
 }
 
 void Canvas::clip(const Box& b, const std::function<void()>& draw) {
-    cairo_save(handles_->cr);
-    cairo_rectangle(handles_->cr, b.x, b.y, b.w, b.h);
-    cairo_clip(handles_->cr);
+    cairo_save(cr_);
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    cairo_clip(cr_);
     draw();
-    cairo_restore(handles_->cr);
+    cairo_restore(cr_);
 }
 
 std::string Canvas::drawable(std::string_view plain) const {
@@ -249,16 +197,15 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     double x = baseline.x;
     if (style.align == Align::centre) x -= m.advance / 2;
     if (style.align == Align::right) x -= m.advance;
-    cairo_t* cr = handles_->cr;
-    cairo_move_to(cr, x, baseline.y - m.baseline);
+    cairo_move_to(cr_, x, baseline.y - m.baseline);
     if (style.halo) {
-        pango_cairo_layout_path(cr, layout);
+        pango_cairo_layout_path(cr_, layout);
         stroke({*style.halo, 0.30 * style.size});
-        cairo_move_to(cr, x, baseline.y - m.baseline);
+        cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
-    use(cr, style.color);
-    pango_cairo_show_layout(cr, layout);
-    cairo_new_path(cr);
+    use(style.color);
+    pango_cairo_show_layout(cr_, layout);
+    cairo_new_path(cr_);
     const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
     if (record) record->push_back(ink);
     return {x, ink.y, m.advance, ink.h};

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/brush.hpp"
 #include "render/color.hpp"
 #include "render/fonts.hpp"
 #include "render/geometry.hpp"
@@ -34,33 +35,13 @@ struct TextStyle {
     std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
 };
 
-enum class Cap { butt, round };
-struct Pen {
-    Color color;
-    double width = 1;               // [px]
-    std::vector<double> dash = {};  // [px]
-    Cap cap = Cap::round;
-};
-
-class Canvas {
+class Canvas : public Brush {
   public:
     Canvas(Image& image, const Fonts& fonts);
     ~Canvas();
-    Canvas(const Canvas&) = delete;
-    Canvas& operator=(const Canvas&) = delete;
 
-    void move_to(Vec2 p);
-    void line_to(Vec2 p);
-    void polyline(std::span<const Vec2> points);  // NaN breaks the line
-    void close();
-    void arc(Vec2 centre, double radius, double from, double to);  // angles counter-clockwise, Y up [rad]
-    void circle(Vec2 centre, double radius);
-    void rectangle(const Box& box);
     void rounded(const Box& box, double radius);
-    void fill(Color color);
-    void fill_keeping_path(Color color);
     void fill_even_odd(Color color);
-    void stroke(const Pen& pen);
     void paint(Color color);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
 

@@ -52,10 +52,7 @@ struct Sheet::Handles {
     std::string stream;  // of PDF and SVG; outlives the surface
     Image image;
     cairo_surface_t* surface = nullptr;
-    cairo_t* cr = nullptr;
     void end() {
-        if (cr) cairo_destroy(cr);
-        cr = nullptr;
         if (surface) {
             cairo_surface_finish(surface);
             cairo_surface_destroy(surface);
@@ -89,8 +86,6 @@ void describe(cairo_surface_t* pdf, const Document& d) {
     say(CAIRO_PDF_METADATA_MOD_DATE, when);
 }
 
-void use(cairo_t* cr, Color c) { cairo_set_source_rgba(cr, c.r, c.g, c.b, c.a); }
-
 }  // namespace
 
 Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document)
@@ -118,62 +113,23 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
         h.surface = cairo_svg_surface_create_for_stream(collect, &h.stream, size.width * unit, size.height * unit);
         cairo_svg_surface_set_document_unit(h.surface, CAIRO_SVG_UNIT_MM);
     }
-    h.cr = cairo_create(h.surface);
-    if (cairo_status(h.cr) != CAIRO_STATUS_SUCCESS)
+    begin(cairo_create(h.surface));
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
         throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm cannot be drawn: {}", size.width / points(1),
-                                       size.height / points(1), cairo_status_to_string(cairo_status(h.cr))));
-    cairo_scale(h.cr, unit, unit);
-    cairo_set_line_join(h.cr, CAIRO_LINE_JOIN_ROUND);
-    use(h.cr, rgb(0xFFFFFF));
-    cairo_paint(h.cr);
+                                       size.height / points(1), cairo_status_to_string(cairo_status(cr_))));
+    cairo_scale(cr_, unit, unit);
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+    use(rgb(0xFFFFFF));
+    cairo_paint(cr_);
 }
-Sheet::~Sheet() = default;
+Sheet::~Sheet() { end(); }
 
 // A quarter of a pixel, or of the 1/600 inch of a good printer.
 double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? size_.dpi : 600)); }
 
-void Sheet::move_to(Vec2 p) { cairo_move_to(handles_->cr, p.x, p.y); }
-void Sheet::line_to(Vec2 p) { cairo_line_to(handles_->cr, p.x, p.y); }
-void Sheet::close() { cairo_close_path(handles_->cr); }
-void Sheet::polyline(std::span<const Vec2> path) {
-    bool pen_down = false;
-    for (Vec2 p : path) {
-        if (std::isnan(p.x) || std::isnan(p.y)) {
-            pen_down = false;
-            continue;
-        }
-        pen_down ? line_to(p) : move_to(p);
-        pen_down = true;
-    }
-}
-void Sheet::circle(Vec2 c, double radius) {
-    cairo_new_sub_path(handles_->cr);
-    cairo_arc(handles_->cr, c.x, c.y, radius, 0, 2 * std::numbers::pi);
-    cairo_close_path(handles_->cr);
-}
 void Sheet::arc(Vec2 c, double radius, double from, double to) {
-    cairo_new_sub_path(handles_->cr);
-    if (to >= from)
-        cairo_arc_negative(handles_->cr, c.x, c.y, radius, -from, -to);
-    else
-        cairo_arc(handles_->cr, c.x, c.y, radius, -from, -to);
-}
-void Sheet::rectangle(const Box& b) { cairo_rectangle(handles_->cr, b.x, b.y, b.w, b.h); }
-void Sheet::fill(Color c) {
-    use(handles_->cr, c);
-    cairo_fill(handles_->cr);
-}
-void Sheet::fill_keeping_path(Color c) {
-    use(handles_->cr, c);
-    cairo_fill_preserve(handles_->cr);
-}
-void Sheet::stroke(const Pen& pen) {
-    cairo_t* cr = handles_->cr;
-    use(cr, pen.color);
-    cairo_set_line_width(cr, pen.width);
-    cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-    cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
-    cairo_stroke(cr);
+    cairo_new_sub_path(cr_);
+    Brush::arc(c, radius, from, to);
 }
 
 void Sheet::gradient(const Box& box, std::span<const Color> colors) {
@@ -181,9 +137,9 @@ void Sheet::gradient(const Box& box, std::span<const Color> colors) {
     for (std::size_t i = 0; i < colors.size(); ++i)
         cairo_pattern_add_color_stop_rgb(pattern, static_cast<double>(i) / static_cast<double>(colors.size() - 1),
                                          colors[i].r, colors[i].g, colors[i].b);
-    cairo_set_source(handles_->cr, pattern);
+    cairo_set_source(cr_, pattern);
     rectangle(box);
-    cairo_fill(handles_->cr);
+    cairo_fill(cr_);
     cairo_pattern_destroy(pattern);
 }
 
@@ -207,11 +163,11 @@ void Sheet::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
 }
 
 void Sheet::clip(const Box& b) {
-    cairo_save(handles_->cr);
+    cairo_save(cr_);
     rectangle(b);
-    cairo_clip(handles_->cr);
+    cairo_clip(cr_);
 }
-void Sheet::unclip() { cairo_restore(handles_->cr); }
+void Sheet::unclip() { cairo_restore(cr_); }
 
 // ---- letters -------------------------------------------------------------------------------------
 
@@ -272,21 +228,20 @@ Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) {
 }
 
 void Sheet::show(const Set& label) {
-    cairo_t* cr = handles_->cr;
     PangoLayout* layout = fonts_.handles().layout;
     double x0 = 0, y0 = 0;
-    cairo_get_current_point(cr, &x0, &y0);
+    cairo_get_current_point(cr_, &x0, &y0);
     for (const Set::Piece& piece : label.pieces) {
         lay(layout, piece.run, piece.size, false);
         const double baseline = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
-        cairo_move_to(cr, x0 + piece.x, y0 + piece.y - baseline);
-        pango_cairo_show_layout(cr, layout);
-        cairo_new_path(cr);
+        cairo_move_to(cr_, x0 + piece.x, y0 + piece.y - baseline);
+        pango_cairo_show_layout(cr_, layout);
+        cairo_new_path(cr_);
         // Dots stand above the middle of the slanted letter.
         for (int k = 0; k < piece.run.dots; ++k) {
             const double across = (k - 0.5 * (piece.run.dots - 1)) * 0.22 * piece.size;
             circle({x0 + piece.x + 0.58 * piece.advance + across, y0 + piece.y - 0.90 * piece.size}, 0.065 * piece.size);
-            cairo_fill(cr);
+            cairo_fill(cr_);
         }
     }
 }
@@ -305,18 +260,17 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     if (l.up == Up::top) dy = label.ascent;
     if (l.up == Up::middle) dy = cap_height(l.size) / 2;
     if (l.up == Up::bottom) dy = -label.descent;
-    cairo_t* cr = handles_->cr;
-    cairo_save(cr);
-    cairo_translate(cr, at.x, at.y);
-    cairo_rotate(cr, -l.turned);
+    cairo_save(cr_);
+    cairo_translate(cr_, at.x, at.y);
+    cairo_rotate(cr_, -l.turned);
     if (l.on_halo) {
         rectangle(Box{dx, dy - label.ascent, label.width, label.ascent + label.descent}.inset(-0.12 * l.size));
         fill(rgb(0xFFFFFF));
     }
-    use(cr, l.color);
-    cairo_move_to(cr, dx, dy);
+    use(l.color);
+    cairo_move_to(cr_, dx, dy);
     show(label);
-    cairo_restore(cr);
+    cairo_restore(cr_);
 
     // The corners turned, and the box around them.
     Bounds around;
@@ -332,13 +286,15 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
 // ---- the end -------------------------------------------------------------------------------------
 
 Image Sheet::image() {
+    end();
     handles_->end();
     return std::move(handles_->image);
 }
 
 std::string Sheet::bytes() {
-    cairo_show_page(handles_->cr);
-    const cairo_status_t status = cairo_status(handles_->cr);
+    cairo_show_page(cr_);
+    const cairo_status_t status = cairo_status(cr_);
+    end();
     handles_->end();
     if (status != CAIRO_STATUS_SUCCESS)
         throw PictureError(fmt::format("the figure cannot be drawn: {}", cairo_status_to_string(status)));

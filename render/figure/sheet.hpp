@@ -52,27 +52,16 @@ struct Lettering {
 // No letter of a figure is smaller, sub- and superscripts included.
 inline constexpr double kSmallestLetter = 6;  // [pt]
 
-class Sheet {
+class Sheet : public Brush {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
     Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document = {});
     ~Sheet();
-    Sheet(const Sheet&) = delete;
-    Sheet& operator=(const Sheet&) = delete;
 
     const SheetSize& size() const { return size_; }
     double grain() const;  // the smallest distance that shows [pt]
 
-    void move_to(Vec2 p);
-    void line_to(Vec2 p);
-    void polyline(std::span<const Vec2> points);  // NaN breaks the line
-    void close();
-    void circle(Vec2 centre, double radius);
-    void arc(Vec2 centre, double radius, double from, double to);  // counter-clockwise angles, Y up [rad]
-    void rectangle(const Box& box);
-    void fill(Color color);
-    void fill_keeping_path(Color color);
-    void stroke(const Pen& pen);
+    void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
     void clip(const Box& box);  // until `unclip`

@@ -1,0 +1,49 @@
+// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::Sheet) have in common.
+// Units are the drawing's own, y down.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/color.hpp"
+#include "render/geometry.hpp"
+
+using cairo_t = struct _cairo;
+
+namespace beamcam::render {
+
+enum class Cap { butt, round };
+struct Pen {
+    Color color;
+    double width = 1;
+    std::vector<double> dash = {};
+    Cap cap = Cap::round;
+};
+
+class Brush {
+  public:
+    Brush(const Brush&) = delete;
+    Brush& operator=(const Brush&) = delete;
+
+    void move_to(Vec2 p);
+    void line_to(Vec2 p);
+    void polyline(std::span<const Vec2> points);  // NaN breaks the line
+    void close();
+    void arc(Vec2 centre, double radius, double from, double to);  // angles counter-clockwise, Y up [rad]
+    void circle(Vec2 centre, double radius);
+    void rectangle(const Box& box);
+    void fill(Color color);
+    void fill_keeping_path(Color color);
+    void stroke(const Pen& pen);
+
+  protected:
+    Brush() = default;
+    ~Brush() { end(); }
+    void begin(cairo_t* cr) { cr_ = cr; }  // takes it over; before anything is drawn
+    void end();                            // while its surface is there
+    void use(Color color);                 // for what is painted next
+    cairo_t* cr_ = nullptr;
+};
+
+}  // namespace beamcam::render
