@@ -22,6 +22,10 @@ void Gate::close() {
     changed_.notify_all();
 }
 
+int thread_count(int wanted) {
+    return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate) {
     std::atomic<long> next{0};
     std::mutex failure_mutex;

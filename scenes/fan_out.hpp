@@ -27,6 +27,9 @@ class Gate {
     bool closed_ = false;
 };
 
+// Threads to work with, of so many wanted; 0: one for each core.
+int thread_count(int wanted);
+
 // What one thread does with a number. Made in that thread, so that it may own what belongs to a thread.
 using Worker = std::function<void(long)>;
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFile = "times";
 constexpr const char* kHeader = "beamcam times 1";
-constexpr std::size_t kMost = 2000;        // lines; the oldest go first
+constexpr std::size_t kMost = 2000;           // lines; the oldest go first
 constexpr std::uintmax_t kLongest = 1 << 20;  // [bytes] a longer file is not one of ours
 
 using Lines = std::vector<std::pair<std::string, Rate>>;
@@ -76,7 +76,8 @@ void History::save() {
         const std::size_t first = lines.size() > kMost ? lines.size() - kMost : 0;
         std::string text = std::string(kHeader) + "\n";
         for (std::size_t i = first; i < lines.size(); ++i)
-            text += fmt::format("{}\t{:.4g}\t{:.4g}\n", lines[i].first, lines[i].second.seconds, lines[i].second.amount);
+            text +=
+                fmt::format("{}\t{:.4g}\t{:.4g}\n", lines[i].first, lines[i].second.seconds, lines[i].second.amount);
         output::ensure_directory(file_.parent_path());
         output::write_file(file_, text, output::Durability::buffered);
     } catch (const std::exception&) {  // then the next plan knows less
@@ -86,12 +87,12 @@ void History::save() {
 
 // ---- names -----------------------------------------------------------------------------------------
 
-std::vector<std::string> motion_work(const sim::Problem& problem, bool read_back, bool horizon) {
+std::vector<std::string> motion_work(const std::string& key, const sim::Problem& problem, bool read_back,
+                                     bool horizon) {
     const std::string how = read_back ? "read " : horizon ? "integrate twice " : "integrate ";
-    return {how + motion_key(problem).substr(0, 16),
-            fmt::format("{}{}, {} modes, {}", how, name(problem.beam.model),
-                        problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes,
-                        problem.cam ? "cam" : "no cam")};
+    return {how + key.substr(0, 16), fmt::format("{}{}, {} modes, {}", how, name(problem.beam.model),
+                                                 problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes,
+                                                 problem.cam ? "cam" : "no cam")};
 }
 
 std::vector<std::string> picture_work(const Pictures& p, int threads) {
@@ -119,7 +120,7 @@ std::optional<Cost> cost(const History& history, const std::vector<std::string>&
 }
 
 std::optional<Cost> cost(const History& history, const sim::Problem& problem, const Simulation& s) {
-    return cost(history, motion_work(problem, s.from_cache, s.horizon), s.request.end_time);
+    return cost(history, motion_work(motion_key(problem), problem, s.from_cache, s.horizon), s.request.end_time);
 }
 
 }  // namespace
@@ -129,7 +130,8 @@ void estimate(Plan& plan, const Scene& scene, const History& history, int thread
     for (Variant& v : plan.variants) v.simulation.cost = cost(history, v.problem, v.simulation);
     for (Pictures& p : plan.pictures) {
         for (ComparedMotion& each : p.compared)
-            each.cost = cost(history, motion_work(each.problem, false, false), each.request.end_time);
+            each.cost =
+                cost(history, motion_work(motion_key(each.problem), each.problem, false, false), each.request.end_time);
         if (p.settled) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
     }
     for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);

@@ -1,5 +1,5 @@
-// What work took in earlier runs of this user, from which a plan says what the next takes: a small text file beside the kept
-// trajectories. Whatever is wrong with it, nothing is known; it decides nothing but the words of a plan.
+// What work took in earlier runs of this user, from which a plan says what the next takes: a small text file beside the
+// kept trajectories. Whatever is wrong with it, nothing is known; it decides nothing but the words of a plan.
 #pragma once
 
 #include <filesystem>
@@ -39,10 +39,11 @@ class History {
 };
 
 // Names of work: this very motion or kind of picture first, then those that are like it.
-std::vector<std::string> motion_work(const sim::Problem& problem, bool read_back, bool horizon);  // per second of motion
-std::vector<std::string> picture_work(const Pictures& pictures, int threads);                     // per picture
-std::vector<std::string> figure_work(const FigureFile& figure);                                   // per figure
-std::vector<std::string> table_work(const TableFile& table);                                      // per number
+// Per second of motion; `key`: motion_key(problem).
+std::vector<std::string> motion_work(const std::string& key, const sim::Problem& problem, bool read_back, bool horizon);
+std::vector<std::string> picture_work(const Pictures& pictures, int threads);  // per picture
+std::vector<std::string> figure_work(const FigureFile& figure);                // per figure
+std::vector<std::string> table_work(const TableFile& table);                   // per number
 
 // Puts what past runs tell into the plan.
 void estimate(Plan& plan, const Scene& scene, const History& history, int threads);

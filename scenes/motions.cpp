@@ -14,8 +14,8 @@
 namespace beamcam::scenes {
 namespace {
 
-// A motion of fewer steps is integrated again about as soon as it is read. Steps of the models that need quadrature take
-// fifty times as long as the others'.
+// A motion of fewer steps is integrated again about as soon as it is read. Steps of the models that need quadrature
+// take fifty times as long as the others'.
 long fewest_steps(const sim::Problem& problem) {
     const sim::ModelKind model = problem.beam.model;
     return model == sim::ModelKind::exact || model == sim::ModelKind::second_order ? 20 : 500;
@@ -72,8 +72,8 @@ std::vector<Motions::Group> Motions::groups() {
     std::vector<Group> all;
     for (; fulfilled_ < wishes_.size(); ++fulfilled_) {
         Wish& wish = wishes_[fulfilled_];
-        const auto same = std::find_if(all.begin(), all.end(),
-                                       [&](const Group& group) { return group.front()->key == wish.key; });
+        const auto same =
+            std::find_if(all.begin(), all.end(), [&](const Group& group) { return group.front()->key == wish.key; });
         if (same == all.end())
             all.push_back({&wish});
         else
@@ -182,7 +182,8 @@ void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
     if (!history_) return;
     const bool horizon = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.horizon; });
     const std::lock_guard lock(mutex_);
-    history_->note(motion_work(job.problem, read_back, horizon), job.until, seconds, static_cast<double>(steps));
+    history_->note(motion_work(job.key, job.problem, read_back, horizon), job.until, seconds,
+                   static_cast<double>(steps));
 }
 
 std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {
@@ -220,8 +221,7 @@ std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress&
         if (remember) remembered.insert(remembered.end(), numbers.begin(), numbers.end());
     });
     sim::Effort effort;
-    auto results =
-        sim::simulate(job.problem, job.requests, progress, entry || remember ? &writer : nullptr, &effort);
+    auto results = sim::simulate(job.problem, job.requests, progress, entry || remember ? &writer : nullptr, &effort);
     const std::lock_guard lock(mutex_);
     effort_.add(effort);
     if (remember && writer.complete()) known_[job.key] = std::move(remembered);

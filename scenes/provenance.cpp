@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <thread>
 
 #include "output/document_metadata.hpp"
 #include "output/errors.hpp"
@@ -17,6 +16,7 @@
 #include "render/fonts.hpp"
 #include "render/lit.hpp"
 #include "render/versions.hpp"
+#include "scenes/fan_out.hpp"
 #include "scenes/fingerprint.hpp"
 #include "scenes/version.hpp"
 
@@ -183,8 +183,7 @@ std::vector<Check> examine_machine() {
     std::vector<Check> checks;
     checks.push_back({"program", "beamcam", true, std::string(kVersion), ""});
     checks.push_back({"program", "processor", true, processor_path(), ""});
-    checks.push_back(
-        {"program", "threads", true, std::to_string(std::max(1u, std::thread::hardware_concurrency())), ""});
+    checks.push_back({"program", "threads", true, std::to_string(thread_count(0)), ""});
     for (const auto& [name, version] : render::library_versions())
         checks.push_back({"pictures", name, true, version, ""});
     for (const render::FontFile& font : render::font_files())

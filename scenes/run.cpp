@@ -12,7 +12,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "output/atomic_file.hpp"
 #include "output/interrupt.hpp"
@@ -20,6 +19,7 @@
 #include "output/palette.hpp"
 #include "output/png.hpp"
 #include "output/records.hpp"
+#include "output/standard_output.hpp"
 #include "output/tables.hpp"
 #include "output/video.hpp"
 #include "output/work.hpp"
@@ -41,11 +41,6 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool is_stdout(const std::string& file) { return file == "-"; }
 
-void print_data(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
-}
-
 // One significant digit as people write it: 10⁻⁸, 2 × 10⁻⁹.
 std::string power_of_ten(double value) {
     static constexpr std::string_view kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -63,11 +58,6 @@ struct Times {
     double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
 };
 
-int thread_count(const RunOptions& options) {
-    if (options.threads > 0) return options.threads;
-    return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
 void stop_if_interrupted() {
     if (output::interrupted()) throw Stopped();
 }
@@ -80,7 +70,7 @@ struct Shop {
           manifest(wanted.force),
           cache(open_cache(wanted.no_cache)),
           history(cache ? History(cache->directory()) : History()),
-          motions(kept(), &history, progress, {thread_count(wanted), wanted.quiet, wanted.verbose}) {}
+          motions(kept(), &history, progress, {thread_count(wanted.threads), wanted.quiet, wanted.verbose}) {}
 
     const Cache* kept() const { return cache ? &*cache : nullptr; }
 
@@ -132,9 +122,7 @@ class Runner {
     // All that can be refused before any work.
     void prepare() {
         tell_left();
-        require_room();
-        make_directories();
-        manifest_.announce(files());
+        claim_files();
         require_encoder();
     }
 
@@ -150,9 +138,7 @@ class Runner {
             return shop_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
         });
         times_.simulate += seconds_since(start);
-        require_room();  // now that the number of frames is known
-        make_directories();
-        manifest_.announce(files());
+        claim_files();  // now that the number of frames is known
     }
 
     const Plan& planned() const { return plan_; }
@@ -263,8 +249,9 @@ class Runner {
     fs::path path_of(const std::string& file) const { return place_of(options_.directory, file); }
 
     // Refuses before any work what would be refused after it.
-    void require_room() {
-        for (const fs::path& file : files()) {
+    void claim_files() {
+        const std::vector<fs::path> claimed = files();
+        for (const fs::path& file : claimed) {
             std::error_code ignored;
             if (fs::is_directory(file, ignored))
                 throw output::IoError(
@@ -275,11 +262,9 @@ class Runner {
                     fmt::format("{}: there is no directory {}; make it first", file.string(), folder.string()));
             manifest_.require_replaceable(file);
         }
-    }
-
-    void make_directories() {
-        if (options_.directory.empty()) return;
-        for (const fs::path& file : files()) output::ensure_directory(file.parent_path());
+        if (!options_.directory.empty())
+            for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
+        manifest_.announce(claimed);
     }
 
     void wrote(const fs::path& file, const std::string& what, const std::string& inputs) {
@@ -388,9 +373,7 @@ class Runner {
             const auto start = Clock::now();
             if (is_stdout(t.file)) {
                 output::write_csv(std::cout, table);
-                std::cout.flush();
-                if (!std::cout)
-                    throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
+                output::flush_data();
             } else {
                 output::write_table(path_of(t.file), table);
                 wrote(path_of(t.file), fmt::format("{} rows", table.rows()), inputs_of(t));
@@ -436,7 +419,7 @@ class Runner {
     void write_impacts() {
         for (const ImpactsFile& i : plan_.impacts) {
             if (is_stdout(i.file)) {
-                print_data(output::impacts_json(result_));
+                output::print_data(output::impacts_json(result_));
             } else {
                 output::write_impacts(path_of(i.file), result_);
                 wrote(path_of(i.file),
@@ -450,7 +433,7 @@ class Runner {
         for (const SummaryFile& s : plan_.summaries) {
             const std::vector<sim::Channel>& extrema = plan_.simulation->request.extrema;
             if (is_stdout(s.file)) {
-                print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
+                output::print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
             } else {
                 output::write_summary(path_of(s.file), scene_.problem, result_, extrema, &work_);
                 wrote(path_of(s.file), "", inputs_of(s));
@@ -585,13 +568,14 @@ class Runner {
                 put(k, *image);
             };
         };
-        fan_out(count, thread_count(options_), make_worker, gate);
+        fan_out(count, thread_count(options_.threads), make_worker, gate);
         const render::DrawingCounts& counts = film.counts();
         work_.font_sets += counts.font_sets;
         work_.gl_contexts += counts.gl_contexts;
         work_.mechanisms_lit += counts.mechanisms_lit;
         finish(p, video.get(), count);
-        if (!capture_) note(picture_work(p, thread_count(options_)), static_cast<double>(count), begun, made_of(p));
+        if (!capture_)
+            note(picture_work(p, thread_count(options_.threads)), static_cast<double>(count), begun, made_of(p));
     }
 
     void finish(const Pictures& p, output::VideoWriter* video, long count) {
@@ -624,7 +608,7 @@ class Runner {
     output::Manifest& manifest_;
     Times& times_;
     output::Work& work_;
-    std::optional<std::size_t> own_;    // wish for the scene's own motion
+    std::optional<std::size_t> own_;   // wish for the scene's own motion
     std::vector<std::size_t> others_;  // wishes for others
     sim::Result result_;
     std::vector<sim::Result> ends_;                     // as Simulation::ends
@@ -683,7 +667,7 @@ void tell(const Shop& shop) {
     fmt::print(stderr,
                "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads), conversion {:.2f} s, "
                "encoding {:.2f} s, other files {:.2f} s\n",
-               seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options),
+               seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options.threads),
                shop.times.convert, shop.times.encode, shop.times.write);
     std::string text;
     for_each_count(shop.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
@@ -719,7 +703,7 @@ Plan plan_for(const Scene& scene, const RunOptions& options) {
     const Survey found =
         survey(scene, options.ask, options.directory, manifest, cache ? &*cache : nullptr, options.force);
     Plan made = plan(scene, options.ask, found.known);
-    if (cache) estimate(made, scene, History(cache->directory()), thread_count(options));
+    if (cache) estimate(made, scene, History(cache->directory()), thread_count(options.threads));
     return made;
 }
 

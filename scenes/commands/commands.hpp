@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/standard_output.hpp"
 #include "scenes/run.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/units.hpp"
@@ -63,8 +64,9 @@ void add_paper(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,  add_render, add_simulate, add_modes, add_check, add_plan, add_cache,  add_concat,   add_init,   add_schema,
-    add_hash, add_diff,   add_test,     add_info,  add_doctor, add_accuracy, add_figure, add_paper, add_stress,
+    add_run,    add_render,   add_simulate, add_modes, add_check,  add_plan, add_cache,
+    add_concat, add_init,     add_schema,   add_hash,  add_diff,   add_test, add_info,
+    add_doctor, add_accuracy, add_figure,   add_paper, add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------
@@ -88,14 +90,14 @@ Ask shard_argument(const std::string& text);  // "2/3"; throws UsageError
 
 // A message on standard error, unless -q.
 void say(const Common& common, const std::string& text);
-// Data on standard output; throws output::IoError.
-void print_data(std::string_view text);
+using output::print_data;
 // Throws SceneError with every issue of the scene; warnings go to standard error.
 Scene read_or_refuse(const std::string& path, const Common& common);
 // The scene with the film that one without outputs yields.
 Scene with_default_output(Scene scene);
-void show_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 RunOptions run_options(const Common& common, std::string directory);
+void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
+void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
 
 // The value of an option with a unit or without; throws UsageError. Not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);

@@ -14,7 +14,6 @@
 #include "scenes/reader.hpp"
 
 namespace beamcam::scenes {
-
 void add_set(CLI::App& app, Common& common) {
     app.add_option("--set", common.overrides,
                    "Change the scene: key.path=value, a JSON value or a plain word (repeatable)")
@@ -47,30 +46,11 @@ void say(const Common& common, const std::string& text) {
     if (!common.quiet) fmt::print(stderr, "{}\n", text);
 }
 
-void print_data(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        throw output::IoError("cannot write to standard output; is the pipe closed or the disk full?");
-}
-
 Scene read_or_refuse(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) fmt::print(stderr, "{}", reading.report());
     return std::move(*reading.scene);
-}
-
-void show_plans(std::span<const Scene> scenes, const RunOptions& options, bool json) {
-    std::string text;
-    for (const Scene& scene : scenes) {
-        const Plan made = plan_for(scene, options);
-        if (json) {
-            text += (text.empty() ? "" : ",\n") + to_json(made, scene);
-        } else {
-            if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
-            text += to_text(made, scene);
-        }
-    }
-    print_data(json && scenes.size() > 1 ? "[" + text + "]\n" : text);
 }
 
 void add_shard(CLI::App& app, std::optional<std::string>& shard) {
@@ -111,6 +91,27 @@ RunOptions run_options(const Common& common, std::string directory) {
     if (!style) throw UsageError(fmt::format("--progress {}: choose auto, bar, plain, json or none", common.progress));
     options.progress = common.quiet ? ProgressStyle::none : resolve(*style);
     return options;
+}
+
+void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json) {
+    std::string text;
+    for (const Scene& scene : scenes) {
+        const Plan made = plan_for(scene, options);
+        if (json) {
+            text += (text.empty() ? "" : ",\n") + to_json(made, scene);
+        } else {
+            if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
+            text += to_text(made, scene);
+        }
+    }
+    print_data(json && scenes.size() > 1 ? "[" + text + "]\n" : text);
+}
+
+void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common) {
+    if (common.dry_run)
+        print_plans(scenes, options, common.json);
+    else
+        run(scenes, options);
 }
 
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {

@@ -44,9 +44,10 @@ FigureOutput wanted(const Arguments& args, const Recipe& recipe) {
     if (args.width) {
         figure.width = quantity_argument("--width", *args.width, dimension::kLength);
         if (!(*figure.width >= 0.03 && *figure.width <= 1))
-            throw UsageError(fmt::format("--width {}: a figure is 30 … 1000 mm wide; a plain number is in metres, "
-                                         "\"90 mm\" says its unit",
-                                         *args.width));
+            throw UsageError(
+                fmt::format("--width {}: a figure is 30 … 1000 mm wide; a plain number is in metres, "
+                            "\"90 mm\" says its unit",
+                            *args.width));
     }
     if (args.data) {
         if (*args.data == "-") throw UsageError("--data -: name a file that ends in .csv");
@@ -82,10 +83,7 @@ int act(const Arguments& args) {
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
     scene.outputs = {wanted(args, *recipe)};
     const RunOptions options = run_options(args.common, "");
-    if (args.common.dry_run)
-        show_plans({&scene, 1}, options, args.common.json);
-    else
-        run(scene, options);
+    run_or_plan({&scene, 1}, options, args.common);
     return 0;
 }
 
@@ -93,7 +91,8 @@ int act(const Arguments& args) {
 
 void add_figure(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
+    CLI::App* app =
+        grammar.app.add_subcommand("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
     add_scene(*app, args->scene, args->common);
     app->add_option("NAME", args->figure, "Which figure; none: list those of the scene")->type_name("");
     app->add_option("-o,--output", args->file, "File to make: .pdf, .svg or .png")->type_name("FILE");
@@ -106,7 +105,8 @@ void add_figure(Grammar& grammar) {
         ->type_name("LANG");
     app->add_option("--dpi", args->dpi, "Dots per inch of a .png")->check(CLI::Range(50, 2400))->type_name("N");
     app->add_option("--data", args->data, "Write the plotted numbers too, .csv")->type_name("FILE");
-    app->add_option("--caption", args->caption, "Write the caption too, plain and LaTeX, .txt or .tex")->type_name("FILE");
+    app->add_option("--caption", args->caption, "Write the caption too, plain and LaTeX, .txt or .tex")
+        ->type_name("FILE");
     add_work(*app, args->common);
     grammar.bind(app, args, act);
 }

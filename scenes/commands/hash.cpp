@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <thread>
 
 #include "output/interrupt.hpp"
 #include "output/picture_source.hpp"
@@ -54,8 +53,7 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
 }
 
 int act(const Arguments& args) {
-    const int threads = args.common.threads > 0 ? args.common.threads
-                                                : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int threads = thread_count(args.common.threads);
     std::vector<std::filesystem::path> stills;  // named one after the other, not hashed yet
     auto hash_stills = [&] {
         hash_files(stills, threads);

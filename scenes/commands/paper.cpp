@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <thread>
 
 #include "output/atomic_file.hpp"
 #include "output/errors.hpp"
@@ -10,6 +9,7 @@
 #include "render/figure/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/embedded.hpp"
+#include "scenes/fan_out.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -46,7 +46,8 @@ std::string with_ending(const std::string& file, const char* ending) {
 std::vector<Job> jobs_of(const Arguments& args, Studies& studies) {
     std::vector<Job> jobs;
     for (const EmbeddedScene& embedded : paper_scenes()) {
-        Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true}, args.common.overrides);
+        Reading reading =
+            read_scene({std::string(embedded.name), std::string(embedded.text), true}, args.common.overrides);
         if (!reading.scene) throw SceneError(reading.report());
         for (const Output& output : reading.scene->outputs) {
             const auto* figure = std::get_if<FigureOutput>(&output);
@@ -114,19 +115,21 @@ int act(const Arguments& args) {
     const auto findings = prepare_findings(studies);
     const std::vector<Study> all = studies.take();
     if (args.common.dry_run) {
+        std::string text;
         for (const Study& s : all)
-            fmt::print("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model), s.request.end_time, s.because,
-                       s.request.horizon ? ", and again for its reproducible horizon" : "");
-        for (const std::string& file : files_of(args, jobs)) fmt::print("write     {}\n", file);
+            text += fmt::format("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model),
+                                s.request.end_time, s.because,
+                                s.request.horizon ? ", and again for its reproducible horizon" : "");
+        for (const std::string& file : files_of(args, jobs)) text += fmt::format("write     {}\n", file);
+        print_data(text);
         return 0;
     }
     Writer writer(args);
     writer.prepare(files_of(args, jobs));
-    const int threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Progress progress(resolve(options.progress));
     const std::optional<Cache> cache = open_cache(options.no_cache);
-    Motions motions(cache ? &*cache : nullptr, nullptr, progress, {threads, options.quiet, options.verbose});
+    Motions motions(cache ? &*cache : nullptr, nullptr, progress,
+                    {thread_count(options.threads), options.quiet, options.verbose});
     for (const Study& study : all) motions.want(study.problem, {study.request}, study.because);
     motions.make();
     std::vector<sim::Result> made;
@@ -140,10 +143,12 @@ int act(const Arguments& args) {
         for (const char* ending : kEndings) {
             FigureOutput how = job.how;
             how.file = with_ending(job.how.file, ending);
-            for (const auto& [file, bytes] : figure_files(figure, how, scene_of_figure(job.scene, how))) writer.write(file, bytes);
+            for (const auto& [file, bytes] : figure_files(figure, how, scene_of_figure(job.scene, how)))
+                writer.write(file, bytes);
         }
         if (args.data) writer.write(with_ending(job.how.file, ".csv"), render::figure::data_csv(figure));
-        captions += fmt::format("## {}\n\n{}\n", fs::path(job.how.file).stem().string(), caption_text(figure, "captions.md"));
+        captions +=
+            fmt::format("## {}\n\n{}\n", fs::path(job.how.file).stem().string(), caption_text(figure, "captions.md"));
     }
     writer.write("captions.md", captions);
     writer.write("findings.md", findings_markdown(findings(results)));

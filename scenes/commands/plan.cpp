@@ -13,7 +13,7 @@ int act(const Arguments& args) {
     std::vector<Scene> scenes;
     for (const std::string& path : args.scenes)
         scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
-    show_plans(scenes, run_options(args.common, args.directory), args.common.json);
+    print_plans(scenes, run_options(args.common, args.directory), args.common.json);
     return 0;
 }
 

@@ -208,10 +208,7 @@ int act(const Arguments& args) {
     scene.outputs = {render_output(args, std::move(film))};
     RunOptions options = run_options(args.common, "");
     options.ask = asked_part(args, scene);
-    if (args.common.dry_run)
-        show_plans({&scene, 1}, options, args.common.json);
-    else
-        run(scene, options);
+    run_or_plan({&scene, 1}, options, args.common);
     return 0;
 }
 

@@ -20,10 +20,7 @@ int act(const Arguments& args) {
         scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
     RunOptions options = run_options(args.common, args.directory);
     if (args.shard) options.ask = shard_argument(*args.shard);
-    if (args.common.dry_run)
-        show_plans(scenes, options, args.common.json);
-    else
-        run(scenes, options);
+    run_or_plan(scenes, options, args.common);
     return 0;
 }
 

@@ -78,10 +78,7 @@ int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     scene.outputs = simulate_outputs(args, scene);
     const RunOptions options = run_options(args.common, "");
-    if (args.common.dry_run)
-        show_plans({&scene, 1}, options, args.common.json);
-    else
-        run(scene, options);
+    run_or_plan({&scene, 1}, options, args.common);
     return 0;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <thread>
 
 #include "output/atomic_file.hpp"
 #include "output/interrupt.hpp"
@@ -28,11 +27,10 @@ struct Arguments {
 std::vector<sim::StressResult> survive_all(const sim::Campaign& campaign, const Common& common) {
     const auto count = static_cast<long>(campaign.cases.size());
     std::vector<sim::StressResult> results(campaign.cases.size());
-    const int threads = common.threads > 0 ? common.threads : static_cast<int>(std::thread::hardware_concurrency());
     std::atomic<long> done = 0;
     Gate gate;
     fan_out(
-        count, std::max(1, threads),
+        count, thread_count(common.threads),
         [&]() -> Worker {
             return [&](long i) {
                 if (output::interrupted()) throw sim::Interrupted();
