@@ -63,6 +63,9 @@ constexpr int kMostFlips = 10;
 constexpr double kBounces = 4;           // a first step in flight spans, at most
 constexpr double kLowestBounce = 1e-13;  // of the beam's length: the gap is known to about 1e-15 of it
 constexpr double kRestSpeed = 1e-12;     // [m/s] slower is rounding
+// Chatter is summed up (S57) once what is left of it is so brief, against the fastest vibration and turn, that the
+// sum errs by (10⁻³)²/6 of the last rebound, and the pull on the beam stays the same all the while.
+constexpr double kBriefChatter = 1e-3, kSteadyPull = 1e-2;
 struct Event {
     EventKind kind = EventKind::none;
     double t = 0;
@@ -188,11 +191,21 @@ class Run {
         throw StepFailure("the budget of steps is spent");
     }
 
-    double next_kink() const { return kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front(); }
+    double next_kink() const {
+        const double kink = kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front();
+        return std::min(kink, settles_.value_or(kink));
+    }
 
     // An event may fall on a kink, or so near before it that no step fits between.
+    bool has_come(double t) const { return t - t_ <= 1e-14 * std::fabs(t_); }
     void pass_kinks() {
-        while (!kinks_.empty() && kinks_.front() - t_ <= 1e-14 * std::fabs(t_)) kinks_.erase(kinks_.begin());
+        while (!kinks_.empty() && has_come(kinks_.front())) kinks_.erase(kinks_.begin());
+        if (settles_ && has_come(*settles_)) {
+            settles_.reset();
+            ContactState c = contact_now();
+            c.gap_rate = 0;  // but for rounding
+            tell_touch(c);
+        }
         integrator_->stop_at(next_kink());
     }
 
@@ -541,23 +554,26 @@ class Run {
         enter_phase();
         c = contact_now();
         const double approach = -c.gap_rate;
-        tell_touch(c);
-        const double chatter = kChatterShare * problem_.contact.approach_floor.value;
         const Compliance compliance = scout_.compliance(t_, y_.data(), c);
-        const double e = problem_.contact.restitution;
-        ImpactResult impact =
-            resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), e, problem_.contact.law);
+        const auto resolve = [&](double restitution) {
+            return resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), restitution,
+                                  problem_.contact.law);
+        };
+        ImpactResult impact = resolve(problem_.contact.restitution);
+        if (sum_up_chatter(c, impact, resolve(0))) return;
         // A rebound that the integrator cannot tell from a touch at the same instant has ended, too.
         // Nor will bounces end that rounding of the gap keeps from falling.
         const double pull = -scout_.free_gap_acceleration(t_, y_.data());
         const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem_.beam.length;
-        const bool slow = impact.v_n < chatter || (low && impact.v_n >= last_rebound_) || idle_events_ > kMostFlips;
+        const bool slow = impact.v_n < kChatterShare * problem_.contact.approach_floor.value ||
+                          (low && impact.v_n >= last_rebound_) || idle_events_ > kMostFlips;
         last_rebound_ = impact.v_n;
-        if (slow)
-            impact =
-                resolve_impact(compliance, c.gap_rate, c.slip, scout_.kinetic_coefficient(), 0, problem_.contact.law);
-        if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
         phase_start_ = t_;
+        // The gap opens: that it was below zero is rounding, and no strike.
+        if (!slow && !(approach > 0)) return;
+        tell_touch(c);
+        if (slow) impact = resolve(0);
+        if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
         const double falls = -scout_.free_gap_acceleration(t_, y_.data());
         if (slow && falls > 0) {
             phase_.touching = phase_.held = true;
@@ -567,16 +583,58 @@ class Run {
         }
         // A step much longer than the bounce errs by more than the bounce is high: bounces would never die out.
         if (falls > 0) integrator_->limit_first_step(kBounces * 2 * impact.v_n / falls);
-        ContactState after = c;
-        after.gap_rate = impact.v_n;
-        after.slip = impact.v_t;
-        tell_release(after);
+        tell_rebound(y_, c, impact);
+    }
+
+    void tell_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact) {
+        c.gap_rate = impact.v_n;
+        c.slip = impact.v_t;
+        audience_.release(t_, y.data(), c);
+        if (keep_) keep_->release(t_, y, c);
         last_release_ = t_;
     }
 
+    // Bounces under a steady pull a, each of which keeps the share e of its speed, come to rest after
+    // T = 2v/(a(1 − e)). A plastic strike that is held from then on gives the beam the same impulse with the same
+    // moment in time, so the motion goes on by it; the contact counts as sustained after T.             (S57)
+    // False: the bounces have to be followed.
+    bool sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic) {
+        const double approach = -c.gap_rate, rebound = impact.v_n;
+        if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * problem_.contact.approach_floor.value))
+            return false;
+        std::vector<double> settled = y_;
+        scout_.strike(t_, settled.data(), c, plastic);
+        const double pull = -scout_.free_gap_acceleration(t_, settled.data());
+        const double lasts = 2 * rebound / (pull * (1 - rebound / approach));
+        const double turns = std::fabs(scout_.model().hub_rate()) + std::fabs(problem_.cam->speed);
+        if (!(pull > 0 && lasts * (scout_.highest_frequency() + turns) < kBriefChatter)) return false;
+
+        const Phase flight = phase_;
+        phase_.touching = phase_.held = true;
+        enter_phase();
+        std::vector<double> rates(y_.size());
+        scout_.rhs(t_, settled.data(), rates.data());
+        for (std::size_t i = 0; i < rates.size(); ++i) probe_y_[i] = settled[i] + lasts * rates[i];
+        const double later = -scout_.free_gap_acceleration(t_ + lasts, probe_y_.data());
+        if (!(std::fabs(later - pull) < kSteadyPull * pull)) {
+            phase_ = flight;
+            enter_phase();
+            return false;
+        }
+        tell_touch(c);
+        std::vector<double> struck = y_;
+        scout_.strike(t_, struck.data(), c, impact);
+        tell_rebound(struck, c, impact);
+        y_ = std::move(settled);
+        phase_start_ = t_;
+        settles_ = t_ + lasts;
+        ++chatters_;
+        return true;
+    }
+
     void lift() {
-        const ContactState c = contact_now();
-        tell_release(c);
+        if (!settles_) tell_release(contact_now());
+        settles_.reset();
         phase_.touching = phase_.held = false;
         phase_.gap_offset = 0;
         enter_phase();
@@ -697,7 +755,7 @@ class Run {
     std::vector<double> y_, probe_y_, kinks_;
     Phase phase_;
     double end_ = 0, t_ = 0, phase_start_ = 0, first_approach_ = 0;
-    std::optional<double> last_release_;
+    std::optional<double> last_release_, settles_;  // settles_: when the chatter that was summed up is over
     long floored_ = 0, chatters_ = 0;
     int idle_events_ = 0;
     double last_rebound_ = 0;  // [m/s]

@@ -12,13 +12,11 @@ constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u
 
 void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
     if (tally.chatters == 0) return;
-    const double speed = kChatterShare * problem.contact.approach_floor.value;
+    const double speed = kSummedShare * problem.contact.approach_floor.value;
     out.push_back(
-        fmt::format("chatter ended {} time{} in sustained contact, at rebounds below {:g} m/s "
-                    "(contact.approach_floor.value times {:g}): energy "
-                    "left out per end at most {:.2g} J",
-                    tally.chatters, tally.chatters == 1 ? "" : "s", speed, kChatterShare,
-                    0.5 * problem.beam.line_density() * problem.beam.length * speed * speed));
+        fmt::format("chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
+                    "times {:g}) are summed up at its end instead of listed",
+                    tally.chatters, tally.chatters == 1 ? "" : "s", speed, kSummedShare));
 }
 
 // Ten times what was asked for is the promise of `auto`; whatever misses it says so.

@@ -94,5 +94,47 @@ TEST(Impact, BouncingBallAsPublished) {
     EXPECT_NEAR(rest.impacts.back().t_start / scale, 4.063712768871579, 3e-3);
 }
 
+// Bounces of a beam pressed on by its vibration: what is left of them once they are brief is summed up, so that their
+// number and the instant of rest are the problem's and not the method's.
+TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWhateverTheMethod) {
+    Problem problem;
+    problem.contact.model = ContactModel::restitution;
+    problem.contact.friction = CoulombFriction{0.2, 1e-3};
+    Request request;
+    request.end_time = 0.281;
+    const Result reference = simulate(problem, request);
+    ASSERT_GT(reference.impacts.size(), 20u);
+    const Impact& rest = reference.impacts.back();
+    const Impact& last = reference.impacts[reference.impacts.size() - 2];
+    EXPECT_EQ(rest.v_n_before, 0);
+    EXPECT_GT(rest.duration.value_or(1), 0);
+    EXPECT_LT(last.v_n_after.value(), 1e-4);
+    EXPECT_NEAR(last.restitution.value(), problem.contact.restitution, 1e-9);
+    EXPECT_LT(reference.energy_residual_max, 10 * problem.solver.rtol * reference.energy_scale);
+    for (const Method method : {Method::rk8, Method::arkode_erk}) {
+        problem.solver.method = method;
+        const Result other = simulate(problem, request);
+        ASSERT_EQ(other.impacts.size(), reference.impacts.size()) << name(method);
+        EXPECT_NEAR(other.impacts.back().t_start, rest.t_start, 2e-8) << name(method);
+    }
+}
+
+// Where the pull is steady the sum is exact: longer chatter that is followed down to a thousandth of the speed agrees.
+TEST(Impact, ASumOfBouncesIsWhatFollowingThemGives) {
+    Problem problem;
+    problem.contact.model = ContactModel::restitution;
+    Request request;
+    request.end_time = 0.29;
+    request.tables.push_back({{0.285, 0.29}, {{ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0}}});
+    const Result early = simulate(problem, request);
+    problem.contact.approach_floor.value = 1e-5;  // the sum begins at 1e-6 m/s
+    const Result late = simulate(problem, request);
+    EXPECT_GT(late.impacts.size(), early.impacts.size() + 5);
+    for (std::size_t row = 0; row < 2; ++row) {
+        EXPECT_NEAR(early.tables[0].values[0][row], late.tables[0].values[0][row], 1e-9);
+        EXPECT_NEAR(early.tables[0].values[1][row], late.tables[0].values[1][row], 1e-7);
+    }
+}
+
 }  // namespace
 }  // namespace beamcam::sim
