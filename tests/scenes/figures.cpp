@@ -393,10 +393,12 @@ TEST(GoldenFigures, OfTheGalleryAreRedrawn) {
 }
 
 TEST(GoldenFigures, OfRepeatedImpactsAreRedrawnWhereTheyAreReproducible) {
-    for (const char* figure : {"speeds", "energy", "contact-places", "phase"}) {
+    for (const char* figure : {"speeds", "contact-places", "phase"}) {
         const std::string picture = fmt::format("scenes/golden/{}.png", figure);
         expect_golden({"impacts", figure, picture.c_str(), "--dpi 100 --set time.end=1.2"});
     }
+    // After an impact the open balance would be part of it, which is rounding and what the solver leaves.
+    expect_golden({"free-fall", "energy", "scenes/golden/energy.png", "--dpi 100"});
 }
 
 TEST(GoldenFigures, InChineseAreRedrawn) {
