@@ -65,11 +65,16 @@ std::string AxisScale::name(const std::string& symbol, const std::string& unit) 
         const std::string value = fmt::format("{} {:.6g}", offset > 0 ? "−" : "+", std::abs(offset));
         text = unit.empty() ? fmt::format("{} {}", symbol, value) : fmt::format("({} {}\u2009{})", symbol, value, unit);
     }
-    if (scale == 1) return unit.empty() ? text : text + " / " + unit;
-    if (!unit.empty() && unit != "rad" && unit != "rad/s") return text + " / " + prefix_for(scale).symbol + unit;
+    // A unit that is a quotient itself stands in brackets: dθ/dt / (rad/s).
+    const bool quotient = unit.find('/') != std::string::npos;
+    const auto over = [&](const std::string& all) {
+        return quotient ? fmt::format("{} / ({})", text, all) : fmt::format("{} / {}", text, all);
+    };
+    if (scale == 1) return unit.empty() ? text : over(unit);
+    if (!unit.empty() && unit != "rad" && unit != "rad/s") return over(prefix_for(scale).symbol + unit);
     const std::string power = fmt::format("10<sup>{}{}</sup>", scale < 1 ? "−" : "",
                                           static_cast<int>(std::lround(std::abs(std::log10(scale)))));
-    return text + " / " + power + (unit.empty() ? "" : "\u2009" + unit);
+    return over(power + (unit.empty() ? "" : "\u2009" + unit));
 }
 
 Chart::Chart(ChartContent content, Box box, Box plot, double unit)
@@ -219,12 +224,15 @@ void Chart::draw_curves(Canvas& canvas, const Palette& p, const View& view, bool
         canvas.fill(past ? d.color : mix(p.paper, p.contact_faint, 0.9));
     }
     if (!past) return;
-    for (double t : c_.marks) {
-        if (t < view.from || t > view.to) continue;
-        const Vec2 at = Vec2{view.x(plot_, t), plot_.bottom()} + shift;
-        canvas.move_to({at.x, at.y - 1});
-        canvas.line_to({at.x, at.y - 11 * unit_});
-        canvas.stroke({p.contact, 1.8 * unit_, {}, Cap::butt});
+    for (const ChartMark& mark : c_.marks) {
+        if (mark.t < view.from || mark.t > view.to) continue;
+        const Vec2 at = Vec2{view.x(plot_, mark.t), plot_.bottom()} + shift;
+        // Lanes share what three ticks need.
+        const double tall = mark.lanes == 1 ? 10 * unit_ : std::min(8.0, 30.0 / mark.lanes) * unit_;
+        const double foot = at.y - 1 - tall * mark.lane;
+        canvas.move_to({at.x, foot});
+        canvas.line_to({at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)});
+        canvas.stroke({mark.color, 1.8 * unit_, {}, Cap::butt});
     }
 }
 

@@ -41,6 +41,12 @@ struct ChartDot {
     double t = 0, value = 0;
     Color color;
 };
+// The instant of an impact: a tick at the time axis, in one of the lanes above each other.
+struct ChartMark {
+    double t = 0;  // [s]
+    Color color;
+    int lane = 0, lanes = 1;
+};
 // Areas between two curves of the same instants, one upon the other.
 struct Band {
     std::vector<double> low, high;
@@ -62,7 +68,7 @@ struct ChartContent {
     std::vector<Band> bands;
     bool filled = false;  // area under the first curve down to zero
     std::vector<ChartDot> dots;
-    std::vector<double> marks;  // instants of impacts: ticks at the time axis [s]
+    std::vector<ChartMark> marks;
 };
 
 // The value of one curve where the cursor stands; NaN: none.

@@ -96,19 +96,24 @@ class CloseUpPanel final : public Panel {
         return std::sqrt(r * r - x * x) - r;
     }
 
-    void draw_cam(Canvas& canvas) const {
-        const Palette& p = *facts_.palette;
-        std::vector<Vec2> rim;
+    std::vector<Vec2> rim() const {
+        std::vector<Vec2> out;
         for (int i = 0; i <= 80; ++i) {
             const double x = half_width_ * (i / 40.0 - 1) * 1.02;
-            rim.push_back(at(x, cam_height(x)));
+            out.push_back(at(x, cam_height(x)));
         }
-        canvas.polyline(rim);
-        canvas.line_to({rim.back().x, plot_.bottom() + 4});
-        canvas.line_to({rim.front().x, plot_.bottom() + 4});
+        return out;
+    }
+
+    void draw_cam(Canvas& canvas) const {
+        const Palette& p = *facts_.palette;
+        const std::vector<Vec2> edge = rim();
+        canvas.polyline(edge);
+        canvas.line_to({edge.back().x, plot_.bottom() + 4});
+        canvas.line_to({edge.front().x, plot_.bottom() + 4});
         canvas.close();
         canvas.fill(p.steel);
-        canvas.polyline(rim);
+        canvas.polyline(edge);
         canvas.stroke({p.steel_edge, 2 * facts_.unit});
     }
 
@@ -162,7 +167,9 @@ class CloseUpPanel final : public Panel {
             over.insert(over.end(), under.rbegin(), under.rend());
             canvas.polyline(over);
             canvas.close();
-            canvas.fill(p.contact.faded(0.55));
+            canvas.fill(mix(p.paper, p.contact, 0.55));
+            canvas.polyline(rim());  // seen through
+            canvas.stroke({p.steel_edge, 2 * u});
         }
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
@@ -170,8 +177,9 @@ class CloseUpPanel final : public Panel {
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
             canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, "beam", name);
-        canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, "cam",
-                    {.size = 17 * u, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+        if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, "cam",
+                        {.size = 17 * u, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
 
@@ -194,18 +202,32 @@ class CloseUpPanel final : public Panel {
         const double size = std::abs(near.gap);
         const std::string amount = size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-        canvas.text(
-            {plot_.right(), box_.y + 26 * u}, (deep ? "penetration " : "gap ") + amount,
-            {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium, .align = Align::right});
+        told(canvas, {plot_.right(), box_.y + 26 * u}, deep ? "penetration" : "gap", amount, "00.0\u00A0mm",
+             {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+        // Two lines in the upper right corner. The face may pass behind them: the halo is the colour of most of it.
+        const Color ground = mix(p.paper, p.grid, 0.35);
+        const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
+        const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
         const std::string count = counted(pose.t);
         const double room = plot_.w - canvas.measure("beam", {.size = 17 * u}).w - 40 * u;
-        if (!count.empty() && canvas.measure(count, {.size = 17 * u}).w < room)
-            canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count,
-                        {.size = 17 * u, .color = p.ink, .align = Align::right, .halo = mix(p.paper, p.grid, 0.35)});
-        if (near.touching && near.friction != 0)
-            canvas.text({plot_.right() - 10 * u, plot_.bottom() - 12 * u},
-                        "friction " + quantity(std::abs(near.friction), "N"),
-                        {.size = 17 * u, .color = p.contact, .align = Align::right, .halo = p.steel});
+        TextStyle style{.size = 17 * u, .color = p.ink, .align = Align::right, .halo = behind};
+        if (!count.empty() && canvas.measure(count, style).w < room)
+            canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
+        if (!near.touching || near.friction == 0 || plot_.h < 120 * u) return;
+        const char* widest = "00.0\u00A0mN";
+        style.weight = Weight::medium;
+        if (canvas.measure("friction ", style).w + canvas.measure(widest, style).w < room)
+            told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, "friction",
+                 quantity(std::abs(near.friction), "N"), widest, style);
+    }
+
+    // A word and a number that ends at `right`; the word stays where it is however long the number.
+    static void told(Canvas& canvas, Vec2 right, const char* word, const std::string& number, const char* widest,
+                     TextStyle style) {
+        style.align = Align::right;
+        canvas.text(right, number, style);
+        const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
+        canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
     }
 
     // "collision 2 · impact 3 of 5", from the first touch of a collision until a little after its last.

@@ -135,8 +135,9 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     const double u = facts.unit;
     const FilmSetup& setup = *facts.setup;
     const TextStyle big{.size = 46 * u, .color = facts.palette->ink, .weight = Weight::semibold};
-    const std::string text = clock_text(facts.time, facts.pose(0, frame).t);
-    const double widest = canvas.measure(clock_text(facts.time, setup.poses.back().t), big).w;
+    const double last = setup.poses.back().t;
+    const std::string text = clock_text(facts.time, facts.pose(0, frame).t, last);
+    const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
     if (widest > b.w) return;
     canvas.text({b.x, b.y + 40 * u}, text, big);
     double x = b.x + widest + 36 * u;

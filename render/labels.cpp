@@ -32,6 +32,23 @@ struct FrictionPiece {
     }
 };
 
+// What turns the hub; empty: nothing does.
+struct DrivePiece {
+    std::string operator()(const sim::FreeDrive&) const { return {}; }
+    std::string operator()(const sim::ConstantTorque& d) const { return "torque " + quantity(d.value, "N\u2009m"); }
+    std::string operator()(const sim::HarmonicTorque& d) const {
+        return fmt::format("torque ±{}, {}", quantity(std::abs(d.amplitude), "N\u2009m"), quantity(d.frequency, "Hz"));
+    }
+    std::string operator()(const sim::TorqueTable&) const { return "torque by table"; }
+    std::string operator()(const sim::ConstantSpeed& d) const {
+        return d.speed == 0 ? "hub held" : "hub at " + quantity(d.speed, "rad/s");
+    }
+    std::string operator()(const sim::SpinUp& d) const {
+        return fmt::format("hub to {} in {}", quantity(d.speed, "rad/s"), quantity(d.duration, "s"));
+    }
+    std::string operator()(const sim::AngleTable&) const { return "hub by table"; }
+};
+
 }  // namespace
 
 std::string power_text(double value, int digits) {
@@ -55,6 +72,8 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
     else
         out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
                                   problem.beam.modes == 1 ? "" : "s"));
+    if (std::string drive = std::visit(DrivePiece{}, problem.hub.drive); !drive.empty()) out.push_back(std::move(drive));
+    if (problem.gravity == 0) out.emplace_back("no gravity");
     if (problem.cam) {
         out.push_back(contact_piece(problem));
         out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));
@@ -120,8 +139,12 @@ TimeFormat time_format(const std::vector<double>& times) {
     return out;
 }
 
-std::string clock_text(const TimeFormat& format, double t) {
-    return math("t") + "\u2009=\u2009" + fixed(t / format.unit, format.decimals) + "\u00A0" + format.symbol;
+std::string clock_text(const TimeFormat& format, double t, double last) {
+    const std::string number = fixed(t / format.unit, format.decimals);
+    const std::string longest = fixed(last / format.unit, format.decimals);
+    std::string room;
+    for (std::size_t i = number.size(); i < longest.size(); ++i) room += "\u2007";  // as wide as a digit
+    return math("t") + "\u2009=\u2009" + room + number + "\u00A0" + format.symbol;
 }
 
 }  // namespace beamcam::render

@@ -1,5 +1,6 @@
 #include "render/mechanism.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace beamcam::render {
@@ -33,19 +34,32 @@ void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette
     canvas.fill(p.steel_edge);
 }
 
-// Quads overlap the next station's by half a length so that no seam shows; the outline covers their hard edges.
+// Into how many parts the colour between two stations is divided: steps of two levels of 255 are no bands to the eye.
+int color_steps(const Color& a, const Color& b) {
+    const double most = std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+    return std::clamp(static_cast<int>(std::ceil(most * 255 / 2)), 1, 64);
+}
+
+// Each piece reaches on into the next station's, so that no seam shows; the outline covers the hard edges.
 void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
     const std::size_t n = s.face.size();
     canvas.smooth_edges(false);
     for (std::size_t i = 0; i + 1 < n; ++i) {
-        const Vec2 more_face = i + 2 < n ? (s.face[i + 2] - s.face[i + 1]) * 0.5 : Vec2{};
-        const Vec2 more_back = i + 2 < n ? (s.back[i + 2] - s.back[i + 1]) * 0.5 : Vec2{};
-        canvas.move_to(s.face[i]);
-        canvas.line_to(s.face[i + 1] + more_face);
-        canvas.line_to(s.back[i + 1] + more_back);
-        canvas.line_to(s.back[i]);
-        canvas.close();
-        canvas.fill(s.colors[i]);
+        const int steps = color_steps(s.colors[i], s.colors[i + 1]);
+        const bool last = i + 2 == n;
+        for (int k = 0; k < steps; ++k) {
+            const double from = double(k) / steps;
+            const Vec2 face = s.face[i] * (1 - from) + s.face[i + 1] * from,
+                       back = s.back[i] * (1 - from) + s.back[i + 1] * from;
+            canvas.move_to(face);
+            canvas.line_to(s.face[i + 1]);
+            if (!last) canvas.line_to(s.face[i + 1] + (s.face[i + 2] - s.face[i + 1]) * 0.5);
+            if (!last) canvas.line_to(s.back[i + 1] + (s.back[i + 2] - s.back[i + 1]) * 0.5);
+            canvas.line_to(s.back[i + 1]);
+            canvas.line_to(back);
+            canvas.close();
+            canvas.fill(mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps));
+        }
     }
     canvas.smooth_edges(true);
     // Drawn inside the section, so that the face's outer edge is the true one.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/smooth_path.hpp"
 #include "render/ticks.hpp"
 
 namespace beamcam::render {
@@ -17,7 +18,8 @@ using sim::Pose;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
 constexpr int kFlashFrames = 24;  // an impact's ring fades within this many frames (0.4 s at 60 fps)
-constexpr int kTrailFrames = 72;  // length of the tip's trail
+constexpr int kTrailFrames = 72;  // length of the tip's trail, frozen ones not counted
+constexpr double kArcStep = 6;    // of what is drawn of the tip's path [design px]
 
 // A box with room for shadows around it, in whole pixels, cut to the mechanism's.
 Box covered(const Box& shapes, const Box& within, double unit) {
@@ -162,14 +164,25 @@ void MechanismPanel::note_extent() {
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
     wide_ = std::clamp(0.06 * motion().problem.beam.length * look_.camera.scale, 18 * u_, 80 * u_);
+    for (int k = 0; k < facts_.frames(); ++k)
+        moved_.push_back(k == 0 ? 0 : moved_.back() + (facts_.pose(0, k).t > facts_.pose(0, k - 1).t ? 1 : 0));
+    if (facts_.setup->view.tip_path) note_path();
+    lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
+}
+
+// A piece of the path is there when the frame at its end is.
+void MechanismPanel::note_path() {
     std::vector<double> times;
     std::vector<Vec2> inside;
-    for (int k = 0; k < facts_.frames(); ++k) {
-        times.push_back(facts_.pose(member_, k).t);
-        inside.push_back(tips_[static_cast<std::size_t>(k)] - Vec2{box_.x, box_.y});
+    for (std::size_t k = 0; k < tips_.size(); ++k) {
+        std::vector<Vec2> piece{tips_[k]};
+        if (k > 0) piece = smooth_piece(tips_, k - 1, kArcStep * u_), piece.erase(piece.begin());
+        for (Vec2 p : piece) {
+            times.push_back(facts_.pose(member_, static_cast<int>(k)).t);
+            inside.push_back(p - Vec2{box_.x, box_.y});
+        }
     }
-    if (facts_.setup->view.tip_path) path_ = thinned(times, inside, 0.5);
-    lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
+    path_ = thinned(times, inside, 0.5);
 }
 
 void MechanismPanel::find_flashes() {
@@ -361,11 +374,14 @@ void MechanismPanel::ghosts(const Scene& s) const {
 // The tip's path over the last frames, fading.
 void MechanismPanel::trail(const Scene& s) const {
     if (facts_.setup->view.tip_path && !s.view) return;  // all of it is drawn already
-    const int first = std::max(0, s.frame - kTrailFrames);
-    for (int k = first; k < s.frame; ++k) {
-        const double age = double(s.frame - k) / kTrailFrames;
-        s.canvas.move_to(s.on(tips_[static_cast<std::size_t>(k)]));
-        s.canvas.line_to(s.on(tips_[static_cast<std::size_t>(k + 1)]));
+    const auto now = static_cast<std::size_t>(s.frame);
+    for (std::size_t k = now; k-- > 0;) {
+        const double age = double(moved_[now] - moved_[k]) / kTrailFrames;
+        if (age > 1) break;
+        if (moved_[k + 1] == moved_[k]) continue;
+        std::vector<Vec2> piece = smooth_piece(tips_, k, kArcStep * u_);
+        for (Vec2& p : piece) p = s.on(p);
+        s.canvas.polyline(piece);
         s.canvas.stroke({palette_.motion.faded(0.55 * (1 - age)), 2 * u_, {}, Cap::butt});
     }
 }
@@ -382,9 +398,13 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
     s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
-    const double room = std::clamp((std::abs(angle) * radius - 30 * u_) / (12 * u_), 0.0, 1.0);
+    // The letter stands in the middle of what the section leaves free.
+    const double out = radius - 17 * u_;
+    const double covered = (angle > 0 ? -s.beam.low : s.beam.high) * look_.camera.scale / out;  // [rad]
+    const double free = std::abs(angle) - std::max(covered, 0.0);
+    const double room = std::clamp((free * out - 24 * u_) / (10 * u_), 0.0, 1.0);
     if (room > 0 && radius > hub + 38 * u_)
-        s.canvas.text(s.on(px({0, 0}) + down(angle / 2) * (radius - 17 * u_)) + Vec2{0, 6 * u_}, math("θ"),
+        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(free / 2, angle)) * out) + Vec2{0, 6 * u_}, math("θ"),
                       {.size = 21 * u_,
                        .color = palette_.muted.faded(room),
                        .align = Align::centre,
@@ -398,7 +418,8 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
     const Vec2 axis = px(s.pose.cam_centre);
     const double swept = (cam.radius + cam.eccentricity) * look_.camera.scale, radius = swept + 20 * u_;
     const std::string label = math("ω") + "\u2009=\u2009" + quantity(cam.speed, "rad/s");
-    const TextStyle style{.size = 21 * u_, .color = palette_.muted, .halo = palette_.paper};
+    TextStyle style{.size = 21 * u_, .color = palette_.muted};
+    if (!s.view) style.halo = palette_.paper;  // over a soft shadow it would only glow
     if (cam.speed != 0) {
         const double span = std::min(0.8, 150 * u_ / radius), middle = -0.30 * kPi;
         const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
@@ -408,9 +429,10 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {palette_.muted, 2.6 * u_}, head);
     }
-    // Beside the arrow, within the panel wherever the cam stands.
+    // Beside the arrow; where the panel ends there, below it.
     Vec2 at = s.on(axis + down(-0.26 * kPi) * (radius + 16 * u_)) + Vec2{8 * u_, 12 * u_};
-    at.x = std::min(at.x, box_.right() - s.canvas.measure(label, style).w);
+    const double w = s.canvas.measure(label, style).w;
+    if (at.x + w > box_.right()) at = {box_.right() - w, s.on(axis + down(-0.5 * kPi) * (radius + 26 * u_)).y + 8 * u_};
     at.y = std::min(at.y, box_.bottom() - 34 * u_);
     s.canvas.text(at, label, style);
 }
@@ -426,8 +448,10 @@ void MechanismPanel::base_line(const Scene& s) const {
         const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
         line.push_back(covered ? Vec2{kNan, kNan} : s.px(base * dot(base, p)));
     }
-    s.canvas.polyline(line);
-    s.canvas.stroke({palette_.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
+    s.canvas.clip(box_, [&] {  // the straight line may be longer than what the camera was fitted to
+        s.canvas.polyline(line);
+        s.canvas.stroke({palette_.faint, 1.5 * u_, {6 * u_, 7 * u_}, Cap::butt});
+    });
 }
 
 void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
@@ -480,7 +504,8 @@ void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = 22 * u_, .color = ink, .align = Align::centre};
     s.canvas.text(s.on(d.centre + along * (20 * u_)) + Vec2{0, 7 * u_}, math("B"), style);
-    s.canvas.text(s.on(d.axis - along * (d.bore + 16 * u_)) + Vec2{0, 7 * u_}, math("C"), style);
+    // The shaft that stands out in the solid view needs more room.
+    s.canvas.text(s.on(d.axis - along * (d.bore + (s.view ? 24 : 16) * u_)) + Vec2{0, 7 * u_}, math("C"), style);
 }
 
 void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {

@@ -54,6 +54,7 @@ class MechanismPanel final : public Panel {
     void place_camera();
     Bounds beams_reach() const;
     void note_extent();
+    void note_path();
     void find_flashes();
     void draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const;
     void scale_bar(Canvas& canvas) const;
@@ -84,6 +85,7 @@ class MechanismPanel final : public Panel {
     Box lit_box_;             // what the lit mechanism ever covers, shadows included; whole pixels
     double wide_ = 0;         // of the beam across the plane of motion, in the solid view [px]
     std::vector<Vec2> tips_;  // drawn tip of every frame [px]
+    std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box
     std::vector<Flash> flashes_;
 };

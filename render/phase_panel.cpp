@@ -1,4 +1,6 @@
 // The phase portrait: hub speed against hub angle, the path so far and the point of now.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,8 +72,10 @@ class PhasePanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
-                     y_.scale.name("d" + math("θ") + "/d" + math("t"), "rad/s"));
+        const std::string symbol = y_.scale.name("d" + math("θ") + "/d" + math("t"), "rad/s");
+        const std::string named = fmt::format("Hub speed {}", symbol);
+        const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
+        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
         const TextStyle label{.size = 17 * u, .color = p.muted};
         const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
         for (double v : y_.ticks.values) {

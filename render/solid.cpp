@@ -1,6 +1,7 @@
 #include "render/solid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +11,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kRound = 160;  // sides of a disc; at a radius of 300 px the corners are 0.06 px off
 
-Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator*(Vec3 a, double k) { return {a.x * k, a.y * k, a.z * k}; }
 double dot3(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec3 normalized(Vec3 a) {
@@ -28,6 +28,11 @@ class Mesh {
     void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 na, Vec3 nb, Vec3 nc, Vec3 nd, Color color) {
         triangle(a, b, c, na, nb, nc, color);
         triangle(a, c, d, na, nc, nd, color);
+    }
+    // A colour at b and c that differs from that at a and d.
+    void shaded(const std::array<Vec3, 4>& at, const std::array<Vec3, 4>& n, Color first, Color last) {
+        const std::array<Color, 4> colors{first, last, last, first};
+        for (const std::size_t k : {0, 1, 2, 0, 2, 3}) vertex(at[k], n[k], colors[k]);
     }
     void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 n, Color color) { quad(a, b, c, d, n, n, n, n, color); }
 
@@ -79,11 +84,14 @@ class Mesh {
             };
             const Vec3 p = normal(i), q = normal(i + 1);
             const auto at = [&](Vec2 v, double z) { return Vec3{v.x, v.y, z}; };
-            const Color c = mix(colors[i], colors[i + 1], 0.5);
-            quad(at(face[i], -half), at(face[i + 1], -half), at(face[i + 1], half), at(face[i], half), p, q, q, p, c);
-            quad(at(back[i], -half), at(back[i + 1], -half), at(back[i + 1], half), at(back[i], half), p * -1, q * -1,
-                 q * -1, p * -1, c);
-            quad(at(face[i], half), at(face[i + 1], half), at(back[i + 1], half), at(back[i], half), {0, 0, 1}, c);
+            const Color first = colors[i], last = colors[i + 1];
+            const Vec3 front{0, 0, 1};
+            shaded({at(face[i], -half), at(face[i + 1], -half), at(face[i + 1], half), at(face[i], half)}, {p, q, q, p},
+                   first, last);
+            shaded({at(back[i], -half), at(back[i + 1], -half), at(back[i + 1], half), at(back[i], half)},
+                   {p * -1, q * -1, q * -1, p * -1}, first, last);
+            shaded({at(face[i], half), at(face[i + 1], half), at(back[i + 1], half), at(back[i], half)},
+                   {front, front, front, front}, first, last);
         }
         for (const std::size_t k : {std::size_t{0}, n - 1}) {
             const Vec2 along = k == 0 ? face[0] - face[1] : face[k] - face[k - 1];
@@ -153,6 +161,7 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
         const double thick = 0.62 * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
         mesh.disc(up(d.centre), d.radius, -thick, thick, chamfer, metal, up(d.axis), d.bore, rim, d.angle);
         mesh.disc(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
+        mesh.disc(up(d.centre), std::min(4 * unit, 0.06 * d.radius), thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
         mesh.disc(up(d.axis), 0.8 * d.bore, -1.5 * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
     }
     mesh.bar(face, back, shape.colors, half);

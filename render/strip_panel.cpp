@@ -84,6 +84,13 @@ std::string symbol_of(Channel channel) {
     return below.empty() ? text : text + "<sub>" + below + "</sub>";
 }
 
+// The symbol in its curve's colour: a legend that needs no room.
+std::string colored(const std::string& markup, Color color) {
+    const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    return fmt::format("<span foreground='#{:02x}{:02x}{:02x}'>{}</span>", byte(color.r), byte(color.g), byte(color.b),
+                       markup);
+}
+
 std::string unit_text(Channel channel, const sim::Problem& problem) {
     const std::string unit = sim::unit(channel, problem);
     return unit == "m/s^2" ? "m/s²" : unit;
@@ -117,14 +124,23 @@ class ChartPanel : public Panel {
     Image past_;
 };
 
+// `member` < 0: of all motions.
 ChartContent blank(const FilmFacts& facts, const PanelSpec& spec, int member) {
     ChartContent c;
     c.time = facts.span;
     c.window = spec.window;
     c.time_unit = facts.time.unit;
     c.time_label = math("t") + " / " + facts.time.symbol;
-    for (const sim::Impact& i : facts.motion(member).impacts)
-        if (i.t_start >= c.time.low && i.t_start <= c.time.high) c.marks.push_back(i.t_start);
+    const auto mark = [&](int whose, ChartMark at) {
+        for (const sim::Impact& i : facts.motion(whose).impacts)
+            if (i.t_start >= c.time.low && i.t_start <= c.time.high) at.t = i.t_start, c.marks.push_back(at);
+    };
+    if (member >= 0) {
+        mark(member, {.color = facts.palette->contact});
+    } else {
+        for (int m = 0; m < facts.members(); ++m)
+            mark(m, {.color = facts.member_color(m), .lane = m, .lanes = facts.members()});
+    }
     return c;
 }
 
@@ -188,6 +204,18 @@ Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel
     return {low, high};
 }
 
+// The channel at a frame; NaN: it has no value there.
+double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
+    const sim::Pose& pose = facts.pose(member, frame);
+    if (channel.kind == ChannelKind::theta) return pose.theta;
+    if (channel.kind == ChannelKind::theta_dot) return pose.theta_dot;
+    if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
+    if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
+    const sim::Table& table = facts.motion(member).chart;
+    const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
+    return t && v ? value_at(*t, *v, pose.t) : kNan;
+}
+
 class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmFacts& facts, const PanelSlot& slot)
@@ -198,12 +226,14 @@ class StripPanel final : public ChartPanel {
         const Channel first = spec.channels.front();
         const sim::Problem& problem = facts.setup->problem;
         const Palette& p = *facts.palette;
-        ChartContent c = blank(facts, spec, 0);
+        ChartContent c = blank(facts, spec, facts.members() > 1 ? -1 : 0);
         const bool single = spec.channels.size() == 1;
         c.words = single ? name_of(first).words : "";
         c.unit = unit_text(first, problem);
         for (std::size_t i = 0; i < spec.channels.size(); ++i) {
-            c.symbol += (i > 0 ? ", " : "") + symbol_of(spec.channels[i]);
+            std::string symbol = symbol_of(spec.channels[i]);
+            if (!single && facts.members() == 1) symbol = colored(symbol, series_color(p, i));
+            c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
             for (int m = 0; m < facts.members(); ++m) {
                 Curve curve = first.kind == ChannelKind::contact_x ? Curve{} : curve_of(facts, m, spec.channels[i]);
                 const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
@@ -251,21 +281,9 @@ class StripPanel final : public ChartPanel {
     std::vector<Reading> readings(int frame) const override {
         std::vector<Reading> out;
         for (const Channel channel : spec_.channels)
-            for (int m = 0; m < facts_.members(); ++m) out.push_back({reading(m, frame, channel)});
+            for (int m = 0; m < facts_.members(); ++m) out.push_back({reading(facts_, m, frame, channel)});
         return out;
     }
-    double reading(int member, int frame, Channel channel) const {
-        const sim::Pose& pose = facts_.pose(member, frame);
-        if (channel.kind == ChannelKind::theta) return pose.theta;
-        if (channel.kind == ChannelKind::theta_dot) return pose.theta_dot;
-        if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
-        if (channel.kind == ChannelKind::contact_x)
-            return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
-        const sim::Table& table = facts_.motion(member).chart;
-        const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
-        return t && v ? value_at(*t, *v, pose.t) : kNan;
-    }
-
     PanelSpec spec_;
 };
 
@@ -288,13 +306,20 @@ class CollisionPanel final : public Panel {
         }
         content_.words = name_of(first()).words;
         content_.unit = unit_text(first(), facts.setup->problem);
-        content_.symbol = symbol_of(first());
-        Curve curve = curve_of(facts, 0, first());
-        curve.color = is_force(first()) ? facts.palette->contact : facts.palette->motion;
-        curve.faint = is_force(first()) ? facts.palette->contact_faint : facts.palette->motion_faint;
-        content_.filled = is_force(first());
-        content_.value = range_of(facts, {curve}, first());
-        curve_ = std::move(curve);
+        const Palette& p = *facts.palette;
+        const bool single = spec_.channels.size() == 1;
+        for (std::size_t i = 0; i < spec_.channels.size(); ++i) {
+            const Channel channel = spec_.channels[i];
+            Curve curve = curve_of(facts, 0, channel);
+            curve.color = is_force(channel) ? p.contact : single ? p.motion : series_color(p, i);
+            curve.faint = is_force(channel) ? p.contact_faint : single ? p.motion_faint : mix(p.paper, curve.color, 0.25);
+            const std::string symbol = symbol_of(channel);
+            if (!single) curve.label = symbol;
+            content_.symbol += fmt::format("{}{}", i > 0 ? ", " : "", single ? symbol : colored(symbol, curve.color));
+            curves_.push_back(std::move(curve));
+        }
+        content_.filled = single && is_force(first());
+        content_.value = range_of(facts, curves_, first());
     }
 
     void draw_ground(Canvas&) const override {}
@@ -306,8 +331,9 @@ class CollisionPanel final : public Panel {
         const double t0 = spans_.empty() ? 0 : spans_[which].low, t = pose.t - t0;
         const bool within = t >= chart.time().low && t <= chart.time().high;
         if (t > chart.time().low) chart.draw_past(canvas, *facts_.palette, std::min(t, chart.time().high));
-        const Reading reading{is_force(first()) && pose.nearest ? pose.nearest->force : kNan};
-        if (within) chart.draw_moving(canvas, *facts_.palette, t, std::span(&reading, 1));
+        std::vector<Reading> readings;
+        for (const Channel channel : spec_.channels) readings.push_back({reading(facts_, 0, frame, channel)});
+        if (within) chart.draw_moving(canvas, *facts_.palette, t, readings);
     }
 
   private:
@@ -334,14 +360,16 @@ class CollisionPanel final : public Panel {
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
-        Curve curve;
-        curve.color = curve_.color, curve.faint = curve_.faint;
         const double t0 = spans_.empty() ? 0 : spans_[which].low;
-        const auto begin = std::ranges::lower_bound(curve_.t, t0 + c.time.low) - curve_.t.begin(),
-                   end = std::ranges::upper_bound(curve_.t, t0 + c.time.high) - curve_.t.begin();
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-            curve.t.push_back(curve_.t[i] - t0), curve.v.push_back(curve_.v[i]);
-        c.curves.push_back(std::move(curve));
+        for (const Curve& all : curves_) {
+            Curve curve;
+            curve.color = all.color, curve.faint = all.faint, curve.label = all.label;
+            const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
+                       end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
+            c.curves.push_back(std::move(curve));
+        }
         return Chart(std::move(c), box_, plot_, facts_.unit);
     }
 
@@ -351,7 +379,7 @@ class CollisionPanel final : public Panel {
     std::vector<Range> spans_;
     int last_ = -1;
     ChartContent content_;
-    Curve curve_;
+    std::vector<Curve> curves_;
 };
 
 // ---- the ledger --------------------------------------------------------------------------------

@@ -1,0 +1,242 @@
+// What a viewer would see as jitter, measured in pixels: nothing static changes, numbers do not push their
+// neighbours, what moves is drawn where it is, and a contact that touches shows no gap.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/canvas.hpp"
+#include "render/film.hpp"
+#include "render/labels.hpp"
+#include "render/smooth_path.hpp"
+#include "tests/render/synthetic.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"
+#else
+#define SKIP_WITHOUT_GL() (void)0
+#endif
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+FilmSetup film_of(Style style, const test::Synthetic& how, std::optional<double> factor = {}) {
+    FilmSetup setup = test::synthetic_film(how);
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = style;
+    setup.view.exaggeration = factor;
+    return setup;
+}
+
+Image drawn(Film& film, int frame) {
+    Image image;
+    film.draw(frame, image);
+    return image;
+}
+
+std::uint32_t at(const Image& image, Vec2 px) {
+    return image.pixels[std::size_t(px.y) * std::size_t(image.width) + std::size_t(px.x)];
+}
+
+std::uint32_t opaque(Color c) {
+    const auto byte = [](double v) { return std::uint32_t(std::lround(v * 255)); };
+    return 0xFF000000U | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+}
+
+bool same_within(const Image& a, const Image& b, const Box& box) {
+    for (int y = int(box.y); y < int(std::ceil(box.bottom())); ++y)
+        for (int x = int(box.x); x < int(std::ceil(box.right())); ++x) {
+            const Vec2 px{double(x), double(y)};
+            if (x >= 0 && y >= 0 && x < a.width && y < a.height && at(a, px) != at(b, px)) return false;
+        }
+    return true;
+}
+
+// ---- a touching contact ------------------------------------------------------------------------
+
+// Across the contact, from inside the disc to inside the beam, no pixel shows the paper.
+void no_paper_between(Style style, std::optional<double> factor) {
+    Film film(film_of(style, {.duration = 2}, factor));
+    const std::uint32_t paper = opaque(palette(Theme::light).paper);
+    const auto poses = film_of(style, {.duration = 2}).poses;
+    int touching = 0;
+    for (int k = 0; k < film.frames(); ++k) {
+        if (!poses[std::size_t(k)].nearest->touching || (style == Style::lit && k % 3 != 0)) continue;
+        ++touching;
+        const FrameGeometry g = film.geometry(k);
+        const Image image = drawn(film, k);
+        const Vec2 from = g.camera.to_pixels(g.beam.contact->on_disc), n{g.beam.contact->normal.x, -g.beam.contact->normal.y};
+        for (double out = -5; out <= 5; out += 0.25) EXPECT_NE(at(image, from + n * out), paper) << k << ", " << out;
+        EXPECT_LT(std::abs(g.beam.contact->gap) * g.camera.scale, 0.5) << k;
+    }
+    EXPECT_GT(touching, 5);
+}
+
+TEST(Steadiness, ATouchingContactShowsNoPaperBetween) {
+    no_paper_between(Style::flat, 1);
+    no_paper_between(Style::flat, {});
+    no_paper_between(Style::flat, 20);
+}
+
+TEST(GlSteadiness, ATouchingContactShowsNoPaperBetween) {
+    SKIP_WITHOUT_GL();
+    no_paper_between(Style::lit, {});
+}
+
+// ---- what is static ----------------------------------------------------------------------------
+
+// Titles, parameters, colour bars with their marks, the note: the same bits in every frame.
+void static_parts_stay(FilmSetup setup) {
+    Film film(std::move(setup));
+    const Layout places = film.geometry(0).layout;
+    const Image first = drawn(film, 0);
+    for (int k = 1; k < film.frames(); k += 3) {
+        const Image image = drawn(film, k);
+        for (const auto& box : {places.title, places.parameters, places.scales, places.note}) {
+            ASSERT_TRUE(box);
+            EXPECT_TRUE(same_within(first, image, *box)) << "frame " << k << ", box at " << box->x << ", " << box->y;
+        }
+        // The axes of values and their headings' beginnings, left of the plots and above them.
+        for (const PanelSlot& slot : places.panels) {
+            if (slot.spec.kind != PanelKind::strip) continue;
+            const Box plot = plot_area(slot.box, places.unit);
+            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, plot.x - 8 - slot.box.x, slot.box.h})) << k;
+            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y})) << k;
+        }
+    }
+}
+
+TEST(Steadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
+    for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
+        FilmSetup setup = film_of(Style::flat, {.duration = 1});
+        setup.view.theme = theme;
+        setup.accuracy_note = "energy closes";
+        static_parts_stay(std::move(setup));
+    }
+}
+
+TEST(GlSteadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = film_of(Style::lit, {.duration = 0.4});
+    setup.accuracy_note = "energy closes";
+    static_parts_stay(std::move(setup));
+}
+
+// ---- numbers -----------------------------------------------------------------------------------
+
+TEST(Steadiness, FiguresAreTabular) {
+    Image image(16, 16);
+    const Fonts fonts(false);
+    Canvas canvas(image, fonts);
+    for (const Weight weight : {Weight::regular, Weight::medium, Weight::semibold}) {
+        const TextStyle style{.size = 30, .weight = weight};
+        const double zero = canvas.measure("00.00", style).w;
+        for (const char* number : {"11.11", "47.19", "88.88"}) EXPECT_NEAR(canvas.measure(number, style).w, zero, 0.05);
+        EXPECT_NEAR(canvas.measure("\u20071.11", style).w, zero, 0.05);  // the clock's room for a digit
+    }
+}
+
+// The clock passes from 9.9 s to 10.0 s: its "t =", its unit and the pill beside it stay.
+TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.5}, 5);
+    for (sim::Pose& pose : setup.poses) pose.t += 9.8;
+    for (double& t : setup.chart.values[0]) t += 9.8;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    Image scratch(16, 16);
+    const Fonts fonts(false);
+    Canvas canvas(scratch, fonts);
+    const double u = g.layout.unit;
+    const TextStyle big{.size = 46 * u, .weight = Weight::semibold};
+    const double head = canvas.measure(math("t") + "\u2009=", big).w, number = canvas.measure("\u200900.000", big).w;
+    const Box clock = *g.layout.clock;
+    const Image before = drawn(film, 0), after = drawn(film, film.frames() - 1);
+    EXPECT_TRUE(same_within(before, after, {clock.x, clock.y, head, clock.h}));
+    EXPECT_FALSE(same_within(before, after, {clock.x + head, clock.y, number, clock.h}));
+    EXPECT_TRUE(same_within(before, after, {clock.x + head + number + 3, clock.y, clock.w - head - number - 3, clock.h}));
+}
+
+// ---- what moves --------------------------------------------------------------------------------
+
+// A horizontal beam whose end is moved by fractions of a pixel: what the end's rows of pixels cover moves as much.
+TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.5, .cam = false}, 1);
+    setup.problem.beam.model = sim::ModelKind::rigid;  // one colour
+    const std::size_t n = setup.poses[0].centreline.size();
+    for (std::size_t k = 0; k < setup.poses.size(); ++k) {
+        sim::Pose& pose = setup.poses[k];
+        pose.theta = 0;
+        const double length = 1 + 0.0004 * std::sin(0.7 * double(k));
+        for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = {length * double(i) / double(n - 1), 0};
+    }
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    const std::uint32_t paper = opaque(palette(Theme::light).paper) & 0xFF;
+    // Darkness along a row through the section, in units of the section's own: the length that it covers.
+    const auto covered = [&](const Image& image) {
+        const Vec2 end = g.camera.to_pixels({1, 0});
+        const double y = end.y + 5;
+        const double inside = double(paper) - double(at(image, {end.x - 20, y}) & 0xFF);
+        double sum = 0;
+        for (double x = std::floor(end.x) - 20; x < end.x + 20; ++x)
+            sum += (double(paper) - double(at(image, {x, y}) & 0xFF)) / inside;
+        return sum;
+    };
+    const double reference = covered(drawn(film, 0)) - g.camera.scale * poses[0].centreline.back().x;
+    for (int k = 1; k < film.frames(); ++k) {
+        const double drawn_end = covered(drawn(film, k)) - reference;
+        EXPECT_NEAR(drawn_end, g.camera.scale * poses[std::size_t(k)].centreline.back().x, 0.05) << k;
+    }
+}
+
+TEST(Steadiness, TheTipOfTheGeometryIsThePosesAtFactorOne) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1}, 1);
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    for (int k = 0; k < film.frames(); k += 7) {
+        const FrameGeometry g = film.geometry(k);
+        EXPECT_LT(norm(g.beam.line.back() - poses[std::size_t(k)].centreline.back()) * g.camera.scale, 0.05) << k;
+    }
+}
+
+// ---- the path of the tip -----------------------------------------------------------------------
+
+TEST(SmoothPath, PassesThroughThePlacesAndKeepsToACircle) {
+    std::vector<Vec2> places;
+    for (int k = 0; k < 12; ++k) places.push_back(sim::unit(0.13 * k) * 370);  // 4 rad/s at 30 frames a second
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const std::vector<Vec2> piece = smooth_piece(places, i, 6);
+        EXPECT_EQ(piece.front(), places[i]);
+        EXPECT_EQ(piece.back(), places[i + 1]);
+        EXPECT_GT(piece.size(), 6u);
+        const bool inner = i > 0 && i + 2 < places.size();
+        for (Vec2 p : piece) EXPECT_NEAR(norm(p), 370, inner ? 0.02 : 0.8);  // chords: 0.78 px
+    }
+}
+
+TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {
+    const std::vector<Vec2> places{{0, 0}, {0, 0}, {0, 0}, {40, 0}, {40, 0}, {40.1, 0}, {80, 30}};
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+        for (Vec2 p : smooth_piece(places, i, 4)) {
+            EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+            EXPECT_GE(p.x, -4);
+            EXPECT_LE(p.x, 84);
+        }
+}
+
+// While time stands still the trail behind the tip does too.
+TEST(Steadiness, AFreezeIsOnePicture) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1});
+    setup.impacts.clear();  // no rings that open
+    for (std::size_t k = 20; k < 50; ++k) setup.poses[k] = setup.poses[20];
+    setup.speeds.assign(setup.poses.size(), 1);
+    for (std::size_t k = 21; k < 50; ++k) setup.speeds[k] = 0;
+    Film film(std::move(setup));
+    const Image early = drawn(film, 21), late = drawn(film, 49);
+    EXPECT_EQ(early.pixels, late.pixels);
+}
+
+}  // namespace
+}  // namespace beamcam::render
