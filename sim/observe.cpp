@@ -15,32 +15,57 @@ namespace {
 
 constexpr int kMaxPieces = 24;       // looks at most, at a step that resolves the vibration
 constexpr double kMostPieces = 1e5;  // and at one that spans many periods
+// At such a step, for extremes: what is missed of a vibration that a step spans more often is below 10⁻⁵ of it, as
+// looks at all its phases find its peaks.
+constexpr int kExtremePieces = 1000;
+constexpr std::size_t kMostPeaks = 4;
+constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
+constexpr double kNoHigher = 1e-9;  // … by this share
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Calls offer(t, f(t)) at the maxima of f between samples values[i] = f(time(i)), i = 0…count, that could
 // exceed `best`. A parabola rises above its highest sample by at most an eighth of the second difference;
 // twice that is looked into. At the ends of a stretch, which bracket nothing, a look a little inside
-// tells whether f rises there.
+// tells whether f rises there. Of a vibration's many peaks those are looked into whose parabolas rise highest; once
+// `vain` of them were no higher than the best, only those that promise to be.
 template <class F, class Time, class Offer>
-void each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, Offer&& offer) {
+void each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, long& vain, Offer&& offer) {
     const auto look = [&](double a, double b) {
+        const double before = best;
         const auto [t, value] = find_peak(f, a, b);
         offer(t, value);
+        if (!(best > before + kNoHigher * std::fabs(before))) ++vain;
     };
-    for (int i = 0; i <= count; ++i) {
-        const double here = values[i];
+    const auto promises = [&](double height) { return vain < kPatience || height > best; };
+    const auto bend_at = [&](int i) {
         const int middle = std::clamp(i, 1, count - 1);
-        const double bend = std::fabs(values[middle - 1] - 2 * values[middle] + values[middle + 1]);
-        if (!(here + 0.25 * bend > best) || bend == 0) continue;
-        if (i > 0 && i < count) {
-            if (here >= values[i - 1] && here >= values[i + 1]) look(time(i - 1), time(i + 1));
+        return std::fabs(values[middle - 1] - 2 * values[middle] + values[middle + 1]);
+    };
+    const auto may_exceed = [&](int i) { return bend_at(i) > 0 && values[i] + 0.25 * bend_at(i) > best; };
+    for (const int end : {0, count}) {
+        const int other = end == 0 ? 1 : count - 1;
+        if (!may_exceed(end) || !(values[end] >= values[other]) || !promises(values[end] + 0.125 * bend_at(end)))
             continue;
-        }
-        const int other = i == 0 ? 1 : count - 1;
-        if (!(here >= values[other])) continue;
-        const double inside = time(i) + 1e-3 * (time(other) - time(i));
-        if (f(inside) > here) look(std::min(time(i), time(other)), std::max(time(i), time(other)));
+        const double inside = time(end) + 1e-3 * (time(other) - time(end));
+        if (f(inside) > values[end]) look(std::min(time(end), time(other)), std::max(time(end), time(other)));
     }
+    struct Peak {
+        int i;
+        double height;
+    };
+    std::vector<Peak> peaks;
+    for (int i = 1; i < count; ++i) {
+        if (!may_exceed(i) || values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
+        const double lean = values[i + 1] - values[i - 1];
+        peaks.push_back({i, values[i] + lean * lean / (8 * bend_at(i))});
+    }
+    if (peaks.size() > kMostPeaks) {
+        std::nth_element(peaks.begin(), peaks.begin() + kMostPeaks, peaks.end(),
+                         [](const Peak& a, const Peak& b) { return a.height > b.height; });
+        peaks.resize(kMostPeaks);
+    }
+    for (const Peak& peak : peaks)
+        if (may_exceed(peak.i) && promises(peak.height)) look(time(peak.i - 1), time(peak.i + 1));
 }
 
 // The polynomial through the samples of a step (barycentric formula).
@@ -271,6 +296,7 @@ Recorder::Recorder(const System& system, const Request& request, double end)
     }
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
+    vain_.assign(2 * request.extrema.size(), 0);
 }
 
 void Recorder::begin(const Phase& phase, const std::vector<double>& y) {
@@ -402,7 +428,9 @@ void Recorder::contact_peaks(const Stretch& s) {
     }
     const auto refine = [&](const auto& values, const auto& f, double& best) {
         for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
-        each_maximum(f, time, values.data(), count, best, [&](double, double value) { best = std::max(best, value); });
+        long vain = 0;
+        each_maximum(f, time, values.data(), count, best, vain,
+                     [&](double, double value) { best = std::max(best, value); });
     };
     double force_peak = impact.force_peak.value_or(0);
     refine(forces, force, force_peak);
@@ -412,7 +440,7 @@ void Recorder::contact_peaks(const Stretch& s) {
 
 void Recorder::extrema(const Stretch& s) {
     if (request_.extrema.empty()) return;
-    const int count = pieces(s);
+    const int count = std::min(pieces(s), kExtremePieces);
     const std::size_t channels = request_.extrema.size();
     std::vector<std::vector<double>> values(channels, std::vector<double>(static_cast<std::size_t>(count) + 1));
     const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
@@ -440,11 +468,14 @@ void Recorder::extrema(const Stretch& s) {
             return eye_.value(request_.extrema[c]);
         };
         for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
-        each_maximum(at, time, values[c].data(), count, e.max, offer);
+        each_maximum(at, time, values[c].data(), count, e.max, vain_[2 * c], offer);
         for (double& value : values[c]) value = -value;
-        const double floor = -e.min;
-        each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, floor,
-                     [&](double t, double value) { offer(t, -value); });
+        double highest = -e.min;
+        each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, highest, vain_[2 * c + 1],
+                     [&](double t, double value) {
+                         offer(t, -value);
+                         highest = -e.min;
+                     });
     }
 }
 

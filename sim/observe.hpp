@@ -97,6 +97,7 @@ class Recorder {
     Result result_;
     Eye eye_;
     std::vector<double> y_;
+    std::vector<long> vain_;  // peaks looked into that were no extremes, of each channel's maximum and minimum
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     double end_ = 0, start_total_ = 0, largest_elastic_ = 0;
     bool impact_open_ = false;

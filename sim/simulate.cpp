@@ -1,7 +1,6 @@
 #include "sim/simulate.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <cmath>
 
 #include "sim/exponential.hpp"
+#include "sim/failure.hpp"
 #include "sim/gap_probe.hpp"
 #include "sim/initial.hpp"
 #include "sim/numerics.hpp"
@@ -54,6 +54,7 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b) 
 
 enum class EventKind { none, touch, release, clamp, grip, lift };
 
+constexpr long kTold = 15;           // steps between two calls of `progress`, less one
 constexpr int kMaxLooks = 16;        // into one step, for events
 constexpr double kMostPieces = 1e5;  // of one step, for touches
 constexpr long kMostLooks = 100000;  // of the advancement through one step
@@ -96,9 +97,10 @@ class Run {
         try {
             integrate();
         } catch (const StepFailure& failure) {
-            if (!started_) throw SolverError(fmt::format("at the start: {}; give another initial.shape or initial.angle",
-                                              failure.what()),
-                                  0, {});
+            if (!started_)
+                throw SolverError(
+                    fmt::format("at the start: {}; give another initial.shape or initial.angle", failure.what()), 0,
+                    {});
             audience_.give_up(t_, y_, tally_source_);
             throw SolverError(explain(failure), t_, audience_.results());
         }
@@ -144,7 +146,7 @@ class Run {
             keep_to_budget();
             const Segment* segment = &integrator_->step();
             last_step_ = segment->t1 - segment->t0;
-            if (progress_ && (++steps & 255) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
+            if (progress_ && (++steps & kTold) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
             const Event event = first_event(*segment);
             if (event.kind == EventKind::none) {
                 const bool kink = segment->t1 >= next_kink();
@@ -187,7 +189,7 @@ class Run {
 
     void keep_to_budget() {
         if (integrator_->counters.steps + integrator_->counters.rejected < problem_.solver.max_steps) return;
-        spent_ = true;
+        why_ = Stop::steps_spent;
         throw StepFailure("the budget of steps is spent");
     }
 
@@ -444,7 +446,7 @@ class Run {
             const double t0 = a.release.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
             const Watch b = watch(segment, t1);
             if (dot(a.normal, b.normal) < 0 && b.release.value > 0) {
-                sunk_ = true;
+                why_ = Stop::passed_cam;
                 throw StepFailure("the beam passed through the cam");
             }
             Event best;
@@ -490,8 +492,10 @@ class Run {
         segment.value(start, y_.data());
         t_ = start;
         // Events without progress: a guard that cannot leave its surface.
-        if (++idle_events_ > 50)
+        if (++idle_events_ > 50) {
+            why_ = Stop::stuck;
             throw StepFailure("the contact changes its state again and again without time passing");
+        }
         return true;
     }
 
@@ -703,46 +707,10 @@ class Run {
         return all;
     }
 
-    std::string explain(const StepFailure& failure) const {
-        const std::string when = fmt::format("at t = {:.9g} s", t_);
-        if (dynamics_.inertia_lost())
-            return fmt::format(
-                "{}: the {} model with {} {} modes lost its positive inertia (the hub is too light for these shapes); "
-                "use "
-                "\"basis\": \"hub-beam\", fewer modes, or \"model\": \"second-order\"",
-                when, name(problem_.beam.model), problem_.beam.modes, name(resolved_basis(problem_)));
-        if (sunk_)
-            return fmt::format(
-                "{}: the beam was pressed through the centre of the cam; the contact is too soft (stiffness {:g} "
-                "N/m^{:g}), or the drive of the hub leaves no way around the cam: raise contact.stiffness or change "
-                "the "
-                "drive",
-                when, contact_stiffness(problem_), problem_.contact.exponent);
-        if (spent_)
-            return fmt::format("{}: the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long; {}",
-                               when, problem_.solver.max_steps, last_step_, what_limits());
-        return fmt::format("{}: {}; {}", when, failure.what(), what_limits());
-    }
-
-    // What keeps the steps short, and what would lengthen them.
-    std::string what_limits() const {
-        std::vector<std::string> needs;
-        const double fastest = dynamics_.highest_frequency();
-        if (fastest > 0)
-            needs.push_back(fmt::format("{} modes up to {:.3g} rad/s need steps near {:.1g} s (fewer: longer ones)",
-                                        problem_.beam.modes, fastest, 1 / fastest));
-        if (problem_.cam && problem_.contact.model == ContactModel::compliant) {
-            // The depth that the beam's mass reaches at 1 m/s is the time to it in seconds (S37).
-            const double n = problem_.contact.exponent, mass = problem_.beam.line_density() * problem_.beam.length;
-            const double rise = std::pow(0.5 * (n + 1) * mass / contact_stiffness(problem_), 1 / (n + 1));
-            needs.push_back(
-                fmt::format("contact stiffness {:g} N/m^{:g} needs steps near {:.1g} s in a touch (softer: "
-                            "longer ones)",
-                            contact_stiffness(problem_), n, 0.1 * rise));
-        }
-        needs.push_back(fmt::format("rtol is {:g} (larger: longer steps)", problem_.solver.rtol));
-        if (spent_) needs.push_back("or raise solver.max_steps");
-        return fmt::format("{}", fmt::join(needs, "; "));
+    std::string explain(const StepFailure& failure) {
+        if (dynamics_.inertia_lost()) why_ = Stop::inertia_lost;
+        enter_phase();
+        return sim::explain({why_, failure.what(), t_, last_step_}, scout_, y_.data());
     }
 
     const Problem& problem_;
@@ -760,8 +728,8 @@ class Run {
     int idle_events_ = 0;
     double last_rebound_ = 0;  // [m/s]
     double last_step_ = 0;     // [s]
-    bool sunk_ = false, spent_ = false;
-    bool started_ = false;  // a state to begin with was found
+    Stop why_ = Stop::method;  // of a failure
+    bool started_ = false;     // a state to begin with was found
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 

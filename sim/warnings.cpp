@@ -13,10 +13,10 @@ constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u
 void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
     if (tally.chatters == 0) return;
     const double speed = kSummedShare * problem.contact.approach_floor.value;
-    out.push_back(
-        fmt::format("chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
-                    "times {:g}) are summed up at its end instead of listed",
-                    tally.chatters, tally.chatters == 1 ? "" : "s", speed, kSummedShare));
+    out.push_back(fmt::format(
+        "chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
+        "times {:g}) are summed up at its end instead of listed",
+        tally.chatters, tally.chatters == 1 ? "" : "s", speed, kSummedShare));
 }
 
 // Ten times what was asked for is the promise of `auto`; whatever misses it says so.
@@ -48,7 +48,8 @@ void tell_gains(const Problem& problem, const Result& result, std::vector<std::s
     double gained = 0;
     long count = 0;
     for (const Impact& impact : result.impacts)
-        if (impact.energy_lost < -kRounding * result.energy_scale) ++count, gained -= impact.energy_lost;
+        if (impact.v_n_before < 0 && impact.energy_lost < -kRounding * result.energy_scale)
+            ++count, gained -= impact.energy_lost;
     if (count > 0)
         out.push_back(fmt::format(
             "the impact law {} with friction created {:.2g} J in {} of {} impacts; the law \"stronge\" never "

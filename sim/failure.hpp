@@ -1,0 +1,28 @@
+// Why a run could not go on, in the terms of who wrote the scene: the cause with its numbers, and what to change.
+#pragma once
+
+#include <string>
+
+#include "sim/system.hpp"
+
+namespace beamcam::sim {
+
+enum class Stop {
+    steps_spent,   // solver.max_steps
+    inertia_lost,  // the model's inertia is no longer positive
+    passed_cam,    // the beam was pressed over the middle of the disc
+    stuck,         // events without time passing
+    method         // the integrator's own reason: `words`
+};
+
+struct Failure {
+    Stop why = Stop::method;
+    std::string words;     // of the integrator
+    double t = 0;          // the last good instant [s]
+    double last_step = 0;  // the last accepted step before it [s]
+};
+
+// `system` is in the phase of the last good instant, `y` the state there.
+std::string explain(const Failure& failure, System& system, const double* y);
+
+}  // namespace beamcam::sim

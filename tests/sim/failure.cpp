@@ -1,0 +1,94 @@
+// A run that cannot go on says why, with the numbers that made it stop, and what to change; what it advises works.
+#include "sim/failure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// What the run says as it stops; empty when it ends.
+std::string words(const Problem& p, double end) {
+    try {
+        run(p, end);
+    } catch (const SolverError& error) {
+        EXPECT_GT(error.last_time, 0);
+        EXPECT_EQ(error.partials.at(0).end_time, error.last_time);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Failure, ABeamBentBeyondItsModelIsToldTheModelThatTakesIt) {
+    Problem p;
+    p.gravity = 1e6;
+    const std::string told = words(p, 0.01);
+    EXPECT_THAT(told, AllOf(HasSubstr("has bent through"), HasSubstr("gravity 1e+06"), HasSubstr("\"exact\"")));
+    EXPECT_THAT(told, Not(HasSubstr("hub-beam\"")));
+    // Also on its way to the cam, where the inertia is lost first.
+    p.initial.angle = 0.44;
+    p.initial.angular_velocity = -2;
+    EXPECT_THAT(words(p, 0.01), AllOf(HasSubstr("has bent through"), HasSubstr("\"exact\"")));
+}
+
+TEST(Failure, ALightHubIsToldItsShapes) {
+    Problem p;
+    p.beam.basis = Basis::cantilever;
+    p.beam.modes = 12;
+    EXPECT_THAT(words(p, 0.6), AllOf(HasSubstr("positive inertia"), HasSubstr("hub-beam"), HasSubstr("hub.inertia")));
+}
+
+TEST(Failure, ANeedleIsToldTheStiffnessThatItTakes) {
+    Problem p;
+    p.cam->radius = 1e-6;
+    p.cam->eccentricity = p.cam->speed = 0;
+    const std::string told = words(p, 0.4);
+    EXPECT_THAT(told, AllOf(HasSubstr("cam's radius 1e-06 m"), HasSubstr("m deep"), HasSubstr("restitution")));
+    const std::string before = "contact.stiffness of ";
+    const std::size_t at = told.find(before);
+    ASSERT_NE(at, std::string::npos) << told;
+    p.contact.stiffness = std::strtod(told.c_str() + at + before.size(), nullptr);
+    EXPECT_GT(*p.contact.stiffness, 1e12);
+    EXPECT_EQ(words(p, 0.4), "");
+}
+
+TEST(Failure, APrescribedAngleThatLeavesNoWayIsToldSo) {
+    Problem p;
+    p.hub.drive = ConstantSpeed{-50};
+    p.beam.modes = 1;
+    p.beam.youngs_modulus = 1e14;
+    EXPECT_THAT(words(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive")));
+}
+
+TEST(Failure, ASpentBudgetNamesWhatKeepsTheStepsShort) {
+    Problem p;
+    p.beam.modes = 40;
+    p.contact.stiffness = 1e12;
+    p.solver.max_steps = 3000;
+    p.solver.method = Method::rk8;
+    EXPECT_THAT(words(p, 0.5), AllOf(HasSubstr("budget of 3000 steps"), HasSubstr("40 modes"),
+                                     HasSubstr("1e+12 N/m^1.5"), HasSubstr("solver.max_steps")));
+    p.beam.modes = 2;
+    p.beam.damping_ratio = {1000};
+    EXPECT_THAT(words(p, 0.5), AllOf(HasSubstr("damping 1e+03 times the critical"), HasSubstr("cvode-bdf")));
+}
+
+TEST(Failure, NoLawIsBlamedForRoundingOfAHeldContact) {
+    Problem p;
+    p.contact.model = ContactModel::restitution;
+    p.initial.shape = InitialShape::resting;
+    p.cam->speed = 5;
+    p.hub.drive = ConstantTorque{-500};
+    for (const std::string& w : run(p, 0.1).warnings) EXPECT_THAT(w, Not(HasSubstr("impact law")));
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
