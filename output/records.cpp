@@ -202,7 +202,8 @@ std::string accuracy_json(const sim::Accuracy& a) {
     for (const auto& row : a.modes) modes.push_back(accuracy_row({{"modes", row.modes}}, row));
     for (const auto& row : a.models) models.push_back(accuracy_row({{"model", sim::name(row.model)}}, row));
     for (const auto& row : a.contact) contact.push_back(accuracy_row({{"change", row.change}}, row));
-    Json all = {{"units", {{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}}},
+    Json all = {{"of", a.of_tip ? "tip_deflection / length" : "theta"},
+                {"units", {{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}}},
                 {"end_time", a.end_time},
                 {"until", a.until},
                 {"reference_error", a.reference_error},

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kInstants = 1000;  // at which θ is compared
+constexpr int kInstants = 1000;  // at which motions are compared
 constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
 constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
 constexpr double kSpare = 50;           // the reference may take this many times the longest run
@@ -23,9 +23,9 @@ constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// One simulation with θ at the instants.
+// One simulation with the compared angle at the instants.
 struct Run {
-    std::vector<double> theta;
+    std::vector<double> angle;
     Result result;
     double seconds = 0;
 };
@@ -37,7 +37,8 @@ class Assessment {
     using Tell = std::function<bool(const std::string&, double)>;
 
     Assessment(const Problem& problem, const AccuracyRequest& request, const Tell& tell)
-        : problem_(problem), request_(request), tell_(tell) {
+        : problem_(problem), request_(request), tell_(tell), angle_(compared_angle(problem)) {
+        out_.of_tip = angle_.of_tip();
         out_.end_time = request.end_time;
         out_.target = request.target;
         if (request_.rtols.empty())
@@ -67,7 +68,7 @@ class Assessment {
         request.end_time = end;
         if (sampled) {
             TableRequest table;
-            table.channels = {{ChannelKind::theta, 0}};
+            table.channels = {angle_.channel};
             for (int k = 0; k <= kInstants; ++k) table.times.push_back(end * k / kInstants);
             request.tables.push_back(std::move(table));
         }
@@ -84,7 +85,9 @@ class Assessment {
             throw TooLong();
         }
         run.seconds = seconds_since(start);
-        if (sampled) run.theta = run.result.tables[0].values[0];
+        if (!sampled) return run;
+        run.angle = std::move(run.result.tables[0].values[0]);
+        for (double& value : run.angle) value *= angle_.scale;
         return run;
     }
 
@@ -127,8 +130,8 @@ class Assessment {
     void compare(AccuracyRow& row, const Run& run, const Run& truth, double end) const {
         double worst = 0;
         row.trusted_until = end;
-        for (std::size_t k = 0; k < truth.theta.size(); ++k) {
-            const double off = std::fabs(run.theta[k] - truth.theta[k]);
+        for (std::size_t k = 0; k < truth.angle.size(); ++k) {
+            const double off = std::fabs(run.angle[k] - truth.angle[k]);
             if (!(off <= request_.target) && row.trusted_until == end)
                 row.trusted_until = end * static_cast<double>(k > 0 ? k - 1 : 0) / kInstants;
             worst = std::max(worst, off);
@@ -164,15 +167,16 @@ class Assessment {
     // ---- the tables ------------------------------------------------------------------------------
 
     // The reference is the eighth-order Runge–Kutta method at the tightest tolerance; its own error is what a
-    // tenth of that tolerance changes. Until when the scene's own settings give θ is the time of every comparison.
+    // tenth of that tolerance changes. Until when the scene's own settings reproduce the motion is the time of every
+    // comparison.
     void find_horizon() {
         about("reference", 0);
         const double limit = kSpare * request_.longest_run;
         const Run mine = simulate_or_refuse(problem_, limit);
         const Run truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
         double until = request_.end_time;
-        for (std::size_t k = 0; k < truth.theta.size(); ++k) {
-            if (std::fabs(mine.theta[k] - truth.theta[k]) <= kReproducible * std::max(1.0, std::fabs(truth.theta[k])))
+        for (std::size_t k = 0; k < truth.angle.size(); ++k) {
+            if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
                 continue;
             until = request_.end_time * static_cast<double>(k > 1 ? k - 1 : 1) / kInstants;
             break;
@@ -180,11 +184,11 @@ class Assessment {
         out_.until = until;
         reference_ = simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
         const Run check = simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
-        for (std::size_t k = 0; k < check.theta.size(); ++k)
-            out_.reference_error = std::max(out_.reference_error, std::fabs(check.theta[k] - reference_.theta[k]));
-        // θ itself has no more digits than this.
+        for (std::size_t k = 0; k < check.angle.size(); ++k)
+            out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
+        // The angle itself has no more digits than this.
         double size = 1;
-        for (const double theta : reference_.theta) size = std::max(size, std::fabs(theta));
+        for (const double angle : reference_.angle) size = std::max(size, std::fabs(angle));
         out_.reference_error = std::max(out_.reference_error, std::numeric_limits<double>::epsilon() * size);
     }
 
@@ -379,15 +383,18 @@ class Assessment {
         }
         r.seconds = timing(std::move(seconds)).median;
         r.error = error;
-        const std::string shapes = problem_.beam.model == ModelKind::rigid ? "" : fmt::format(" and {} modes", r.modes);
-        r.text = fmt::format("rtol {:.0e}{} give θ to {:g} rad for the first {:.3g} s in {:.2g} ms", r.rtol, shapes,
-                             request_.target, r.until, 1e3 * r.seconds);
+        const std::string shapes = problem_.beam.model == ModelKind::rigid
+                                       ? ""
+                                       : fmt::format(" and {} mode{}", r.modes, r.modes == 1 ? "" : "s");
+        r.text = fmt::format("rtol {:.0e}{} give {} to {:g} rad for the first {:.3g} s in {:.2g} ms", r.rtol, shapes,
+                             out_.of_tip ? "the tip's δ/L" : "θ", request_.target, r.until, 1e3 * r.seconds);
         out_.recommendation = std::move(r);
     }
 
     const Problem& problem_;
     AccuracyRequest request_;
     const Tell& tell_;
+    const ComparedAngle angle_;
     Accuracy out_;
     Run reference_;
     std::string what_;

@@ -1,7 +1,8 @@
-// What the numbers of a problem are worth: error against run time of every method, and the error budget of θ — time
+// What the numbers of a problem are worth: error against run time of every method, and the error budget — time
 // integration, number of shapes, model of the beam, contact — each with its run time. MODEL.md, "Accuracy".
 //
-// Errors are of θ [rad], the largest over equally spaced instants until `until`. Times are of one core, wall clock.
+// Errors are of `compared_angle` (channels.hpp) [rad], the largest over equally spaced instants until `until`. Times
+// are of one core, wall clock.
 #pragma once
 
 #include <functional>
@@ -49,7 +50,7 @@ struct ModesRow : AccuracyRow {  // error against the row of `Accuracy::most_mod
 struct ModelRow : AccuracyRow {  // error against `exact`, or the highest model that was affordable
     ModelKind model = ModelKind::rigid;
 };
-struct ContactRow : AccuracyRow {  // how far θ moves when a number of the contact law is off
+struct ContactRow : AccuracyRow {  // how far the angle moves when a number of the contact law is off
     std::string change;            // "stiffness +1 %"
 };
 
@@ -63,8 +64,9 @@ struct Recommendation {
 };
 
 struct Accuracy {
+    bool of_tip = false;         // the hub's angle is prescribed: errors are of the tip's deflection over the length
     double end_time = 0;         // asked [s]
-    double until = 0;            // θ is reproducible until here; every error is taken over [0, until] [s]
+    double until = 0;            // the motion is reproducible until here; every error is taken over [0, until] [s]
     double reference_error = 0;  // of the reference itself, estimated [rad]
     double target = 0;
     int most_modes = 0;                       // shapes that the others are compared with: the most that were affordable

@@ -80,4 +80,10 @@ std::vector<Channel> all_channels(const Problem& problem) {
     return channels;
 }
 
+ComparedAngle compared_angle(const Problem& problem) {
+    if (is_prescribed(problem.hub.drive) && problem.beam.model != ModelKind::rigid)
+        return {{ChannelKind::tip_deflection, 0}, 1 / problem.beam.length};
+    return {{ChannelKind::theta, 0}, 1};
+}
+
 }  // namespace beamcam::sim

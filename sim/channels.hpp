@@ -51,6 +51,15 @@ std::optional<Channel> channel_named(std::string_view name);
 // Every channel of this problem in the order of DESIGN's list (q1…qN expanded).
 std::vector<Channel> all_channels(const Problem& problem);
 
+// The angle by which two computations of one motion are compared: θ; where the hub's is prescribed, the tip's
+// deflection over the length. `scale`: radians per unit of the channel.
+struct ComparedAngle {
+    Channel channel;
+    double scale = 1;
+    bool of_tip() const { return channel.kind == ChannelKind::tip_deflection; }
+};
+ComparedAngle compared_angle(const Problem& problem);
+
 // Rows in the order asked for; `values[c][row]`; NaN where undefined (written as an empty cell).
 struct Table {
     std::vector<Channel> channels;

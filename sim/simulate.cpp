@@ -733,13 +733,13 @@ class Run {
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 
-// Until when θ is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.
-constexpr double kHorizonError = 1e-6;  // [rad], relative to max(1, |θ|)
+// Until when the compared angle is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.
+constexpr double kHorizonError = 1e-6;  // [rad], relative to its size, 1 at least
 constexpr double kHorizonRate = 1000;   // [Hz] of comparison
 
-Request horizon_request(double end) {
+Request horizon_request(const Problem& problem, double end) {
     TableRequest table;
-    table.channels = {{ChannelKind::theta, 0}};
+    table.channels = {compared_angle(problem).channel};
     const auto rows = static_cast<long>(std::floor(end * kHorizonRate));
     for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kHorizonRate);
     table.times.push_back(end);
@@ -748,10 +748,11 @@ Request horizon_request(double end) {
     return request;
 }
 
-double agree_until(const Request& request, const Result& plain, const Result& tight) {
+double agree_until(const Problem& problem, const Request& request, const Result& plain, const Result& tight) {
+    const double scale = compared_angle(problem).scale;
     const std::vector<double>& times = request.tables[0].times;
     for (std::size_t i = 0; i < times.size(); ++i) {
-        const double a = plain.tables[0].values[0][i], b = tight.tables[0].values[0][i];
+        const double a = scale * plain.tables[0].values[0][i], b = scale * tight.tables[0].values[0][i];
         if (std::fabs(a - b) > kHorizonError * std::max(1.0, std::fabs(b))) return i > 0 ? times[i - 1] : 0;
     }
     return times.back();
@@ -774,14 +775,14 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
         if (request.horizon) end = std::max(end, end_of(request));
     if (end < 0) return motion(requests);
     std::vector<Request> all(requests.begin(), requests.end());
-    all.push_back(horizon_request(end));
+    all.push_back(horizon_request(problem, end));
     std::vector<Result> results = motion(all);
     Problem tighter = problem;
     tighter.solver.rtol = std::max(1e-13, problem.solver.rtol / 100);
     tighter.solver.atol = problem.solver.atol / 100;
-    const Request& theta = all.back();
-    const std::vector<Result> tight = integrate(tighter, {&theta, 1}, progress, nullptr, effort);
-    const double until = agree_until(theta, results.back(), tight.front());
+    const Request& angle = all.back();
+    const std::vector<Result> tight = integrate(tighter, {&angle, 1}, progress, nullptr, effort);
+    const double until = agree_until(problem, angle, results.back(), tight.front());
     results.pop_back();
     for (std::size_t i = 0; i < requests.size(); ++i)
         if (requests[i].horizon) results[i].reproducible_until = std::min(until, results[i].end_time);

@@ -48,10 +48,11 @@ std::string heading(const std::string& what, double target) {
 }
 
 std::string report(const sim::Accuracy& a) {
+    const char* angle = a.of_tip ? "tip deflection over length" : "theta";
     std::string text =
-        fmt::format("theta of the first {:.4g} s of {:.4g} s: beyond that it is not reproducible at these settings\n",
-                    a.until, a.end_time);
-    if (a.until >= a.end_time) text = fmt::format("theta of the whole {:.4g} s\n", a.end_time);
+        fmt::format("{} of the first {:.4g} s of {:.4g} s: beyond that it is not reproducible at these settings\n",
+                    angle, a.until, a.end_time);
+    if (a.until >= a.end_time) text = fmt::format("{} of the whole {:.4g} s\n", angle, a.end_time);
     text += fmt::format("the reference (rk8, rtol 1e-13) is good to about {:.0e} rad\n", a.reference_error);
     text += heading("time integration: against the reference", a.target);
     for (const auto& row : a.work) text += row_text(fmt::format("{} {:.0e}", name(row.method), row.rtol), row);
@@ -71,7 +72,7 @@ std::string report(const sim::Accuracy& a) {
         for (const auto& row : a.contact) text += row_text(row.change, row);
     }
     text += a.recommendation ? fmt::format("\n{}\n", a.recommendation->text)
-                             : fmt::format("\nno settings tried give theta to {:g} rad\n", a.target);
+                             : fmt::format("\nno settings tried give {} to {:g} rad\n", angle, a.target);
     return text;
 }
 
@@ -114,8 +115,7 @@ int act(const Arguments& args) {
     progress.end();
     bool data_printed = false;
     for (const std::string& file : args.files) {
-        const std::string text =
-            is_picture(file) ? diagram(found, scene, args, file) : output::accuracy_json(found);
+        const std::string text = is_picture(file) ? diagram(found, scene, args, file) : output::accuracy_json(found);
         if (file == "-") {
             print_data(text);
             data_printed = true;
@@ -142,7 +142,10 @@ void add_accuracy(Grammar& grammar) {
         ->allow_extra_args(false);
     app->add_option("--until", args->until, "Look at the motion up to here (default: the end of the scene)")
         ->type_name("T");
-    app->add_option("--target", args->target, "Error of theta that the recommendation is for, in rad (default: 1e-4)")
+    app->add_option(
+           "--target", args->target,
+           "Error that the recommendation is for, in rad: of theta; of a driven hub, of the tip's deflection over "
+           "the length (default: 1e-4)")
         ->type_name("RAD");
     app->add_option("--repeats", args->repeats, "Timings of each row (default: 5)")
         ->check(CLI::Range(1, 1000))

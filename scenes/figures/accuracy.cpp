@@ -19,7 +19,13 @@ using render::figure::Scale;
 using render::figure::Series;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr Words kError{"error of $θ$ / rad", "$θ$ 的误差 / rad"}, kTime{"run time / ms", "计算时间 / ms"};
+constexpr Words kTime{"run time / ms", "计算时间 / ms"};
+
+// What errors are of.
+const char* angle(const sim::Accuracy& a) { return a.of_tip ? "$δ/L$" : "$θ$"; }
+std::string error_label(const sim::Accuracy& a, Lang lang) {
+    return filled(lang == Lang::en ? "error of {} / rad" : "{} 的误差 / rad", angle(a));
+}
 
 // A logarithmic axis has no zero: an error that is not to be seen stands at the reference's own.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
@@ -51,7 +57,7 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
     Panel panel;
     panel.name = "work-precision";
     panel.x = {.label = kTime.in(lang), .scale = Scale::logarithmic};
-    panel.y = {.label = kError.in(lang), .scale = Scale::logarithmic};
+    panel.y = {.label = error_label(a, lang), .scale = Scale::logarithmic};
     panel.legend = Legend::box;
     std::vector<sim::Method> methods;
     for (const sim::WorkRow& row : a.work)
@@ -66,7 +72,7 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
     Panel panel;
     panel.name = "modes";
     panel.x = {.label = "$N$", .counts = true};
-    panel.y = {.label = kError.in(lang), .scale = Scale::logarithmic};
+    panel.y = {.label = error_label(a, lang), .scale = Scale::logarithmic};
     panel.right = Axis{.label = kTime.in(lang), .scale = Scale::logarithmic};
     panel.legend = Legend::box;
     Series error, time;
@@ -105,7 +111,7 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
         if (row.error)
             contact += fmt::format("{}{}: {} rad", contact.empty() ? "" : "; ", row.change, number(*row.error, 2));
     if (!contact.empty())
-        text += filled(en ? " What changes of the contact law move $θ$ by: {}." : "接触参数的变化引起的 $θ$ 的改变：{}。", contact);
+        text += filled(en ? " What changes of the contact law move {} by: {}." : "接触参数的变化引起的 {} 的改变：{}。", angle(a), contact);
     return text;
 }
 
@@ -137,10 +143,10 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
         tightest = std::min(tightest, row.rtol);
     }
     figure.caption = filled(
-        en ? "Largest error of $θ$ in the first {} s against the run time on one core, the median of up to {} runs "
+        en ? "Largest error of {} in the first {} s against the run time on one core, the median of up to {} runs "
              "with their range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}.{}"
-           : "前 {} s 内 $θ$ 的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}。{}",
-        number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), model, budget(a, lang));
+           : "{} 在前 {} s 内的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}。{}",
+        angle(a), number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), model, budget(a, lang));
     figure.accuracy = filled(en ? "The reference is good to about {} rad." : "参考解自身误差约 {} rad。",
                              number(a.reference_error, 1));
     return figure;

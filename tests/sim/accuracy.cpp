@@ -100,6 +100,45 @@ TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
     EXPECT_GT(*found.contact[0].error, 1e-3);  // 1 % of the stiffness is far more than rtol
 }
 
+// The angle of a driven hub has no error; the tip's has.
+TEST(Accuracy, OfADrivenHubIsTheTips) {
+    Problem p;
+    p.cam.reset();
+    p.hub.drive = ConstantSpeed{0};
+    p.beam.model = ModelKind::first_order;
+    p.beam.youngs_modulus = 1e8;
+    p.initial = {0, 0, InitialShape::straight};
+    AccuracyRequest request = quick(0.5);
+    request.models = {ModelKind::rigid, ModelKind::first_order};
+    const Accuracy found = assess(p, request);
+    EXPECT_TRUE(found.of_tip);
+    for (const WorkRow& row : found.work)
+        if (row.method == Method::rk8 && row.rtol > 1e-4) {
+            EXPECT_GT(*row.error, 1e-12);
+        }
+    ASSERT_EQ(found.modes.size(), 4u);
+    EXPECT_GT(*found.modes.front().error, 1e-6);
+    // The rigid beam does not bend: all of the deflection, several percent of the length, is its error.
+    EXPECT_GT(*found.models.front().error, 0.01);
+}
+
+TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
+    // A driven beam that beats on a fast cam is no more reproducible for its hub being so.
+    Problem p;
+    p.hub.drive = ConstantSpeed{-0.1};
+    p.initial = {0.45, 0, InitialShape::straight};
+    p.cam->speed = 40;
+    p.beam.youngs_modulus = 2e9;
+    p.solver.rtol = 1e-4;
+    p.solver.atol = 1e-7;
+    Request request;
+    request.end_time = 4;
+    request.horizon = true;
+    const Result r = simulate(p, request);
+    ASSERT_GT(r.impacts.size(), 3u);
+    EXPECT_LT(*r.reproducible_until, 4);
+}
+
 TEST(Accuracy, StopsWhenAsked) {
     EXPECT_THROW(assess(falling(), quick(0.1), [](const std::string&, double share) { return share < 0.2; }),
                  Interrupted);
