@@ -19,7 +19,7 @@ constexpr int kMostSweeps = 12, kMostNewton = 25;
 constexpr double kCarried = 1e-5;  // of a step, by which its end may be moved without solving again
 constexpr int kMostCuts = 8;       // of a step, to end it at a release
 // Steps in contact are kept to a share of the tolerance: impacts multiply errors, and at order sixteen it costs little.
-constexpr double kContactShare = 16;
+constexpr double kContactShare = 64;
 
 constexpr double kShareOfIteration = 0.02;  // of the tolerance, for what the sweeps leave
 
