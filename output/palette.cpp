@@ -167,13 +167,20 @@ PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colo
                        kFineBits)] = static_cast<std::uint8_t>(i);
 }
 
+void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
+                           const render::Tiles& part) const {
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y) {
+            const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
+            std::uint8_t* out = to + y * stride;
+            for (int x = left; x < right; ++x) out[x] = index_[cell_of(over_white(row[x]), kFineBits)];
+        }
+    });
+}
 void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const {
-    const auto width = static_cast<std::size_t>(image.width);
-    for (int y = 0; y < image.height; ++y) {
-        const std::uint32_t* row = image.pixels.data() + static_cast<std::size_t>(y) * width;
-        std::uint8_t* out = to + y * stride;
-        for (std::size_t x = 0; x < width; ++x) out[x] = index_[cell_of(over_white(row[x]), kFineBits)];
-    }
+    render::Tiles all(image.width, image.height);
+    all.add_all();
+    convert(image, to, stride, all);
 }
 
 }  // namespace beamcam::output

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/image.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -34,7 +35,8 @@ class PaletteMaker {
 class PaletteTable {
   public:
     explicit PaletteTable(std::span<const std::uint32_t> colors);  // 1 to 256
-    // One byte a pixel, rows of `stride` bytes.
+    // One byte a pixel, rows of `stride` bytes; what is not of the part stays.
+    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride, const render::Tiles& part) const;
     void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const;
 
   private:

@@ -156,22 +156,26 @@ Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
 }
 
 // Bytes of each pixel in the order named, colour not premultiplied.
-void copy_rows(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride) {
-    const auto width = static_cast<std::size_t>(image.width);
-    for (int y = 0; y < image.height; ++y) {
-        std::uint8_t* out = to + y * stride;
-        const std::uint32_t* row = image.pixels.data() + static_cast<std::size_t>(y) * width;
-        for (std::size_t x = 0; x < width; ++x) {
-            const std::uint32_t p = row[x], a = p >> 24;
-            std::uint32_t r = p >> 16 & 255, g = p >> 8 & 255, b = p & 255;
-            if (a != 0 && a != 255) r = (255 * r + a / 2) / a, g = (255 * g + a / 2) / a, b = (255 * b + a / 2) / a;
-            if (layout == PixelLayout::bgra) std::swap(r, b);
-            *out++ = static_cast<std::uint8_t>(r);
-            *out++ = static_cast<std::uint8_t>(g);
-            *out++ = static_cast<std::uint8_t>(b);
-            if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(a);
-        }
+void copy_pixels(const std::uint32_t* from, int count, PixelLayout layout, std::uint8_t* out) {
+    for (int x = 0; x < count; ++x) {
+        const std::uint32_t p = from[x], a = p >> 24;
+        std::uint32_t r = p >> 16 & 255, g = p >> 8 & 255, b = p & 255;
+        if (a != 0 && a != 255) r = (255 * r + a / 2) / a, g = (255 * g + a / 2) / a, b = (255 * b + a / 2) / a;
+        if (layout == PixelLayout::bgra) std::swap(r, b);
+        *out++ = static_cast<std::uint8_t>(r);
+        *out++ = static_cast<std::uint8_t>(g);
+        *out++ = static_cast<std::uint8_t>(b);
+        if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(a);
     }
+}
+void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride,
+                 const render::Tiles& part) {
+    const std::ptrdiff_t size = layout == PixelLayout::rgb ? 3 : 4;
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y)
+            copy_pixels(image.pixels.data() + std::ptrdiff_t(y) * image.width + left, right - left, layout,
+                        to + y * stride + left * size);
+    });
 }
 
 using Clock = std::chrono::steady_clock;
@@ -214,13 +218,18 @@ std::vector<std::string> problems(const VideoOptions& o, std::string_view ending
     return found;
 }
 
-// Pictures pass through a few frames that belong to the module. `write` fills one that is not in use and queues it;
-// `worker` encodes the queue in order. The number of frames bounds how far drawing runs ahead.
+// A picture on its way: a frame that belongs to the module.
+struct VideoInput::Slot {
+    BeamcamVideoFrame* frame = nullptr;
+    int uses = 0;         // places in the queue, and one for being the latest picture
+    render::Tiles stale;  // where it is not what its input converted last
+};
+
+// Each input fills a few slots of its own in turn and queues them; `worker` encodes the queue in order. The number of
+// slots bounds how far drawing runs ahead.
 struct VideoWriter::Impl {
-    struct Slot {
-        BeamcamVideoFrame* frame = nullptr;
-        int uses = 0;  // places in the queue, and one for being the latest picture
-    };
+    using Slot = VideoInput::Slot;
+    static constexpr std::size_t kSlotsOfAnInput = 3, kLongestQueue = 12;
 
     AtomicFile file;
     VideoOptions options;
@@ -228,11 +237,12 @@ struct VideoWriter::Impl {
     std::optional<PaletteTable> table;  // of a GIF
     const BeamcamVideoModule& module;
     BeamcamVideoSession* session = nullptr;
-    Slot* latest = nullptr;  // filled by the last `write`; kept for `repeat`
+    std::unique_ptr<VideoInput> own;  // of `write`
 
     mutable std::mutex mutex;  // guards what follows
     std::condition_variable changed;
-    std::array<Slot, 5> slots;
+    std::deque<Slot> slots;
+    Slot* latest = nullptr;  // queued last; kept for `repeat`
     std::deque<Slot*> queue;
     bool closing = false;    // nothing more will come
     bool abandoned = false;  // and what waits is dropped
@@ -283,12 +293,20 @@ struct VideoWriter::Impl {
                                                metadata.data()};
         BeamcamVideoError error = {};
         check(module.open(&settings, &session, &error), error);
-        for (Slot& slot : slots) {
-            slot.frame = module.make_frame(session);
-            if (slot.frame != nullptr) continue;
-            module.close(session);
-            throw std::bad_alloc();
+    }
+
+    // Slots for one more input.
+    std::vector<Slot*> more_slots() {
+        const std::lock_guard lock(mutex);
+        std::vector<Slot*> more;
+        for (std::size_t i = 0; i < kSlotsOfAnInput; ++i) {
+            BeamcamVideoFrame* frame = module.make_frame(session);
+            if (frame == nullptr) throw std::bad_alloc();
+            slots.push_back({frame, 0, render::Tiles(options.width, options.height)});
+            slots.back().stale.add_all();
+            more.push_back(&slots.back());
         }
+        return more;
     }
 
     // Throws what a status of the module means to the user.
@@ -341,11 +359,6 @@ struct VideoWriter::Impl {
         }
     }
 
-    Slot* unused_slot() {
-        const auto slot = std::find_if(slots.begin(), slots.end(), [](const Slot& s) { return s.uses == 0; });
-        return slot == slots.end() ? nullptr : &*slot;
-    }
-
     // Waits until `ready`, which runs under the lock. Throws what the encoder met.
     template <typename Ready>
     void wait_until(std::unique_lock<std::mutex>& lock, Ready ready) {
@@ -355,22 +368,32 @@ struct VideoWriter::Impl {
         if (failure) std::rethrow_exception(failure);
     }
 
-    void fill(const render::Image& image) {
-        {
-            std::unique_lock lock(mutex);
-            if (latest != nullptr) --std::exchange(latest, nullptr)->uses;
-            wait_until(lock, [this] { return unused_slot() != nullptr; });
-            latest = unused_slot();
-            ++latest->uses;
-        }
+    // One of these that is neither waiting nor the latest.
+    Slot& unused(const std::vector<Slot*>& among) {
+        std::unique_lock lock(mutex);
+        Slot* found = nullptr;
+        wait_until(lock, [&] {
+            for (Slot* slot : among)
+                if (slot->uses == 0) found = slot;
+            return found != nullptr;
+        });
+        return *found;
+    }
+
+    void convert(const render::Image& image, Slot& slot) {
+        if (image.width != options.width || image.height != options.height)
+            throw std::logic_error("a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                                   " in a film of " + std::to_string(options.width) + "x" +
+                                   std::to_string(options.height));
         const Clock::time_point start = Clock::now();
-        convert(image, *latest->frame);
+        convert(image, *slot.frame, slot.stale);
+        slot.stale.clear();
         const double spent = seconds_since(start);
         const std::lock_guard lock(mutex);
         cost.convert_seconds += spent;
     }
 
-    void convert(const render::Image& image, const BeamcamVideoFrame& frame) const {
+    void convert(const render::Image& image, const BeamcamVideoFrame& frame, const render::Tiles& part) const {
         YuvaPlanes planes;
         for (std::size_t i = 0; i < 4; ++i) {
             planes.plane[i] = frame.plane[i];
@@ -378,26 +401,33 @@ struct VideoWriter::Impl {
         }
         switch (layout) {
             case PixelLayout::yuv420:
-                return convert_to_yuv420(image, {{planes.plane[0], planes.plane[1], planes.plane[2]},
-                                                 {planes.stride[0], planes.stride[1], planes.stride[2]}});
+                return convert_to_yuv420(image,
+                                         {{planes.plane[0], planes.plane[1], planes.plane[2]},
+                                          {planes.stride[0], planes.stride[1], planes.stride[2]}},
+                                         part);
             case PixelLayout::yuva420:
-                return convert_to_yuva420(image, planes);
+                return convert_to_yuva420(image, planes, part);
             case PixelLayout::yuva444p10:
-                return convert_to_yuva444p10(image, planes);
+                return convert_to_yuva444p10(image, planes, part);
             case PixelLayout::indices:
-                return table->convert(image, planes.plane[0], planes.stride[0]);
+                return table->convert(image, planes.plane[0], planes.stride[0], part);
             case PixelLayout::bgra:
             case PixelLayout::rgba:
             case PixelLayout::rgb:
-                return copy_rows(image, layout, planes.plane[0], planes.stride[0]);
+                return copy_pixels(image, layout, planes.plane[0], planes.stride[0], part);
         }
     }
 
-    void enqueue_latest() {
+    void enqueue(Slot& slot) {
         std::unique_lock lock(mutex);
-        wait_until(lock, [this] { return queue.size() < slots.size(); });
-        queue.push_back(latest);
-        ++latest->uses;
+        wait_until(lock, [this] { return queue.size() < kLongestQueue; });
+        queue.push_back(&slot);
+        ++slot.uses;
+        if (latest != &slot) {
+            if (latest != nullptr) --latest->uses;
+            latest = &slot;
+            ++slot.uses;
+        }
         changed.notify_all();
     }
 
@@ -424,17 +454,30 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, const VideoOptions& 
 VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::write(const render::Image& image) {
-    if (image.width != impl_->options.width || image.height != impl_->options.height)
-        throw std::logic_error("VideoWriter: a picture of " + std::to_string(image.width) + "x" +
-                               std::to_string(image.height) + " in a film of " + std::to_string(impl_->options.width) +
-                               "x" + std::to_string(impl_->options.height));
-    impl_->fill(image);
-    impl_->enqueue_latest();
+    if (!impl_->own) impl_->own = std::make_unique<VideoInput>(*this);
+    render::Tiles all(impl_->options.width, impl_->options.height);
+    all.add_all();
+    impl_->own->convert(image, all);
+    impl_->own->send();
 }
 
 void VideoWriter::repeat() {
     if (impl_->latest == nullptr) throw std::logic_error("VideoWriter: nothing to repeat");
-    impl_->enqueue_latest();
+    impl_->enqueue(*impl_->latest);
+}
+
+VideoInput::VideoInput(VideoWriter& film) : film_(*film.impl_), slots_(film_.more_slots()) {}
+
+void VideoInput::convert(const render::Image& image, const render::Tiles& changed) {
+    for (Slot* slot : slots_) slot->stale.add(changed);
+    Slot& slot = film_.unused(slots_);
+    film_.convert(image, slot);
+    filled_ = &slot;
+}
+
+void VideoInput::send() {
+    if (filled_ == nullptr) throw std::logic_error("VideoInput: nothing to send");
+    film_.enqueue(*std::exchange(filled_, nullptr));
 }
 
 void VideoWriter::finish() {

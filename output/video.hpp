@@ -1,7 +1,7 @@
 // A film in any of video_format.hpp's kinds; the file's ending names the container. Films of Y'CbCr are tagged BT.709,
-// and MP4 has its index first. Pictures are converted where `write` is called and encoded in a thread of the writer's
-// own, so that encoding overlaps drawing; the order is kept, and memory does not grow with the length of the film (an
-// animated WebP alone is held, compressed, until it is finished).
+// and MP4 has its index first. Pictures are converted in the threads that draw them, only where they changed, and
+// encoded in a thread of the writer's own, so that encoding overlaps drawing; the order is kept, and memory does not
+// grow with the length of the film (an animated WebP alone is held, compressed, until it is finished).
 //
 // The same pictures and options give the same bytes on every machine with the same encoder.
 #pragma once
@@ -16,6 +16,7 @@
 #include "output/errors.hpp"
 #include "output/video_format.hpp"
 #include "render/image.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -48,9 +49,9 @@ std::vector<std::string> problems(const VideoOptions& options, std::string_view 
 // What a film has cost so far, for progress lines and -v.
 struct VideoStatistics {
     long frames = 0;             // encoded
-    double convert_seconds = 0;  // picture to film colours, in the thread that calls `write`
+    double convert_seconds = 0;  // picture to film colours, summed over the threads that draw
     double encode_seconds = 0;   // inside the encoder, in the writer's thread
-    double wait_seconds = 0;     // `write` waiting for the encoder
+    double wait_seconds = 0;     // for the encoder, summed over the threads that draw
 };
 
 class VideoWriter {
@@ -65,7 +66,7 @@ class VideoWriter {
     // The next picture; waits when the encoder is a few pictures behind. Transparent pixels show over black
     // unless the film is transparent itself.
     void write(const render::Image& image);
-    // The picture before, once more, without converting it again. Not the first.
+    // The picture before, once more, without drawing or converting it again. Not the first.
     void repeat();
     // Encodes what is left and puts the film in its place.
     void finish();
@@ -73,8 +74,28 @@ class VideoWriter {
     VideoStatistics statistics() const;
 
   private:
+    friend class VideoInput;
     struct Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+// The way into a film for one thread of several: each converts its own pictures at the same time as the others, then
+// sends them in the film's order.
+class VideoInput {
+  public:
+    explicit VideoInput(VideoWriter& film);  // before the film is finished, which outlives it
+    // Waits while the encoder has to do with this thread's pictures before. `changed`: where the picture may differ
+    // from the last one that this input converted.
+    void convert(const render::Image& image, const render::Tiles& changed);
+    // What was converted becomes the film's next picture.
+    void send();
+
+  private:
+    struct Slot;
+    friend struct VideoWriter::Impl;
+    VideoWriter::Impl& film_;
+    std::vector<Slot*> slots_;  // the film's
+    Slot* filled_ = nullptr;
 };
 
 // Segments that do not make one film: another codec, size, rate, encoder setting or scene, out of order, or no film.

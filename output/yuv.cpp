@@ -55,18 +55,35 @@ BEAMCAM_WIDEST void convert_two_rows(const std::uint32_t* __restrict above, cons
     }
 }
 
-void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) {
+namespace {
+
+void require_even(const render::Image& image, const char* what) {
     if (image.width % 2 != 0 || image.height % 2 != 0)
-        throw std::logic_error("convert_to_yuv420: odd size " + std::to_string(image.width) + "x" +
+        throw std::logic_error(std::string(what) + ": odd size " + std::to_string(image.width) + "x" +
                                std::to_string(image.height));
-    const std::size_t width = static_cast<std::size_t>(image.width);
-    for (int row = 0; row < image.height; row += 2) {
-        const std::uint32_t* pixels = image.pixels.data() + static_cast<std::size_t>(row) * width;
-        convert_two_rows(pixels, pixels + width, image.width, to.plane[0] + row * to.stride[0],
-                         to.plane[0] + (row + 1) * to.stride[0], to.plane[1] + row / 2 * to.stride[1],
-                         to.plane[2] + row / 2 * to.stride[2]);
-    }
 }
+
+render::Tiles whole(const render::Image& image) {
+    render::Tiles all(image.width, image.height);
+    all.add_all();
+    return all;
+}
+
+}  // namespace
+
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::Tiles& part) {
+    require_even(image, "convert_to_yuv420");
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int row = top; row < bottom; row += 2) {
+            const std::uint32_t* pixels = image.pixels.data() + std::ptrdiff_t(row) * image.width + left;
+            convert_two_rows(pixels, pixels + image.width, right - left, to.plane[0] + row * to.stride[0] + left,
+                             to.plane[0] + (row + 1) * to.stride[0] + left,
+                             to.plane[1] + row / 2 * to.stride[1] + left / 2,
+                             to.plane[2] + row / 2 * to.stride[2] + left / 2);
+        }
+    });
+}
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) { convert_to_yuv420(image, to, whole(image)); }
 
 namespace {
 
@@ -81,52 +98,60 @@ Straight straight(std::uint32_t p) {
             channel(static_cast<int>(p & 255)), a};
 }
 
-}  // namespace
-
-void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to) {
-    if (image.width % 2 != 0 || image.height % 2 != 0)
-        throw std::logic_error("convert_to_yuva420: odd size " + std::to_string(image.width) + "x" +
-                               std::to_string(image.height));
-    const int w = image.width;
-    for (int y = 0; y < image.height; y += 2)
-        for (int x = 0; x < w; x += 2) {
-            int r = 0, g = 0, b = 0, weight = 0;
-            for (int j = 0; j < 2; ++j)
-                for (int i = 0; i < 2; ++i) {
-                    const std::uint32_t p = image.pixels[static_cast<std::size_t>(y + j) * static_cast<std::size_t>(w) +
-                                                         static_cast<std::size_t>(x + i)];
-                    const Straight c = straight(p);
-                    to.plane[0][(y + j) * to.stride[0] + x + i] =
-                        static_cast<std::uint8_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 15)) >> 16);
-                    to.plane[3][(y + j) * to.stride[3] + x + i] = static_cast<std::uint8_t>(c.a);
-                    r += c.r * c.a, g += c.g * c.a, b += c.b * c.a, weight += c.a;
-                }
-            if (weight > 0) r = (r + weight / 2) / weight, g = (g + weight / 2) / weight, b = (b + weight / 2) / weight;
-            constexpr int offset = (128 << 16) + (1 << 15);
-            to.plane[1][y / 2 * to.stride[1] + x / 2] =
-                static_cast<std::uint8_t>((kCbR * r + kCbG * g + kCbB * b + offset) >> 16);
-            to.plane[2][y / 2 * to.stride[2] + x / 2] =
-                static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 16);
+// Four pixels with the upper left one at (x, y).
+void convert_four(const render::Image& image, const YuvaPlanes& to, int x, int y) {
+    int r = 0, g = 0, b = 0, weight = 0;
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const Straight c =
+                straight(image.pixels[std::size_t(y + j) * std::size_t(image.width) + std::size_t(x + i)]);
+            to.plane[0][(y + j) * to.stride[0] + x + i] =
+                static_cast<std::uint8_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 15)) >> 16);
+            to.plane[3][(y + j) * to.stride[3] + x + i] = static_cast<std::uint8_t>(c.a);
+            r += c.r * c.a, g += c.g * c.a, b += c.b * c.a, weight += c.a;
         }
+    if (weight > 0) r = (r + weight / 2) / weight, g = (g + weight / 2) / weight, b = (b + weight / 2) / weight;
+    constexpr int offset = (128 << 16) + (1 << 15);
+    to.plane[1][y / 2 * to.stride[1] + x / 2] =
+        static_cast<std::uint8_t>((kCbR * r + kCbG * g + kCbB * b + offset) >> 16);
+    to.plane[2][y / 2 * to.stride[2] + x / 2] =
+        static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 16);
 }
 
-void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to) {
-    const auto w = static_cast<std::size_t>(image.width);
-    for (int y = 0; y < image.height; ++y) {
-        const std::uint32_t* row = image.pixels.data() + static_cast<std::size_t>(y) * w;
-        std::array<std::uint16_t*, 4> out{};
-        for (std::size_t i = 0; i < 4; ++i) out[i] = reinterpret_cast<std::uint16_t*>(to.plane[i] + y * to.stride[i]);
-        for (std::size_t x = 0; x < w; ++x) {
-            const Straight c = straight(row[x]);
-            // Two bits more of the same numbers: four times the levels of 8 bits.
-            out[0][x] = static_cast<std::uint16_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 13)) >> 14);
-            out[1][x] =
-                static_cast<std::uint16_t>((kCbR * c.r + kCbG * c.g + kCbB * c.b + (128 << 16) + (1 << 13)) >> 14);
-            out[2][x] =
-                static_cast<std::uint16_t>((kCrR * c.r + kCrG * c.g + kCrB * c.b + (128 << 16) + (1 << 13)) >> 14);
-            out[3][x] = static_cast<std::uint16_t>((c.a * 1023 + 127) / 255);
-        }
+void convert_row_10(const render::Image& image, const YuvaPlanes& to, int y, int left, int right) {
+    const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
+    std::array<std::uint16_t*, 4> out{};
+    for (std::size_t i = 0; i < 4; ++i) out[i] = reinterpret_cast<std::uint16_t*>(to.plane[i] + y * to.stride[i]);
+    for (int x = left; x < right; ++x) {
+        const Straight c = straight(row[x]);
+        // Two bits more of the same numbers: four times the levels of 8 bits.
+        out[0][x] = static_cast<std::uint16_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 13)) >> 14);
+        out[1][x] = static_cast<std::uint16_t>((kCbR * c.r + kCbG * c.g + kCbB * c.b + (128 << 16) + (1 << 13)) >> 14);
+        out[2][x] = static_cast<std::uint16_t>((kCrR * c.r + kCrG * c.g + kCrB * c.b + (128 << 16) + (1 << 13)) >> 14);
+        out[3][x] = static_cast<std::uint16_t>((c.a * 1023 + 127) / 255);
     }
+}
+
+}  // namespace
+
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+    require_even(image, "convert_to_yuva420");
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; y += 2)
+            for (int x = left; x < right; x += 2) convert_four(image, to, x, y);
+    });
+}
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to) {
+    convert_to_yuva420(image, to, whole(image));
+}
+
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y) convert_row_10(image, to, y, left, right);
+    });
+}
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to) {
+    convert_to_yuva444p10(image, to, whole(image));
 }
 
 }  // namespace beamcam::output

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "render/image.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -22,7 +23,8 @@ struct YuvPlanes {
     std::array<std::ptrdiff_t, 3> stride{};  // [bytes]
 };
 
-// Width and height must be even, and the planes large enough.
+// Width and height must be even, and the planes large enough. With `part`, all else stays as it is.
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::Tiles& part);
 void convert_to_yuv420(const render::Image& image, const YuvPlanes& to);
 
 // The same with transparency: colours not premultiplied, and a fourth plane of alpha, 0…255, full range. Chroma is the
@@ -31,9 +33,11 @@ struct YuvaPlanes {
     std::array<std::uint8_t*, 4> plane{};
     std::array<std::ptrdiff_t, 4> stride{};  // [bytes]
 };
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part);
 void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to);
 
 // 4:4:4 in 10 bits (16-bit words, native order), limited range, with 10 bits of full-range alpha.
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part);
 void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to);
 
 }  // namespace beamcam::output

@@ -2,6 +2,7 @@
 
 #include <cairo.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,9 +15,72 @@ void Brush::end() {
 
 void Brush::use(Color c) { cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a); }
 
-void Brush::move_to(Vec2 p) { cairo_move_to(cr_, p.x, p.y); }
-void Brush::line_to(Vec2 p) { cairo_line_to(cr_, p.x, p.y); }
-void Brush::close() { cairo_close_path(cr_); }
+// ---- where the ink goes ------------------------------------------------------------------------
+
+void Brush::touch(const Box& box) {
+    if (!touched) return;
+    const Box wide = box.inset(-1);  // antialiased edges reach into the next pixel
+    if (!limit_) return touched->add(wide);
+    const double x = std::max(wide.x, limit_->x), y = std::max(wide.y, limit_->y);
+    const Box within{x, y, std::min(wide.right(), limit_->right()) - x, std::min(wide.bottom(), limit_->bottom()) - y};
+    if (!within.empty()) touched->add(within);
+}
+
+void Brush::pass(const Box& box) {
+    if (touched) path_.push_back(box);
+}
+
+// In pieces about as long as a tile, so that a slanted line keeps to few of them.
+void Brush::pass_line(Vec2 from, Vec2 to) {
+    constexpr double kPiece = 48, kMost = 1000;
+    const double pieces = std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost);
+    for (double i = 0; i < pieces; ++i) {
+        const Vec2 a = from + (to - from) * (i / pieces), b = from + (to - from) * ((i + 1) / pieces);
+        path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
+    }
+}
+
+void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
+    const double pieces = std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0), step = (to - from) / pieces;
+    const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
+    for (double i = 0; i < pieces; ++i) {
+        const double p = from + i * step, q = p + step;
+        const double ax = radius * std::cos(p), ay = -radius * std::sin(p), bx = radius * std::cos(q),
+                     by = -radius * std::sin(q);
+        path_.push_back(
+            Box{c.x + std::min(ax, bx), c.y + std::min(ay, by), std::abs(bx - ax), std::abs(by - ay)}.inset(-bulge));
+    }
+}
+
+// A stroke is near its path; a fill is anywhere between.
+void Brush::touch_path(double around, bool inside) {
+    if (!touched) return;
+    if (!inside) {
+        for (const Box& box : path_) touch(box.inset(-around));
+        return;
+    }
+    Bounds all;
+    for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
+    if (!path_.empty()) touch({all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0});
+}
+
+// ---- paths -------------------------------------------------------------------------------------
+
+void Brush::move_to(Vec2 p) {
+    cairo_move_to(cr_, p.x, p.y);
+    start_ = at_ = p, open_ = true;
+}
+void Brush::line_to(Vec2 p) {
+    cairo_line_to(cr_, p.x, p.y);
+    if (!open_) start_ = at_ = p;  // as Cairo does
+    if (touched) pass_line(at_, p);
+    at_ = p, open_ = true;
+}
+void Brush::close() {
+    cairo_close_path(cr_);
+    if (touched && open_) pass_line(at_, start_);
+    at_ = start_;
+}
 
 void Brush::polyline(std::span<const Vec2> points) {
     bool pen_down = false;
@@ -35,23 +99,41 @@ void Brush::arc(Vec2 c, double radius, double from, double to) {
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
         cairo_arc(cr_, c.x, c.y, radius, -from, -to);
+    const auto place = [&](double angle) { return c + Vec2{std::cos(angle), -std::sin(angle)} * radius; };
+    if (!open_) start_ = at_ = place(from);
+    if (touched) pass_line(at_, place(from)), pass_arc(c, radius, from, to);
+    at_ = place(to), open_ = true;
 }
 
 void Brush::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
+    if (touched) pass_arc(c, radius, 0, 2 * std::numbers::pi);
+    start_ = at_ = c + Vec2{radius, 0}, open_ = true;
 }
 
-void Brush::rectangle(const Box& b) { cairo_rectangle(cr_, b.x, b.y, b.w, b.h); }
+void Brush::rectangle(const Box& b) {
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    pass(b);
+    start_ = at_ = {b.x, b.y}, open_ = true;
+}
+
+// ---- ink ---------------------------------------------------------------------------------------
 
 void Brush::fill(Color c) {
-    use(c);
-    cairo_fill(cr_);
+    fill_keeping_path(c);
+    new_path();
 }
 void Brush::fill_keeping_path(Color c) {
     use(c);
     cairo_fill_preserve(cr_);
+    touch_path(0, true);
+}
+void Brush::new_path() {
+    cairo_new_path(cr_);
+    path_.clear();
+    open_ = false;
 }
 void Brush::stroke(const Pen& pen) {
     use(pen.color);
@@ -59,6 +141,9 @@ void Brush::stroke(const Pen& pen) {
     cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
     cairo_stroke(cr_);
+    touch_path(pen.width / 2, false);  // joins are round
+    path_.clear();
+    open_ = false;
 }
 
 }  // namespace beamcam::render

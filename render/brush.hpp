@@ -8,6 +8,7 @@
 
 #include "render/color.hpp"
 #include "render/geometry.hpp"
+#include "render/tiles.hpp"
 
 using cairo_t = struct _cairo;
 
@@ -37,13 +38,28 @@ class Brush {
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
 
+    // Where ink went, while this is set: never too few tiles.
+    Tiles* touched = nullptr;
+
   protected:
     Brush() = default;
     ~Brush() { end(); }
     void begin(cairo_t* cr) { cr_ = cr; }  // takes it over; before anything is drawn
     void end();                            // while its surface is there
     void use(Color color);                 // for what is painted next
+    void touch(const Box& box);            // ink within it, blurred edges included
+    void pass(const Box& box);             // the path is there
+    void new_path();
     cairo_t* cr_ = nullptr;
+    const Box* limit_ = nullptr;  // nothing is painted beyond
+
+  private:
+    void pass_line(Vec2 from, Vec2 to);
+    void pass_arc(Vec2 centre, double radius, double from, double to);
+    void touch_path(double around, bool inside);
+    std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
+    Vec2 start_, at_;        // of the open part of the path
+    bool open_ = false;
 };
 
 }  // namespace beamcam::render

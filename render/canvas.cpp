@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/error.hpp"
 #include "render/font_handles.hpp"
@@ -43,12 +44,12 @@ cairo_surface_t* surface_of(const Image& image) {
 }
 
 // The source, its corner at (x, y), within a rectangle of whole pixels: no edge is blended.
-void blend(cairo_t* cr, const Image& source, int x, int y, int left, int top, int width, int height) {
-    if (width <= 0 || height <= 0) return;
+void blend(cairo_t* cr, const Image& source, int x, int y, const Box& within) {
+    if (within.empty()) return;
     cairo_surface_t* surface = surface_of(source);
     cairo_set_source_surface(cr, surface, x, y);
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-    cairo_rectangle(cr, left, top, width, height);
+    cairo_rectangle(cr, within.x, within.y, within.w, within.h);
     cairo_fill(cr);
     cairo_surface_destroy(surface);
 }
@@ -65,8 +66,9 @@ PangoWeight pango(Weight weight) {
     return PANGO_WEIGHT_NORMAL;
 }
 
-// Sets the layout up; figures are tabular so that running numbers do not jitter.
-void prepare(PangoLayout* layout, const std::string& markup, const TextStyle& style) {
+// Figures are tabular so that running numbers do not jitter.
+PangoLayout* laid_out(PangoContext* context, const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = pango_layout_new(context);
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(font, "Inter,STIXGeneral,Noto Sans CJK SC");
     pango_font_description_set_weight(font, pango(style.weight));
@@ -78,7 +80,18 @@ void prepare(PangoLayout* layout, const std::string& markup, const TextStyle& st
     pango_layout_set_width(layout, style.max_width > 0 ? static_cast<int>(style.max_width * PANGO_SCALE) : -1);
     const std::string wrapped = "<span font_features='tnum=1'>" + markup + "</span>";
     pango_layout_set_markup(layout, wrapped.c_str(), static_cast<int>(wrapped.size()));
+    return layout;
 }
+
+// What was laid out lately is there already: most words of a film are those of the frame before.
+PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextStyle& style) {
+    const double numbers[] = {style.size, style.max_width, static_cast<double>(style.weight)};
+    std::string key(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    key += markup;
+    return fonts.handles().words.get(key, [&] { return laid_out(fonts.handles().context, markup, style); });
+}
+
+constexpr double kHalo = 0.30;  // width of its outline in parts of the size
 
 struct Metrics {
     Box ink;          // relative to the baseline's start
@@ -95,7 +108,7 @@ Metrics metrics(PangoLayout* layout) {
 
 }  // namespace
 
-Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), fonts_(fonts) {
+Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), image_(image), fonts_(fonts) {
     handles_->surface = surface_of(image);
     begin(cairo_create(handles_->surface));
     if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
@@ -113,6 +126,7 @@ void Canvas::rounded(const Box& b, double r) {
     cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
     cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
     cairo_close_path(cr_);
+    pass(b);
 }
 
 void Canvas::fill_even_odd(Color c) {
@@ -123,6 +137,7 @@ void Canvas::fill_even_odd(Color c) {
 void Canvas::paint(Color c) {
     use(c);
     cairo_paint(cr_);
+    if (touched) touched->add_all();
 }
 
 // A shaft and a filled head; an arrow shorter than its head is a smaller head.
@@ -145,34 +160,43 @@ void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
     fill(pen.color);
 }
 
-void Canvas::image_until(const Image& source, int x, int y, int end) {
-    blend(cr_, source, x, y, x, y, std::clamp(end - x, 0, source.width), source.height);
-    use({});
+namespace {
+// In whole pixels, rounded outwards, within the source.
+Box whole_part(const Image& source, const Box& part) {
+    const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
+    const double y0 = std::clamp(std::floor(part.y), 0.0, double(source.height));
+    const double x1 = std::clamp(std::ceil(part.right()), x0, double(source.width));
+    const double y1 = std::clamp(std::ceil(part.bottom()), y0, double(source.height));
+    return {x0, y0, x1 - x0, y1 - y0};
 }
+}  // namespace
 
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
-    const int x0 = std::clamp(static_cast<int>(std::floor(part.x)), 0, source.width);
-    const int y0 = std::clamp(static_cast<int>(std::floor(part.y)), 0, source.height);
-    const int x1 = std::clamp(static_cast<int>(std::ceil(part.right())), x0, source.width);
-    const int y1 = std::clamp(static_cast<int>(std::ceil(part.bottom())), y0, source.height);
-    blend(cr_, source, x, y, x + x0, y + y0, x1 - x0, y1 - y0);
+    const Box b = whole_part(source, part);
+    blend(cr_, source, x, y, {b.x + x, b.y + y, b.w, b.h});
     use({});
+    if (!b.empty()) touch({b.x + x, b.y + y, b.w, b.h});
 }
 
-void Canvas::smooth_edges(bool on) {
-    cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
+    cairo_set_operator(cr_, CAIRO_OPERATOR_SOURCE);
+    image_part(source, x, y, part);
+    cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
 }
+
+void Canvas::smooth_edges(bool on) { cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE); }
 
 void Canvas::clip(const Box& b, const std::function<void()>& draw) {
     cairo_save(cr_);
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
     cairo_clip(cr_);
+    const Box* before = std::exchange(limit_, &b);
     draw();
+    limit_ = before;
     cairo_restore(cr_);
 }
 
 std::string Canvas::drawable(std::string_view plain) const {
-    PangoLayout* layout = fonts_.handles().layout;
     std::string out;
     const char* end = plain.data() + plain.size();
     for (const char* at = plain.data(); at < end; at = g_utf8_next_char(at)) {
@@ -182,8 +206,7 @@ std::string Canvas::drawable(std::string_view plain) const {
         // Joiners and selectors only tell pictographs how to look.
         if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
         if (character >= 0x80) {
-            prepare(layout, escape(one), {});
-            if (pango_layout_get_unknown_glyphs_count(layout) > 0) continue;
+            if (pango_layout_get_unknown_glyphs_count(prepare(fonts_, escape(one), {})) > 0) continue;
         }
         out += one;
     }
@@ -191,8 +214,7 @@ std::string Canvas::drawable(std::string_view plain) const {
 }
 
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
-    PangoLayout* layout = fonts_.handles().layout;
-    prepare(layout, markup, style);
+    PangoLayout* layout = prepare(fonts_, markup, style);
     const Metrics m = metrics(layout);
     double x = baseline.x;
     if (style.align == Align::centre) x -= m.advance / 2;
@@ -200,20 +222,20 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     cairo_move_to(cr_, x, baseline.y - m.baseline);
     if (style.halo) {
         pango_cairo_layout_path(cr_, layout);
-        stroke({*style.halo, 0.30 * style.size});
+        stroke({*style.halo, kHalo * style.size});
         cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
     use(style.color);
     pango_cairo_show_layout(cr_, layout);
-    cairo_new_path(cr_);
+    new_path();
     const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
+    touch(ink.inset(style.halo ? -1 - kHalo / 2 * style.size : -1));  // glyphs stand on whole pixels
     if (record) record->push_back(ink);
     return {x, ink.y, m.advance, ink.h};
 }
 
 Box Canvas::measure(const std::string& markup, const TextStyle& style) {
-    PangoLayout* layout = fonts_.handles().layout;
-    prepare(layout, markup, style);
+    PangoLayout* layout = prepare(fonts_, markup, style);
     const Metrics m = metrics(layout);
     return {0, m.ink.y, m.advance, m.ink.h};
 }

@@ -45,10 +45,11 @@ class Canvas : public Brush {
     void paint(Color color);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
 
-    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards], or what
-    // lies left of the picture's column `end`. Whole pixels.
+    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards]. Whole
+    // pixels.
     void image_part(const Image& source, int x, int y, const Box& part);
-    void image_until(const Image& source, int x, int y, int end);
+    // Puts it in the place of what is there.
+    void replace_part(const Image& source, int x, int y, const Box& part);
     void smooth_edges(bool on);
     // What `draw` draws shows within the box only.
     void clip(const Box& box, const std::function<void()>& draw);
@@ -57,6 +58,7 @@ class Canvas : public Brush {
     std::string drawable(std::string_view plain) const;
     Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
     const Fonts& fonts() const { return fonts_; }
+    const Image& image() const { return image_; }                    // as drawn so far
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
 
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
@@ -64,6 +66,7 @@ class Canvas : public Brush {
   private:
     struct Handles;
     std::unique_ptr<Handles> handles_;
+    const Image& image_;
     const Fonts& fonts_;
 };
 

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "render/mechanism_panel.hpp"
 #include "render/panel.hpp"
 #include "render/ticks.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::render {
 
@@ -28,9 +30,17 @@ struct Film::Prepared {
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_ground();
+        for (std::size_t i = 0; i < panels.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
+        facts.fonts.reset();
     }
 
     void draw_clock(Canvas& canvas, int frame) const;
+    void draw_moving(Canvas& canvas, int frame, Style style,
+                     const std::vector<std::unique_ptr<Panel::State>>& states) const;
+    std::vector<int> stages(int frame) const;
+    bool growing_apart = true;  // no two panels add to the same pixels
 
   private:
     void draw_ground();
@@ -38,13 +48,46 @@ struct Film::Prepared {
     void draw_color_bars(Canvas& canvas) const;
 };
 
+// What a thread keeps from one frame to the next. A frame is the kept layer (the ground, and what panels added until
+// then) with what moves on top, unclipped: the same pixels whichever was drawn before.
 struct Film::Tools {
-    explicit Tools(const Prepared& p) : fonts(p.facts.cjk) {
+    explicit Tools(const Prepared& p)
+        : fonts(p.facts.cjk),
+          picture(p.ground.width, p.ground.height),
+          grown(picture.width, picture.height),
+          moved(grown),
+          changed(grown) {
         ++p.facts.counts->font_sets;
         for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
+
+    // Brings the kept layer to a frame.
+    void keep(const Prepared& p, int wanted) {
+        std::vector<int> now = p.stages(wanted);
+        const bool anew = kept_frame < 0 || wanted < kept_frame || now != stages || !p.growing_apart;
+        kept_frame = -1;
+        if (anew) {
+            kept = p.ground;
+            grown.add_all();
+        }
+        Canvas canvas(kept, fonts);
+        canvas.touched = &grown;
+        for (std::size_t i = 0; i < p.panels.size(); ++i)
+            p.panels[i]->grow(canvas, p.ground, wanted, anew, states[i].get());
+        stages = std::move(now);
+        kept_frame = wanted;
+    }
+
     Fonts fonts;
     std::vector<std::unique_ptr<Panel::State>> states;
+    Image kept;
+    int kept_frame = -1;      // < 0: none
+    std::vector<int> stages;  // of that frame
+    Image picture;
+    int frame = -1;  // that the picture shows; < 0: none
+    Tiles grown;     // where `kept` changed since the picture was drawn
+    Tiles moved;     // where the picture may differ from `kept` as it was then
+    Tiles changed;   // where the picture may differ from the one before
 };
 
 // ---- the ground layer ------------------------------------------------------------------------
@@ -52,9 +95,7 @@ struct Film::Tools {
 void Film::Prepared::draw_ground() {
     const FilmSetup& setup = *facts.setup;
     ground = Image(setup.width, setup.height);
-    const Fonts fonts(facts.cjk);
-    ++facts.counts->font_sets;
-    Canvas canvas(ground, fonts);
+    Canvas canvas(ground, *facts.fonts);
     canvas.record = &ground_texts;
     if (!setup.view.transparent) canvas.paint(facts.palette->paper);
     draw_header(canvas);
@@ -164,8 +205,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
 
 Film::Film(FilmSetup setup) : Film(std::make_shared<const FilmSetup>(std::move(setup))) {}
 Film::Film(std::shared_ptr<const FilmSetup> setup) : Film(std::make_shared<const Prepared>(std::move(setup))) {}
-Film::Film(std::shared_ptr<const Prepared> prepared)
-    : prepared_(std::move(prepared)), tools_(std::make_unique<Tools>(*prepared_)) {}
+Film::Film(std::shared_ptr<const Prepared> prepared) : prepared_(std::move(prepared)) {}
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
@@ -175,23 +215,60 @@ int Film::frames() const { return prepared_->facts.frames(); }
 double Film::exaggeration() const { return prepared_->facts.factor; }
 const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
 
-void Film::paint(int frame, Style style, Image& out, std::vector<Box>* texts) {
-    const Prepared& p = *prepared_;
-    if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
-    out = p.ground;
-    Canvas canvas(out, tools_->fonts);
-    canvas.record = texts;
-    for (std::size_t i = 0; i < p.panels.size(); ++i) p.panels[i]->draw(canvas, frame, style, tools_->states[i].get());
-    p.draw_clock(canvas, frame);
+std::vector<int> Film::Prepared::stages(int frame) const {
+    std::vector<int> out;
+    for (const auto& panel : panels) out.push_back(panel->stage(frame));
+    return out;
 }
 
-void Film::draw(int frame, Image& out) { paint(frame, prepared_->facts.setup->view.style, out, nullptr); }
+void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
+                                 const std::vector<std::unique_ptr<Panel::State>>& states) const {
+    for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
+    draw_clock(canvas, frame);
+}
+
+// Made when first needed: the film that others are made from may never draw.
+Film::Tools& Film::tools_for(int frame) {
+    if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
+    if (!tools_) tools_ = std::make_unique<Tools>(*prepared_);
+    return *tools_;
+}
+
+const Image& Film::draw(int frame) {
+    Tools& t = tools_for(frame);
+    t.changed.clear();
+    if (t.frame == frame) return t.picture;
+    if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first, or the last one failed halfway
+    t.keep(*prepared_, frame);
+    t.changed.add(t.moved);
+    t.changed.add(t.grown);
+    copy(t.kept, t.picture, t.changed);
+    t.grown.clear();
+    t.moved.clear();
+    Canvas canvas(t.picture, t.fonts);
+    canvas.touched = &t.moved;
+    prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
+    t.changed.add(t.moved);
+    t.frame = frame;
+    return t.picture;
+}
+
+const Tiles& Film::changed() const {
+    if (!tools_) throw std::logic_error("Film::changed: nothing is drawn yet");
+    return tools_->changed;
+}
+
+void Film::draw(int frame, Image& out) { out = draw(frame); }
 
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
+    Tools& t = tools_for(frame);
     FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts};
-    Image scratch;
-    paint(frame, Style::flat, scratch, &out.texts);
+    t.keep(p, frame);
+    Image scratch = t.kept;
+    Canvas canvas(scratch, t.fonts);
+    canvas.record = &out.texts;
+    p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {
         out.camera = p.mechanism->camera();
         out.beam = p.mechanism->beam(frame);

@@ -18,6 +18,7 @@
 #include "render/geometry.hpp"
 #include "render/image.hpp"
 #include "render/layout.hpp"
+#include "render/tiles.hpp"
 #include "sim/channels.hpp"
 #include "sim/pose.hpp"
 #include "sim/problem.hpp"
@@ -115,7 +116,11 @@ class Film {
     Film another() const;
 
     int frames() const;
-    void draw(int frame, Image& out);   // `out` is resized as needed; 0 <= frame < frames()
+    // 0 <= frame < frames(). The picture stays until the next is drawn. Only what moved since the one before is drawn
+    // anew, and every pixel is as if all were.
+    const Image& draw(int frame);
+    const Tiles& changed() const;       // where the last picture may differ from the one before; all of the first
+    void draw(int frame, Image& out);   // a copy; `out` is resized as needed
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
     const DrawingCounts& counts() const;
@@ -124,7 +129,7 @@ class Film {
     struct Prepared;
     struct Tools;
     explicit Film(std::shared_ptr<const Prepared> prepared);
-    void paint(int frame, Style style, Image& out, std::vector<Box>* texts);
+    Tools& tools_for(int frame);
     std::shared_ptr<const Prepared> prepared_;
     std::unique_ptr<Tools> tools_;
 };

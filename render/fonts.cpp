@@ -37,9 +37,10 @@ constexpr std::array kPrintCjkFiles{KnownFile{"DroidSansFallbackFull.ttf", "font
 
 std::vector<fs::path> folders() {
     if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
-    return {"/usr/share/fonts/opentype/inter", "/usr/share/fonts/opentype/stix", "/usr/share/fonts/opentype/noto",
-            "/usr/share/fonts/truetype/inter", "/usr/share/fonts/truetype/liberation",
-            "/usr/share/fonts/truetype/liberation2", "/usr/share/fonts/truetype/droid", "/usr/local/share/fonts"};
+    return {"/usr/share/fonts/opentype/inter",      "/usr/share/fonts/opentype/stix",
+            "/usr/share/fonts/opentype/noto",       "/usr/share/fonts/truetype/inter",
+            "/usr/share/fonts/truetype/liberation", "/usr/share/fonts/truetype/liberation2",
+            "/usr/share/fonts/truetype/droid",      "/usr/local/share/fonts"};
 }
 
 // Empty when it is nowhere.
@@ -103,6 +104,7 @@ std::vector<FontFile> font_files(Typefaces typefaces) {
 }
 
 Fonts::Handles::~Handles() {
+    words.forget();
     if (layout) g_object_unref(layout);
     if (context) g_object_unref(context);
     if (map) {
@@ -116,9 +118,10 @@ std::string missing_glyphs(std::string_view utf8) {
     if (needs_cjk(utf8))
         return fmt::format("no font of the figure can write \"{}\"; install the Debian package fonts-droid-fallback",
                            utf8);
-    return fmt::format("no font of the figure can write \"{}\"; use other characters, or install the Debian packages "
-                       "fonts-liberation and fonts-droid-fallback",
-                       utf8);
+    return fmt::format(
+        "no font of the figure can write \"{}\"; use other characters, or install the Debian packages "
+        "fonts-liberation and fonts-droid-fallback",
+        utf8);
 }
 
 Fonts::Fonts(bool cjk, Typefaces typefaces) : handles_(std::make_unique<Handles>()) {
@@ -129,7 +132,8 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : handles_(std::make_unique<Handles>
     const bool print = typefaces == Typefaces::print;
     for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintFiles) : kFiles) add(h.config, file);
     if (cjk)
-        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles) add(h.config, file);
+        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles)
+            add(h.config, file);
 
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
     if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");

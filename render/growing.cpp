@@ -17,13 +17,15 @@ GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& p
     return out;
 }
 
-const Image& GrowingLayer::until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen) {
+Box GrowingLayer::until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen) {
     const auto last = static_cast<std::size_t>(std::ranges::upper_bound(path.times, t) - path.times.begin());
-    if (last < drawn_) {
+    const bool back = last < drawn_;
+    if (back) {
         std::ranges::fill(image_.pixels, 0U);
         drawn_ = 0;
     }
-    if (last == drawn_) return image_;
+    if (last == drawn_) return back ? whole() : Box{};
+    Bounds changed;
     Canvas canvas(image_, fonts);
     for (std::size_t i = std::max<std::size_t>(drawn_, 1); i < last; ++i) {
         const Vec2 a = path.points[i - 1], b = path.points[i];
@@ -31,9 +33,12 @@ const Image& GrowingLayer::until(double t, const GrowingPath& path, const Fonts&
         canvas.move_to(a);
         canvas.line_to(b);
         canvas.stroke(pen);
+        changed.add(a, pen.width / 2 + 1), changed.add(b, pen.width / 2 + 1);
     }
     drawn_ = last;
-    return image_;
+    if (back) return whole();
+    return changed.x1 < changed.x0 ? Box{}
+                                   : Box{changed.x0, changed.y0, changed.x1 - changed.x0, changed.y1 - changed.y0};
 }
 
 }  // namespace beamcam::render

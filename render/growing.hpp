@@ -8,7 +8,6 @@
 
 #include "render/canvas.hpp"
 #include "render/geometry.hpp"
-#include "render/panel.hpp"
 
 namespace beamcam::render {
 
@@ -19,11 +18,13 @@ struct GrowingPath {
 // Points nearer than `least` pixels to the one before are left out, the last one excepted.
 GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least);
 
-class GrowingLayer final : public Panel::State {
+class GrowingLayer {
   public:
     GrowingLayer(int width, int height) : image_(width, height) {}
-    // The pieces that end at or before t.
-    const Image& until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen);
+    // The pieces that end at or before t are drawn. Where the layer changed; all of it after going back in time.
+    Box until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen);
+    const Image& image() const { return image_; }
+    Box whole() const { return {0, 0, double(image_.width), double(image_.height)}; }
 
   private:
     Image image_;

@@ -268,6 +268,20 @@ Perspective MechanismPanel::view_of(int frame) const {
                                 orbit.yaw + orbit.swing * std::sin(turn), orbit.pitch);
 }
 
+bool MechanismPanel::whole_path() const {
+    return facts_.setup->view.tip_path && facts_.setup->view.style != Style::solid;
+}
+
+void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const {
+    if (!whole_path()) return;
+    GrowingLayer& path = static_cast<Threads*>(state)->path;
+    Box changed = path.until(facts_.pose(member_, frame).t, path_, kept.fonts(), {palette_.motion_faint, 1.6 * u_});
+    if (anew) changed = path.whole();
+    if (changed.empty()) return;
+    kept.replace_part(ground, 0, 0, {changed.x + box_.x, changed.y + box_.y, changed.w, changed.h});
+    kept.image_part(path.image(), static_cast<int>(box_.x), static_cast<int>(box_.y), changed);
+}
+
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<Threads*>(state);
     const Pose& pose = facts_.pose(member_, frame);
@@ -276,7 +290,6 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     threads.trace.show_until(pose.t);
     const Perspective view = view_of(frame);
     const Scene s{canvas, frame, pose, drawn, shape, *this, style == Style::solid ? &view : nullptr};
-    if (facts_.setup->view.tip_path && !s.view) whole_path(s, threads);
     trail(s);
     switch (style) {
         case Style::solid:
@@ -331,11 +344,6 @@ std::vector<Color> MechanismPanel::rim_colors(const Trace& trace, double now) co
     return out;
 }
 
-void MechanismPanel::whole_path(const Scene& s, Threads& threads) const {
-    const Image& layer = threads.path.until(s.pose.t, path_, s.canvas.fonts(), {palette_.motion_faint, 1.6 * u_});
-    s.canvas.image_part(layer, static_cast<int>(box_.x), static_cast<int>(box_.y), {0, 0, box_.w, box_.h});
-}
-
 void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const {
     if (!threads.lit) {
         threads.lit = make_lit_renderer(static_cast<int>(lit_box_.w), static_cast<int>(lit_box_.h));
@@ -373,7 +381,7 @@ void MechanismPanel::ghosts(const Scene& s) const {
 
 // The tip's path over the last frames, fading.
 void MechanismPanel::trail(const Scene& s) const {
-    if (facts_.setup->view.tip_path && !s.view) return;  // all of it is drawn already
+    if (whole_path()) return;  // all of it is drawn already
     const auto now = static_cast<std::size_t>(s.frame);
     for (std::size_t k = now; k-- > 0;) {
         const double age = double(moved_[now] - moved_[k]) / kTrailFrames;

@@ -17,6 +17,8 @@ class MechanismPanel final : public Panel {
 
     std::unique_ptr<State> make_state() const override;
     void draw_ground(Canvas& canvas) const override;
+    void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override;
+    Box growing() const override { return whole_path() ? box_ : Box{}; }
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
     const Camera& camera() const { return look_.camera; }
@@ -61,7 +63,7 @@ class MechanismPanel final : public Panel {
     void label(Canvas& canvas) const;
 
     void ghosts(const Scene& s) const;
-    void whole_path(const Scene& s, Threads& threads) const;
+    bool whole_path() const;  // of the tip, instead of a trail
     void trail(const Scene& s) const;
     void angle_arc(const Scene& s) const;
     void turning_arrow(const Scene& s) const;

@@ -80,6 +80,8 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
         cjk = cjk || needs_cjk(motion(m).label);
         samples.push_back(contact_samples(motion(m).trace, motion(m).problem, motion(m).impacts));
     }
+    fonts = std::make_unique<const Fonts>(cjk);
+    ++counts->font_sets;
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     places = setup->layout ? layout(setup->width, setup->height, *setup->layout)
                            : layout(setup->width, setup->height, standard(*setup), mechanisms);
@@ -179,6 +181,9 @@ void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<flo
         canvas.stroke({force_color(*facts.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
     }
 }
+
+void Panel::grow(Canvas&, const Image&, int, bool, State*) const {}
+int Panel::stage(int) const { return 0; }
 
 std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot) {
     switch (slot.spec.kind) {

@@ -1,4 +1,5 @@
-// A panel: a part of the frame with a box of its own, a ground that never changes and a layer that moves.
+// A panel: a part of the frame with a box of its own, a ground that never changes, a layer that grows with time, and
+// what moves on top.
 //
 // Panels are made once for a film and shared by the threads that draw it; what a thread keeps between frames (a GL
 // context, a layer that grows) is its State, which may save time but never changes a pixel.
@@ -32,6 +33,7 @@ struct FilmFacts {
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
+    std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
 
     int frames() const { return static_cast<int>(setup->poses.size()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }
@@ -56,7 +58,17 @@ class Panel {
 
     virtual std::unique_ptr<State> make_state() const { return nullptr; }
     virtual void draw_ground(Canvas& canvas) const = 0;
-    // `style` may be flatter than the view's. `state` is one that this panel made.
+
+    // What stays once it is there, under all that moves: added to `kept`, which is the ground with what this panel
+    // added for earlier frames of the same stage, or the `ground` alone when `anew`. `state` is one that this panel
+    // made.
+    virtual void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const;
+    // Frames of another stage keep nothing of each other.
+    virtual int stage(int frame) const;
+    // All that grows, nothing when nothing does [px].
+    virtual Box growing() const { return {}; }
+
+    // What moves. `style` may be flatter than the view's.
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
 };
 

@@ -111,17 +111,32 @@ class PhasePanel final : public Panel {
         }
     }
 
-    void draw(Canvas& canvas, int frame, Style, State* state) const override {
-        const double u = facts_.unit;
+    Box growing() const override { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
+    void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override {
         auto& layers = static_cast<Layers*>(state)->layers;
+        std::vector<Box> changed;
+        for (std::size_t m = 0; m < paths_.size(); ++m)
+            changed.push_back(layers[m].until(facts_.pose(static_cast<int>(m), frame).t, paths_[m], kept.fonts(),
+                                              {color(m), 1.3 * facts_.unit}));
+        if (anew && !layers.empty()) changed = {layers.front().whole()};
+        const Box at = growing();
+        for (const Box& box : changed) lay_down(kept, ground, layers, box, at);
+    }
+    // The paths lie upon each other: where one grew, all are laid down again.
+    static void lay_down(Canvas& kept, const Image& ground, const std::vector<GrowingLayer>& layers, const Box& part,
+                         const Box& at) {
+        if (part.empty()) return;
+        kept.replace_part(ground, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
+        for (const GrowingLayer& layer : layers)
+            kept.image_part(layer.image(), static_cast<int>(at.x), static_cast<int>(at.y), part);
+    }
+
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const sim::Pose& pose = facts_.pose(static_cast<int>(m), frame);
-            const Image& layer = layers[m].until(pose.t, paths_[m], canvas.fonts(), {color(m), 1.3 * u});
-            canvas.image_part(layer, static_cast<int>(plot_.x) - 8, static_cast<int>(plot_.y) - 8,
-                              {0, 0, double(layer.width), double(layer.height)});
-            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * u);
+            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * facts_.unit);
             canvas.fill_keeping_path(color(m));
-            canvas.stroke({facts_.palette->paper, 1.6 * u});
+            canvas.stroke({facts_.palette->paper, 1.6 * facts_.unit});
         }
     }
 

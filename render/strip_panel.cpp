@@ -99,20 +99,30 @@ std::string unit_text(Channel channel, const sim::Problem& problem) {
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
 
 class ChartPanel : public Panel {
+    struct Shown final : State {
+        double until = 0;  // the picture's first column that shows no past
+    };
+
   public:
     ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
         : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
-        const Fonts fonts(facts.cjk);
-        ++facts.counts->font_sets;
-        past_ = chart_.past(fonts, *facts.palette);
+        past_ = chart_.past(*facts.fonts, *facts.palette);
     }
     void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
-        const double t = facts_.pose(0, frame).t;
+    Box growing() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
+    std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
+    // What has been, column by column.
+    void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
+        if (chart_.windowed()) return;
         const Box at = chart_.past_box();
-        if (!chart_.windowed())
-            canvas.image_until(past_, static_cast<int>(at.x), static_cast<int>(at.y), chart_.cursor_column(t) + 1);
-        chart_.draw_moving(canvas, *facts_.palette, t, readings(frame));
+        double& shown = static_cast<Shown*>(state)->until;
+        if (anew) shown = at.x;
+        const double until = std::max(shown, chart_.cursor_column(facts_.pose(0, frame).t) + 1.0);
+        kept.image_part(past_, static_cast<int>(at.x), static_cast<int>(at.y), {shown - at.x, 0, until - shown, at.h});
+        shown = until;
+    }
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        chart_.draw_moving(canvas, *facts_.palette, facts_.pose(0, frame).t, readings(frame));
     }
 
   protected:
@@ -292,6 +302,14 @@ class StripPanel final : public ChartPanel {
 // The channel during one collision, from a little before its first touch: t₀ is that touch. It stays until the next
 // collision begins; before the first it shows that one's axes. All collisions share the axis of values.
 class CollisionPanel final : public Panel {
+    struct Shown final : State {
+        std::optional<Chart> chart;
+        std::size_t which = 0;
+        Image past;              // the plot as it will be when the collision is over
+        double until = 0;        // the picture's first column that shows no past
+        std::vector<Box> texts;  // of the axes
+    };
+
   public:
     CollisionPanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, facts.unit)) {
@@ -312,7 +330,9 @@ class CollisionPanel final : public Panel {
             const Channel channel = spec_.channels[i];
             Curve curve = curve_of(facts, 0, channel);
             curve.color = is_force(channel) ? p.contact : single ? p.motion : series_color(p, i);
-            curve.faint = is_force(channel) ? p.contact_faint : single ? p.motion_faint : mix(p.paper, curve.color, 0.25);
+            curve.faint = is_force(channel) ? p.contact_faint
+                          : single          ? p.motion_faint
+                                            : mix(p.paper, curve.color, 0.25);
             const std::string symbol = symbol_of(channel);
             if (!single) curve.label = symbol;
             content_.symbol += fmt::format("{}{}", i > 0 ? ", " : "", single ? symbol : colored(symbol, curve.color));
@@ -323,17 +343,46 @@ class CollisionPanel final : public Panel {
     }
 
     void draw_ground(Canvas&) const override {}
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
+    std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
+    int stage(int frame) const override { return static_cast<int>(shown(facts_.pose(0, frame).t)); }
+    Box growing() const override { return box_.inset(-8); }
+
+    // The axes of a collision when it begins, then column by column what has been.
+    void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
+        Shown& s = *static_cast<Shown*>(state);
+        const double now = facts_.pose(0, frame).t;
+        const std::size_t which = shown(now);
+        if (!s.chart || s.which != which) {
+            s.chart.emplace(chart_of(which));
+            s.which = which;
+            s.past = Image();
+        }
+        const Box at = s.chart->past_box();
+        if (anew) {
+            s.texts.clear();
+            kept.record = &s.texts;
+            s.chart->draw_ground(kept, *facts_.palette);
+            kept.record = nullptr;
+            if (s.past.pixels.empty()) s.past = past_of(*s.chart, kept);
+            s.until = at.x;
+        }
+        const double t = now - start(which);
+        if (!(t > s.chart->time().low)) return;
+        const double until = std::max(s.until, s.chart->cursor_column(std::min(t, s.chart->time().high)) + 1.0);
+        kept.replace_part(s.past, static_cast<int>(at.x), static_cast<int>(at.y),
+                          {s.until - at.x, 0, until - s.until, at.h});
+        s.until = until;
+    }
+
+    void draw(Canvas& canvas, int frame, Style, State* state) const override {
+        const Shown& s = *static_cast<const Shown*>(state);
+        if (canvas.record) canvas.record->insert(canvas.record->end(), s.texts.begin(), s.texts.end());
         const sim::Pose& pose = facts_.pose(0, frame);
-        const std::size_t which = shown(pose.t);
-        const Chart chart = chart_of(which);
-        chart.draw_ground(canvas, *facts_.palette);
-        const double t0 = spans_.empty() ? 0 : spans_[which].low, t = pose.t - t0;
-        const bool within = t >= chart.time().low && t <= chart.time().high;
-        if (t > chart.time().low) chart.draw_past(canvas, *facts_.palette, std::min(t, chart.time().high));
+        const double t = pose.t - start(s.which);
+        if (t < s.chart->time().low || t > s.chart->time().high) return;
         std::vector<Reading> readings;
         for (const Channel channel : spec_.channels) readings.push_back({reading(facts_, 0, frame, channel)});
-        if (within) chart.draw_moving(canvas, *facts_.palette, t, readings);
+        s.chart->draw_moving(canvas, *facts_.palette, t, readings);
     }
 
   private:
@@ -344,6 +393,16 @@ class CollisionPanel final : public Panel {
         std::size_t which = 0;
         while (which + 1 < spans_.size() && spans_[which + 1].low - margin(which + 1) <= t) ++which;
         return which;
+    }
+    double start(std::size_t which) const { return spans_.empty() ? 0 : spans_[which].low; }
+    Image past_of(const Chart& chart, const Canvas& ground) const {
+        Image image = ground.image();
+        Canvas canvas(image, ground.fonts());
+        chart.draw_past(canvas, *facts_.palette, chart.time().high);
+        const Box at = chart.past_box();
+        Image plot(static_cast<int>(at.w), static_cast<int>(at.h));
+        Canvas(plot, ground.fonts()).replace_part(image, static_cast<int>(-at.x), static_cast<int>(-at.y), at);
+        return plot;
     }
     double margin(std::size_t which) const { return 0.15 * std::max(spans_[which].high - spans_[which].low, 1e-4); }
 
@@ -360,7 +419,7 @@ class CollisionPanel final : public Panel {
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
-        const double t0 = spans_.empty() ? 0 : spans_[which].low;
+        const double t0 = start(which);
         for (const Curve& all : curves_) {
             Curve curve;
             curve.color = all.color, curve.faint = all.faint, curve.label = all.label;

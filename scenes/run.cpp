@@ -532,13 +532,6 @@ class Runner {
                 const std::lock_guard lock(mutex);
                 return progress_.reach(static_cast<double>(++done));
             }
-            if (video) {
-                gate.pass(k, [&] {
-                    video->write(image);
-                    progress_.reach(static_cast<double>(video->statistics().frames));
-                });
-                return;
-            }
             const fs::path file =
                 path_of(p.kind == Pictures::Kind::still
                             ? p.file
@@ -554,18 +547,23 @@ class Runner {
         };
         auto make_worker = [&]() -> Worker {
             auto own = std::make_shared<render::Film>(film.another());
-            auto image = std::make_shared<render::Image>();
-            return [&, own, image](long k) {
+            auto input = video ? std::make_shared<output::VideoInput>(*video) : nullptr;
+            return [&, own, input](long k) {
                 stop_if_interrupted();
                 const auto start = Clock::now();
-                own->draw(p.draw[static_cast<std::size_t>(k)], *image);
+                const render::Image& image = own->draw(p.draw[static_cast<std::size_t>(k)]);
                 const double spent = seconds_since(start);
                 {
                     const std::lock_guard lock(mutex);
                     times_.draw += spent;
                     ++work_.frames_drawn;
                 }
-                put(k, *image);
+                if (!video) return put(k, image);
+                input->convert(image, own->changed());
+                gate.pass(k, [&] {
+                    input->send();
+                    progress_.reach(static_cast<double>(video->statistics().frames));
+                });
             };
         };
         fan_out(count, thread_count(options_.threads), make_worker, gate);

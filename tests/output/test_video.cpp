@@ -111,6 +111,53 @@ TEST(Film, ARepeatedPictureIsTheSameAsOneWrittenAgain) {
     EXPECT_EQ(sha256_of_file(scratch / "written.mp4"), sha256_of_file(scratch / "repeated.mp4"));
 }
 
+// The tiles in which two pictures differ, and no more.
+render::Tiles difference(const render::Image& a, const render::Image& b) {
+    render::Tiles tiles(a.width, a.height);
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const auto at = static_cast<std::size_t>(y * a.width + x);
+            if (a.pixels[at] != b.pixels[at]) tiles.add({x + 0.25, y + 0.25, 0.5, 0.5});
+        }
+    return tiles;
+}
+
+// Two inputs that take turns, as two threads do: whatever the format, the film is that of whole pictures.
+TEST(Film, PicturesConvertedWhereTheyChangedGiveTheSameBytes) {
+    struct Kind {
+        const char* ending;
+        Codec codec;
+        bool transparent;
+    };
+    for (const Kind& kind :
+         {Kind{".mp4", Codec::h264, false}, Kind{".webm", Codec::vp9, true}, Kind{".mov", Codec::prores, true},
+          Kind{".mkv", Codec::ffv1, false}, Kind{".gif", Codec::gif, false}, Kind{".apng", Codec::apng, false}}) {
+        Scratch scratch;
+        VideoOptions options = small_film();
+        options.width = 160;
+        options.fps = 50;
+        options.codec = kind.codec;
+        options.transparent = kind.transparent;
+        if (kind.codec == Codec::gif) options.palette = {0xfff4f1ea, 0xff1f4e8c};
+        const std::filesystem::path whole = (scratch / "whole").string() + kind.ending,
+                                    parts = (scratch / "parts").string() + kind.ending;
+        write_film(whole, options, 12);
+        VideoWriter film(parts, options);
+        VideoInput inputs[] = {VideoInput(film), VideoInput(film)};
+        render::Image before[] = {render::Image(160, 48), render::Image(160, 48)};
+        for (int i = 0; i < 12; ++i) {
+            const render::Image picture = moving_square(160, 48, i);
+            const render::Tiles changed = difference(before[i % 2], picture);
+            inputs[i % 2].convert(picture, changed);
+            inputs[i % 2].send();
+            before[i % 2] = picture;
+        }
+        film.finish();
+        EXPECT_EQ(film.statistics().frames, 12);
+        EXPECT_EQ(sha256_of_file(whole), sha256_of_file(parts)) << kind.ending;
+    }
+}
+
 TEST(Film, SamePicturesGiveTheSameBytes) {
     Scratch scratch;
     write_film(scratch / "a.mp4", small_film(), 30);
