@@ -2,12 +2,17 @@
 #include "output/png.hpp"
 
 #include <libdeflate.h>
+#ifdef BEAMCAM_ISAL
+#include <isa-l/igzip_lib.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <stdexcept>
+#include <vector>
 
 #include "output/pixels.hpp"
 
@@ -15,8 +20,10 @@ namespace beamcam::output {
 
 namespace {
 
-constexpr int kCompressionLevel = 2;  // 6 ms for 1920×1080 where libpng's defaults take 34
-constexpr char kFilterUp = 2;         // each byte less the one above it
+#ifndef BEAMCAM_ISAL
+constexpr int kCompressionLevel = 2;  // a fifth of the time of libpng's defaults
+#endif
+constexpr char kFilterUp = 2;  // each byte less the one above it
 constexpr std::size_t kLongestChunk = 0x7fffffff;
 constexpr double kMetresPerInch = 0.0254;
 
@@ -65,7 +72,7 @@ std::string international_text(const std::string& keyword, const std::string& te
     return data + text;
 }
 
-// Every row behind a filter byte, each byte less the one above it.
+// Every row behind a filter byte, each byte less the one above it; above the first row stand zeros.
 std::string filtered(const std::string& bytes, std::size_t row_size) {
     const std::size_t rows = bytes.size() / row_size;
     std::string result(bytes.size() + rows, kFilterUp);
@@ -73,13 +80,68 @@ std::string filtered(const std::string& bytes, std::size_t row_size) {
         const char* now = bytes.data() + row * row_size;
         char* out = result.data() + row * (row_size + 1) + 1;
         if (row == 0)
-            std::copy_n(now, row_size, out);  // above the first row stand zeros
+            std::copy_n(now, row_size, out);
         else
             for (std::size_t i = 0; i < row_size; ++i) out[i] = static_cast<char>(now[i] - now[i - row_size]);
     }
     return result;
 }
 
+// The same of opaque pictures, straight from the pixels: where a run of them is as above, nothing is computed.
+std::string filtered_rgb(const render::Image& image) {
+    constexpr std::size_t kRun = 32;  // [px]
+    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+    std::string result((3 * width + 1) * height, '\0');
+    const std::vector<std::uint32_t> black(width, 0);
+    const std::uint32_t* above = black.data();
+    for (std::size_t row = 0; row < height; ++row) {
+        const std::uint32_t* now = image.pixels.data() + row * width;
+        char* out = result.data() + row * (3 * width + 1);
+        *out++ = kFilterUp;
+        for (std::size_t from = 0; from < width; from += kRun) {
+            const std::size_t to = std::min(from + kRun, width);
+            if (std::equal(now + from, now + to, above + from)) continue;
+            for (std::size_t x = from; x < to; ++x)
+                for (std::size_t c = 0; c < 3; ++c)
+                    out[3 * x + c] = static_cast<char>((now[x] >> (16 - 8 * c)) - (above[x] >> (16 - 8 * c)));
+        }
+        above = now;
+    }
+    return result;
+}
+
+#ifdef BEAMCAM_ISAL
+// Ten times as fast as libdeflate on these rows, which are mostly zeros, and a fifth larger.
+std::string compressed(const std::string& data) {
+    isal_zstream stream;
+    isal_deflate_init(&stream);
+    std::vector<std::uint8_t> tables(ISAL_DEF_LVL1_DEFAULT);
+    stream.level = 1;
+    stream.level_buf = tables.data();
+    stream.level_buf_size = static_cast<std::uint32_t>(tables.size());
+    stream.gzip_flag = IGZIP_ZLIB;
+    stream.end_of_stream = 1;
+    stream.flush = NO_FLUSH;
+    std::string result;
+    constexpr std::size_t kPiece = std::size_t{1} << 20;
+    std::size_t taken = 0;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(data.data());
+    do {
+        const std::size_t there = result.size();
+        result.resize(there + kPiece);
+        stream.next_out = reinterpret_cast<std::uint8_t*>(result.data() + there);
+        stream.avail_out = kPiece;
+        stream.next_in = const_cast<std::uint8_t*>(bytes + taken);
+        const std::size_t more = std::min(data.size() - taken, kLongestChunk);
+        stream.avail_in = static_cast<std::uint32_t>(more);
+        stream.end_of_stream = taken + more == data.size();
+        if (isal_deflate(&stream) != COMP_OK) throw std::runtime_error("ISA-L cannot compress a picture");
+        taken += more - stream.avail_in;
+        result.resize(there + kPiece - stream.avail_out);
+    } while (stream.internal_state.state != ZSTATE_END);
+    return result;
+}
+#else
 std::string compressed(const std::string& data) {
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
         libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);
@@ -88,20 +150,22 @@ std::string compressed(const std::string& data) {
     result.resize(libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), result.data(), result.size()));
     return result;
 }
+#endif
 
 }  // namespace
 
 std::string encode_png(const render::Image& image, const PngOptions& options) {
     if (image.width <= 0 || image.height <= 0) throw std::logic_error("encode_png: an empty image");
     const bool opaque = is_opaque(image);
-    const std::string bytes = opaque ? rgb_bytes(image) : rgba_bytes(image);
+    const std::string rows =
+        opaque ? filtered_rgb(image) : filtered(rgba_bytes(image), 4 * static_cast<std::size_t>(image.width));
 
     std::string file = "\x89PNG\r\n\x1a\n";
     put_chunk(file, "IHDR", header(image, opaque));
     put_chunk(file, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
     if (options.dpi) put_chunk(file, "pHYs", pixels_per_metre(*options.dpi));
     for (const auto& [keyword, text] : options.metadata) put_chunk(file, "iTXt", international_text(keyword, text));
-    put_chunk(file, "IDAT", compressed(filtered(bytes, bytes.size() / static_cast<std::size_t>(image.height))));
+    put_chunk(file, "IDAT", compressed(rows));
     put_chunk(file, "IEND", {});
     return file;
 }

@@ -50,6 +50,17 @@ TEST(Png, DecodesToTheSamePixelsAtAnySize) {
         }
 }
 
+// Rows that are partly as above, and more than compresses in one go.
+TEST(Png, DecodesToTheSamePixelsWhateverTheyAre) {
+    render::Image drawing = pattern(1000, 40, true), noise(900, 800);
+    for (std::size_t i = 0; i < drawing.pixels.size(); ++i)
+        if (i % 1000 < 900) drawing.pixels[i] = i % 1000 > 450 && i / 1000 % 7 == 3 ? 0xff102030U : 0xfff4f1eaU;
+    std::uint32_t state = 1;
+    for (std::uint32_t& pixel : noise.pixels) pixel = 0xff000000U | (state = state * 1664525U + 1013904223U) >> 8;
+    for (const render::Image& image : {drawing, noise})
+        EXPECT_EQ(decoded(encode_png(image)).rgba, rgba_bytes(image)) << image.width;
+}
+
 TEST(Png, HasAnAlphaChannelOnlyWhereItIsNeeded) {
     EXPECT_FALSE(decoded(encode_png(pattern(9, 9, true))).alpha);
     EXPECT_TRUE(decoded(encode_png(pattern(9, 9, false))).alpha);
