@@ -79,6 +79,12 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
     return out;
 }
 
+// The first frame at this instant or after it, else the last: what an impact has begun shows.
+int first_at(const std::vector<double>& frames, double t) {
+    const auto at = std::ranges::lower_bound(frames, t - 1e-12 * std::max(1.0, t));
+    return static_cast<int>(std::min(at - frames.begin(), std::ssize(frames) - 1));
+}
+
 }  // namespace
 
 std::vector<double> rows(double from, double to, double rate) {
@@ -96,6 +102,7 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, fine);
+    if (span.poster) out.poster = first_at(out.frames, instant_of(*span.poster, motion));
     out.chart = rows(span.from, to, chart_rate(to - span.from));
     out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
     if (!fine.empty()) {

@@ -2,6 +2,7 @@
 // TimeMap of slow motion and freezes, which may have to know the impacts first.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/film.hpp"
@@ -15,6 +16,7 @@ struct FilmTimes {
     long first = 0;              // number of the first frame
     std::vector<double> speeds;  // of each frame; empty in real time
     std::vector<render::Callout> callouts;
+    std::optional<int> poster;  // index into frames
     std::vector<double> chart, trace;  // rows [s], increasing
 };
 

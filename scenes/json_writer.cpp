@@ -180,6 +180,7 @@ Json output_json(const Output& any) {
         Json operator()(const VideoOutput& v) const {
             Json out = film("video", v);
             add_span(out, v.span);
+            if (v.span.poster) out["poster"] = instant(*v.span.poster);
             out["codec"] = output::name(v.encoding.codec);
             if (v.encoding.crf) out["crf"] = *v.encoding.crf;
             out["preset"] = v.encoding.preset;
@@ -290,6 +291,7 @@ std::string to_json(const Plan& plan, const Scene& scene) {
             stage["codec"] = output::name(p.encoding.codec);
             if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
             if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
+            if (!p.poster_file.empty()) stage["poster"] = p.poster_file;
         }
         put_cost(stage, p.cost, "bytes");
         stages.push_back(std::move(stage));

@@ -234,6 +234,10 @@ VideoOutput read_video(const OutputContext& context, Fields& f) {
     read_arrangement(context.pictures(), f, video);
     read_encoding(f, video);
     if (video.encoding.codec == output::Codec::gif) video.span.fps = kGifRate;
+    if (const Node* poster = f.take("poster")) {
+        Instant at;
+        if (read_at(f, *poster, "poster", at)) video.span.poster = at;
+    }
     read_span(context, f, video.span);
     judge_format(f, video, f.has("crf"));
     return video;
@@ -429,14 +433,14 @@ std::optional<Output> read_output(const OutputContext& context, const Node& node
 void refuse_shared_files(Findings& findings, const std::vector<std::pair<const Node*, Output>>& outputs) {
     for (std::size_t later = 1; later < outputs.size(); ++later)
         for (std::size_t earlier = 0; earlier < later; ++earlier) {
-            const std::string &a = file_of(outputs[earlier].second), &b = file_of(outputs[later].second);
-            if (!may_collide(a, b)) continue;
+            const auto clash = shared_file(outputs[later].second, outputs[earlier].second);
+            if (!clash) continue;
             const Node& object = *outputs[later].first;
             const Member* file = object.find("file");
             findings.error(
                 file ? file->value.place : object.place, fmt::format("outputs.{}.file", later),
                 fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
-                            later, in_quotes(b), earlier, in_quotes(a)));
+                            later, in_quotes(clash->first), earlier, in_quotes(clash->second)));
             break;
         }
 }
@@ -493,6 +497,9 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
+    if (span.poster && span.poster->kind == Instant::Kind::time && (span.poster->t < span.from || span.poster->t > to))
+        return fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t, span.from,
+                           to);
     if (!span.real_time()) {
         if (to > span.from) return {};  // how many frames, only the motion tells
         return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,

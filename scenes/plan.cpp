@@ -45,6 +45,7 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     choose_frames(p, static_cast<long>(times.frames.size()));
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
+    p.poster = times.poster;
     for (ComparedMotion& other : p.compared) {
         other.request.poses.front().times = times.frames;
         other.request.tables.front().times = times.chart;
@@ -205,6 +206,7 @@ class Planner {
         Pictures p = pictures(Pictures::Kind::video, video, index);
         p.span = video.span;
         p.encoding = video.encoding;
+        if (video.span.poster) p.poster_file = poster_file(video);
         want_pictures(std::move(p), film_end(video.span));
     }
     void want(const FramesOutput& frames, std::size_t index) {
@@ -392,6 +394,8 @@ std::string shard_file(const std::string& file, int shard, int shards) {
         .string();
 }
 
+bool Pictures::makes_poster() const { return poster && std::ranges::binary_search(draw, *poster); }
+
 Plan plan(const Scene& scene, const Ask& ask, const Known& known) { return Planner(scene, ask, known).make(); }
 
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
@@ -415,6 +419,7 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
         FrameSpan span = p.span;
         const auto fix = [&](Instant& at) { at = {.kind = Instant::Kind::time, .t = instant_of(at, first)}; };
         for (FilmEvent& event : span.events) fix(event.at);
+        if (span.poster) fix(*span.poster);
         sim::Request none;
         if (p.kind == Pictures::Kind::still)
             put_times(p, none, still_times({.kind = Instant::Kind::time, .t = instant_of(p.at, first)}, all));

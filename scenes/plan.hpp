@@ -88,6 +88,8 @@ struct Pictures {
     std::string part;       // of a film: "30:60 of 0:90"; empty: the whole
     // Index into Simulation::ends; absent: the run ends with it, or it compares motions.
     std::optional<std::size_t> until;
+    std::optional<int> poster;   // of a video: the frame that is also put into poster_file, as in `draw`
+    std::string poster_file;     // empty: none
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<sim::Channel> chart_channels;
@@ -97,6 +99,8 @@ struct Pictures {
     std::size_t chart = 0;             // index into Request::tables: what the panels show
     std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
     std::optional<Cost> cost;
+
+    bool makes_poster() const;  // it is among those that are drawn
 };
 struct FigureFile {
     std::size_t output = 0;

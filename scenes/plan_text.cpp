@@ -111,6 +111,10 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
     words += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
     if (p.picture.view.transparent) words += ", transparent";
     if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
+    if (p.makes_poster())
+        words += fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
+    else if (!p.settled && !p.poster_file.empty())
+        words += fmt::format("; one of its frames as {} too", p.poster_file);
     return words + file_cost(p.cost);
 }
 

@@ -183,7 +183,7 @@ class Runner {
             else if (p.kind == Pictures::Kind::frames)
                 for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
             else
-                all.push_back(path_of(p.file));
+                for (fs::path& file : made_of(p)) all.push_back(std::move(file));
         for (const FigureFile& f : plan_.figures)
             for (const std::string& file : files_of(figure_output(f))) all.push_back(path_of(file));
         const auto add = [&](const auto& list) {
@@ -300,8 +300,12 @@ class Runner {
         shop_.history.note(work, units, seconds_since(since), bytes);
     }
     std::vector<fs::path> made_of(const Pictures& p) const {
-        if (p.kind != Pictures::Kind::frames) return {path_of(p.file)};
         std::vector<fs::path> all;
+        if (p.kind != Pictures::Kind::frames) {
+            all.push_back(path_of(p.file));
+            if (!p.poster_file.empty() && (!p.settled || p.makes_poster())) all.push_back(path_of(p.poster_file));
+            return all;
+        }
         for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
         return all;
     }
@@ -524,7 +528,9 @@ class Runner {
         Gate gate;
         std::mutex mutex;  // of the manifest, the times and the count
         long done = 0;
-        const std::map<std::string, std::string> meta = video ? std::map<std::string, std::string>() : metadata(p);
+        const bool poster = video && p.makes_poster();
+        const std::map<std::string, std::string> meta =
+            video && !poster ? std::map<std::string, std::string>() : metadata(p);
 
         auto put = [&](long k, const render::Image& image) {
             if (capture_) {
@@ -559,6 +565,8 @@ class Runner {
                     ++work_.frames_drawn;
                 }
                 if (!video) return put(k, image);
+                if (poster && p.draw[static_cast<std::size_t>(k)] == *p.poster)
+                    output::write_png(path_of(p.poster_file), image, {std::nullopt, meta});
                 input->convert(image, own->changed());
                 gate.pass(k, [&] {
                     input->send();
@@ -587,8 +595,11 @@ class Runner {
             times_.encode += spent.encode_seconds;
             work_.frames_encoded += spent.frames;
         }
-        if (p.kind != Pictures::Kind::frames)
-            return wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "", inputs_of(p));
+        if (p.kind != Pictures::Kind::frames) {
+            wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "", inputs_of(p));
+            if (video && p.makes_poster()) wrote(path_of(p.poster_file), "poster", inputs_of(p));
+            return;
+        }
         progress_.end();
         if (!options_.quiet)
             fmt::print(stderr, "wrote {} … {} ({} frames)\n",
@@ -621,11 +632,11 @@ void refuse_clashes(std::span<const Scene> scenes) {
         for (std::size_t earlier = 0; earlier < later; ++earlier)
             for (const Output& a : scenes[later].outputs)
                 for (const Output& b : scenes[earlier].outputs)
-                    if (may_collide(file_of(a), file_of(b)))
+                    if (const auto clash = shared_file(a, b))
                         throw NameClash(
                             fmt::format("{} of the scene {} and {} of the scene {} are one file; give them different "
                                         "names, or run the scenes one by one with -o",
-                                        file_of(a), scenes[later].name, file_of(b), scenes[earlier].name));
+                                        clash->first, scenes[later].name, clash->second, scenes[earlier].name));
 }
 
 // Until when anybody wants the motion that this one wants.

@@ -1,11 +1,32 @@
 #include "scenes/scene.hpp"
 
 #include <algorithm>
+#include <filesystem>
+
+#include "scenes/files.hpp"
 
 namespace beamcam::scenes {
 
 const std::string& file_of(const Output& output) {
     return std::visit([](const auto& o) -> const std::string& { return o.file; }, output);
+}
+
+std::string poster_file(const VideoOutput& video) {
+    return std::filesystem::path(video.file).replace_extension(".png").generic_string();
+}
+
+std::vector<std::string> written_by(const Output& output) {
+    std::vector<std::string> files{file_of(output)};
+    if (const auto* video = std::get_if<VideoOutput>(&output); video && video->span.poster)
+        files.push_back(poster_file(*video));
+    return files;
+}
+
+std::optional<std::pair<std::string, std::string>> shared_file(const Output& a, const Output& b) {
+    for (const std::string& one : written_by(a))
+        for (const std::string& other : written_by(b))
+            if (may_collide(one, other)) return std::pair(one, other);
+    return std::nullopt;
 }
 
 const char* type_name(const Output& output) {
@@ -22,7 +43,8 @@ const char* type_name(const Output& output) {
 }
 
 bool FrameSpan::looks_at_impacts() const {
-    return speed.around || std::any_of(events.begin(), events.end(),
+    return speed.around || (poster && poster->kind != Instant::Kind::time) ||
+           std::any_of(events.begin(), events.end(),
                                        [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
 }
 

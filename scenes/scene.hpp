@@ -94,6 +94,7 @@ struct FrameSpan {
     std::optional<double> to = {};  // [s], > from; absent: the end of the scene
     Speed speed = {};
     std::vector<FilmEvent> events = {};
+    std::optional<Instant> poster = {};  // of a video: its frame that is put beside it as a picture
 
     bool real_time() const { return speed.real_time() && events.empty(); }
     bool looks_at_impacts() const;  // they have to be known before the frames' instants are
@@ -139,6 +140,10 @@ using Output = std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput
                             SummaryOutput>;
 
 const std::string& file_of(const Output& output);
+std::string poster_file(const VideoOutput& video);           // "fall.png" beside "fall.mp4"
+std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
+// Files of both that may collide (files.hpp).
+std::optional<std::pair<std::string, std::string>> shared_file(const Output& a, const Output& b);
 const char* type_name(const Output& output);  // "video", "frames", …
 
 struct Scene {

@@ -52,12 +52,18 @@ class Surveyor {
         for (const Pictures& p : whole_.pictures)
             if (p.kind == Pictures::Kind::frames)
                 look_at_frames(p);
-            else
+            else if (!awaits_poster(p))
                 look_at(p.file, p.output);
         for (const FigureFile& f : whole_.figures) look_at_figure(f);
         for (const TableFile& t : whole_.tables) look_at(t.file, t.output);
         for (const ImpactsFile& i : whole_.impacts) look_at(i.file, i.output);
         for (const SummaryFile& s : whole_.summaries) look_at(s.file, s.output);
+    }
+
+    // A film whose poster is not there is not finished. Which part of it has the poster, only the impacts may tell.
+    bool awaits_poster(const Pictures& p) {
+        const bool has = p.settled ? p.makes_poster() : p.ask.shards <= 1;
+        return !p.poster_file.empty() && has && !is_there(p.poster_file, p.output);
     }
 
     void look_at(const std::string& file, std::size_t output) {

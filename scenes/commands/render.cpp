@@ -19,14 +19,18 @@ struct Arguments {
     std::string scene, file;
     std::vector<std::string> others;
     std::optional<std::string> at, from, to, size, fps, style, theme, speed, codec, background, comparison, frames,
-        shard;
+        shard, poster;
 };
 
 // What `render` draws like: the scene's first film, sequence or still, else the default film.
 VideoOutput film_to_imitate(const Scene& scene) {
     VideoOutput film = default_film(scene);
     for (const Output& output : scene.outputs) {
-        if (const auto* video = std::get_if<VideoOutput>(&output)) return *video;
+        if (const auto* video = std::get_if<VideoOutput>(&output)) {
+            film = *video;
+            film.span.poster.reset();  // `render` makes what it is asked for
+            return film;
+        }
         if (const auto* frames = std::get_if<FramesOutput>(&output)) {
             static_cast<Picture&>(film) = *frames;
             film.span = frames->span;
@@ -125,12 +129,13 @@ void apply_render_options(const Arguments& args, VideoOutput& film) {
                                                    : render::Theme::light;
 }
 
-Instant instant_argument(const std::string& text) {
+Instant instant_argument(const char* option, const std::string& text) {
     if (text.starts_with("impact") || text.starts_with("collision")) {
         if (const auto instant = parse_instant(text)) return *instant;
-        throw UsageError(fmt::format("--at {}: impacts and collisions are counted from 1, for example impact:1", text));
+        throw UsageError(
+            fmt::format("{} {}: impacts and collisions are counted from 1, for example impact:1", option, text));
     }
-    return {.kind = Instant::Kind::time, .t = seconds_argument("--at", text)};
+    return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
 }
 
 Output render_output(const Arguments& args, VideoOutput film) {
@@ -138,12 +143,14 @@ Output render_output(const Arguments& args, VideoOutput film) {
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
     need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
+    if (args.poster && ending == ".png")
+        throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
     if (args.at) {
         if (ending != ".png" || numbered)
             throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
         if (args.from || args.to || args.fps || args.speed)
             throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
-        return StillOutput{film, args.file, instant_argument(*args.at)};
+        return StillOutput{film, args.file, instant_argument("--at", *args.at)};
     }
     if (ending == ".png") {
         if (!numbered)
@@ -202,6 +209,7 @@ int act(const Arguments& args) {
     VideoOutput film = film_to_imitate(scene);
     apply_render_options(args, film);
     compare_scenes(args, scene, film);
+    if (args.poster) film.span.poster = instant_argument("--poster", *args.poster);
     if (!args.at)
         if (std::string problem = problem_with_span(film.span, scene.end_time); !problem.empty())
             throw UsageError(problem);
@@ -247,6 +255,8 @@ void add_render(Grammar& grammar) {
                     "Only these frames of the film, by number, the last one not included: 30:60. Scales and camera are "
                     "those of the whole film")
         ->type_name("A:B");
+    app->add_option("--poster", args->poster, "Put the film's frame at this instant beside it: film.png, T as for --at")
+        ->type_name("T");
     add_shard(*app, args->shard);
     add_work(*app, args->common);
     grammar.bind(app, args, act);

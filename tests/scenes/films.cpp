@@ -124,5 +124,58 @@ TEST(Films, RealTimeFilmsNeedNoFirstRun) {
     EXPECT_EQ(plan(*reading.scene).frames(), 900u);
 }
 
+// ---- posters -----------------------------------------------------------------------------------
+
+constexpr const char* kWithPoster = R"({"time": {"end": 0.4}, "outputs": [
+    {"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20, "view": {"style": "flat"}, "poster": "impact:1"}]})";
+
+TEST(Posters, AreTheFilmsOwnFrame) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    const Finished made = shell(folder, "$BEAMCAM run s.json -v");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("f.png (poster)"));
+    EXPECT_THAT(made.err, HasSubstr("frames_drawn=8 "));  // none of them twice
+    // The touch is at 0.277 s: the first frame after it is number 6, and FFV1 keeps every bit of it.
+    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | sed -n 7p").out, HasSubstr(poster));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info f.png --scene").out, HasSubstr("\"poster\": \"impact:1\""));
+}
+
+TEST(Posters, BelongToWhatIsFinished) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("f.mkv as it is"));
+    EXPECT_THAT(shell(folder, "rm f.png && $BEAMCAM run s.json && ls").out, HasSubstr("f.png"));
+    // A foreign picture of that name is refused before any work.
+    const Finished refused = shell(folder, "rm f.* && echo mine > f.png && $BEAMCAM run s.json; ls");
+    EXPECT_THAT(refused.err, HasSubstr("f.png"));
+    EXPECT_THAT(refused.out, ::testing::Not(HasSubstr("f.mkv")));
+}
+
+TEST(Posters, OfPartsAreMadeByThePartThatHasThem) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 1/2 && ls *.png").out, "");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 2/2 && ls *.png").out, "f.png\n");
+}
+
+TEST(Posters, AreAskedForAndRefusedInWords) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o g.mkv --to 0.1 -q && ls *.png").out, "");  // only when asked
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o g.mkv --to 0.1 --poster '50 ms' -q && ls *.png").out, "g.png\n");
+    const Finished late = shell(folder, "$BEAMCAM render s.json -o h.mkv --to 0.1 --poster 0.3");
+    EXPECT_EQ(late.code, 2);
+    EXPECT_THAT(late.err, HasSubstr("the poster at 0.3 s is no frame of a film from 0 s to 0.1 s"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o h-##.png --poster 0.1").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o h.mkv --poster impact:9").code, 3);
+    const Reading clash = testing::read(R"({"outputs": [{"type": "video", "file": "a.mp4", "poster": 0.1},
+        {"type": "still", "file": "a.png", "at": 0.2}]})");
+    EXPECT_FALSE(clash.scene);
+    EXPECT_THAT(clash.report(), HasSubstr("\"a.png\", which outputs.0 writes too"));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes
