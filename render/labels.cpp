@@ -98,7 +98,8 @@ std::string speed_text(double speed) {
     if (speed > 1) return fmt::format("{:.2g}× speed", speed);
     double slower = 1 / speed;
     // Told exactly where it is a whole number, else to the next round one.
-    if (std::abs(slower - std::round(slower)) > 1e-6 * slower) slower = slower < 2 ? 1.5 : round_down_125(slower);
+    const double whole = std::round(slower);
+    slower = std::abs(slower - whole) <= 1e-6 * slower ? whole : slower < 2 ? 1.5 : round_down_125(slower);
     return slower == 1.5 ? "2/3 speed" : fmt::format("1/{:.7g} speed", slower);
 }
 

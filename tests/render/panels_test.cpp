@@ -307,6 +307,7 @@ TEST(Panels, TheLatestWordsTakeThePlaceOfThoseBefore) {
 TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(1), "");
     EXPECT_EQ(speed_text(0.02), "1/50 speed");
+    EXPECT_EQ(speed_text(0.004 * (1 + 1e-9)), "1/250 speed");  // rounding is no other speed
     EXPECT_EQ(speed_text(0.5), "1/2 speed");
     EXPECT_EQ(speed_text(0.037), "1/20 speed");
     EXPECT_EQ(speed_text(0), "frozen");
