@@ -15,9 +15,8 @@ namespace {
 
 constexpr int kMaxPieces = 24;       // looks at most, at a step that resolves the vibration
 constexpr double kMostPieces = 1e5;  // and at one that spans many periods
-// At such a step, for extremes: what is missed of a vibration that a step spans more often is below 10⁻⁵ of it, as
-// looks at all its phases find its peaks.
-constexpr int kExtremePieces = 1000;
+// At such a step, for extremes: a faster vibration is met at all its phases, if not in every period.
+constexpr int kExtremePieces = 100;
 constexpr std::size_t kMostPeaks = 4;
 constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
 constexpr double kNoHigher = 1e-9;  // … by this share
