@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -84,6 +85,16 @@ struct Shop {
     Times times;
     Clock::time_point started = Clock::now();
 };
+
+// Rows that a failed run never reached hold nothing, not even their time.
+sim::Table reached_rows(const sim::Table& table) {
+    sim::Table reached{table.channels, std::vector<std::vector<double>>(table.values.size())};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (std::ranges::all_of(table.values, [&](const auto& column) { return std::isnan(column[row]); })) continue;
+        for (std::size_t c = 0; c < table.values.size(); ++c) reached.values[c].push_back(table.values[c][row]);
+    }
+    return reached;
+}
 
 // Makes the outputs of one scene.
 class Runner {
@@ -169,7 +180,7 @@ class Runner {
             fs::path file = path_of(t.file);
             file.replace_extension(".partial.csv");
             manifest_.require_replaceable(file);
-            output::write_csv(file, partial.tables[t.table]);
+            output::write_csv(file, reached_rows(partial.tables[t.table]));
             wrote(file, "as far as the solver came", {});
         }
     }
