@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -101,14 +102,17 @@ void multiply(Scaled& q, const Scaled& factor, double exponent) {
 // number · scale, with the decimal point of the text shifted instead of a multiplication where that is exact.
 double scaled_number(std::string_view digits, double value, const Scaled& scale) {
     if (scale.decades != std::round(scale.decades)) return value * scale.value * std::pow(10.0, scale.decades);
+    constexpr double kMostDecades = 1e6;  // far beyond any double
+    if (std::abs(scale.decades) > kMostDecades) return std::numeric_limits<double>::infinity();
     const std::size_t e = digits.find_first_of("eE");
-    int exponent = 0;
+    long long exponent = 0;
     if (e != std::string_view::npos) {
         std::string_view written = digits.substr(e + 1);
         if (written.starts_with('+')) written.remove_prefix(1);
         std::from_chars(written.data(), written.data() + written.size(), exponent);
     }
-    const std::string shifted = fmt::format("{}e{}", digits.substr(0, e), exponent + static_cast<int>(scale.decades));
+    const std::string shifted =
+        fmt::format("{}e{}", digits.substr(0, e), exponent + static_cast<long long>(scale.decades));
     if (std::from_chars(shifted.data(), shifted.data() + shifted.size(), value).ec != std::errc{})
         return std::numeric_limits<double>::infinity();
     return value * scale.value;
@@ -221,8 +225,7 @@ class UnitParser {
         }
         if (!rest_.empty() && (is_digit(rest_[0]) || (rest_.size() > 1 && rest_[0] == '-' && is_digit(rest_[1]))))
             return number(power);
-        superscript(power);
-        return true;
+        return superscript(power);
     }
 
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -230,18 +233,31 @@ class UnitParser {
     bool number(double& value) {
         const auto [end, error] =
             std::from_chars(rest_.data(), rest_.data() + rest_.size(), value, std::chars_format::fixed);
-        if (error != std::errc{} || std::abs(value) > 12) return false;
+        if (error == std::errc::invalid_argument) return false;
+        if (error != std::errc{} || !(std::abs(value) <= kLargestExponent)) return too_large();
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
         return true;
     }
 
-    void superscript(double& power) {
+    bool superscript(double& power) {
         static constexpr std::array<std::string_view, 10> kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
         const bool minus = take("⁻");
-        for (std::size_t digit = 0; digit < kDigits.size(); ++digit)
-            if (take(kDigits[digit])) power = minus ? -static_cast<double>(digit) : static_cast<double>(digit);
+        double value = 0;
+        int count = 0;
+        for (; count < 3; ++count) {
+            const auto digit = std::find_if(kDigits.begin(), kDigits.end(), [&](auto each) { return take(each); });
+            if (digit == kDigits.end()) break;
+            value = 10 * value + static_cast<double>(digit - kDigits.begin());
+        }
+        if (count == 0) return !minus || refuse("a number is missing after \"⁻\" in the unit");
+        if (value > kLargestExponent) return too_large();
+        power = minus ? -value : value;
+        return true;
     }
 
+    bool too_large() { return refuse(fmt::format("an exponent in the unit is beyond ±{:g}", kLargestExponent)); }
+
+    static constexpr double kLargestExponent = 12;
     std::string_view rest_;
     std::string problem_;
     int depth_ = 0;

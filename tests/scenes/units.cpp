@@ -79,6 +79,21 @@ TEST(Units, WhatIsNoQuantityIsToldInWords) {
     EXPECT_NE(parse_quantity("1e307 Gm").problem.find("out of the range"), std::string::npos);
 }
 
+TEST(Units, ExponentsAreReadWholeOrRefusedInWords) {
+    EXPECT_EQ(parse_quantity("2 m¹⁰").quantity.value().dimension.length, 10);
+    EXPECT_EQ(parse_quantity("2 m⁻¹²").quantity.value().dimension.length, -12);
+    EXPECT_EQ(parse_quantity("2 m12").quantity.value().dimension.length, 12);
+    for (const char* text : {"6 m014", "6 m^13", "6 m^nan", "6 m^inf", "6 m¹³", "6 m¹²³⁴", "6 s⁻", "6 m^(1/0)",
+                             "1 ((((((((Gm^12)^12)^12)^12)^12)^12)^12)^12)^12"}) {
+        const QuantityText read = parse_quantity(text);
+        EXPECT_FALSE(read.quantity) << text;
+        EXPECT_FALSE(read.problem.empty()) << text;
+    }
+    EXPECT_NE(parse_quantity("6 m014").problem.find("beyond ±12"), std::string::npos);
+    // An exponent at the end of the integers, moved by the prefix.
+    EXPECT_EQ(parse_quantity("0e2147483647 Gm").quantity.value_or(Quantity{}).value, 0);
+}
+
 TEST(Units, EveryDimensionOfTheFormatNamesAUnitThatReadsBack) {
     for (const Dimension& d :
          {dimension::kLength, dimension::kArea, dimension::kSecondMoment, dimension::kTime, dimension::kFrequency,
