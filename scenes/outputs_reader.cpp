@@ -497,9 +497,6 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
-    if (span.poster && span.poster->kind == Instant::Kind::time && (span.poster->t < span.from || span.poster->t > to))
-        return fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t, span.from,
-                           to);
     if (!span.real_time()) {
         if (to > span.from) return {};  // how many frames, only the motion tells
         return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,

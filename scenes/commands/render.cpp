@@ -204,6 +204,15 @@ Ask asked_part(const Arguments& args, const Scene& scene) {
     return ask;
 }
 
+// In a scene such a poster is the film's nearest frame, so that films can be shortened; here it was asked for.
+void require_poster_inside(const FrameSpan& span, double end_time) {
+    const double to = span.to.value_or(end_time);
+    if (!span.poster || span.poster->kind != Instant::Kind::time) return;
+    if (span.poster->t < span.from || span.poster->t > to)
+        throw UsageError(fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t,
+                                     span.from, to));
+}
+
 int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     VideoOutput film = film_to_imitate(scene);
@@ -213,6 +222,7 @@ int act(const Arguments& args) {
     if (!args.at)
         if (std::string problem = problem_with_span(film.span, scene.end_time); !problem.empty())
             throw UsageError(problem);
+    require_poster_inside(film.span, scene.end_time);
     scene.outputs = {render_output(args, std::move(film))};
     RunOptions options = run_options(args.common, "");
     options.ask = asked_part(args, scene);

@@ -161,6 +161,15 @@ TEST(Posters, OfPartsAreMadeByThePartThatHasThem) {
     EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 2/2 && ls *.png").out, "f.png\n");
 }
 
+TEST(Posters, OfAFilmThatWasShortenedAreItsLastFrame) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [
+        {"type": "video", "file": "f.mkv", "size": [160, 90], "fps": 20, "view": {"style": "flat"}, "poster": 0.3}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q --set time.end=0.2").code, 0);
+    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | tail -n 1").out, HasSubstr(poster));
+}
+
 TEST(Posters, AreAskedForAndRefusedInWords) {
     const Folder folder;
     folder.write("s.json", kWithPoster);
