@@ -10,6 +10,7 @@ struct Work {
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
     long mechanisms_lit = 0;  // drawn by OpenGL; a frame whose mechanism stands still takes the last one's
+    long frames_repeated = 0;  // of films: equal to the frame before and neither drawn nor converted again
     long frames_encoded = 0;
     long frames_left = 0;  // of sequences, there already
     long files_written = 0, files_left = 0;
@@ -32,6 +33,7 @@ void for_each_count(const Work& w, Visit visit) {
     visit("frames_drawn", w.frames_drawn);
     visit("figures_drawn", w.figures_drawn);
     visit("mechanisms_lit", w.mechanisms_lit);
+    visit("frames_repeated", w.frames_repeated);
     visit("frames_encoded", w.frames_encoded);
     visit("frames_left", w.frames_left);
     visit("files_written", w.files_written);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -219,6 +220,19 @@ std::vector<int> Film::Prepared::stages(int frame) const {
     std::vector<int> out;
     for (const auto& panel : panels) out.push_back(panel->stage(frame));
     return out;
+}
+
+bool Film::repeats(int frame) const {
+    if (frame < 1 || frame >= frames()) return false;
+    const FilmSetup& setup = *prepared_->facts.setup;
+    const auto now = static_cast<std::size_t>(frame), before = now - 1;
+    if (!setup.speeds.empty() && setup.speeds[now] != setup.speeds[before]) return false;
+    const auto shown = [](const Callout& words, int at) { return words.first <= at && at <= words.last; };
+    for (const Callout& words : setup.callouts)
+        if (shown(words, frame) != shown(words, frame - 1)) return false;
+    if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->plays(frame); })) return false;
+    const auto still = [&](const Motion& motion) { return motion.poses[now].t == motion.poses[before].t; };
+    return still(setup) && std::ranges::all_of(setup.others, still);
 }
 
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,

@@ -116,6 +116,8 @@ class Film {
     Film another() const;
 
     int frames() const;
+    // The frame shows what the one before shows: time stands still.
+    bool repeats(int frame) const;
     // 0 <= frame < frames(). The picture stays until the next is drawn. Only what moved since the one before is drawn
     // anew, and every pixel is as if all were.
     const Image& draw(int frame);

@@ -533,6 +533,15 @@ void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
     });
 }
 
+// The camera, and the rings of impacts.
+bool MechanismPanel::plays(int frame) const {
+    const View& view = facts_.setup->view;
+    if (view.style == Style::solid && view.orbit.swing != 0) return true;
+    return std::ranges::any_of(flashes_, [&](const Flash& f) {
+        return frame >= f.frame && frame <= f.frame + kFlashFrames;  // gone with the last
+    });
+}
+
 // A ring that opens and fades where an impact began, carried along by the disc.
 void MechanismPanel::flash(const Scene& s) const {
     if (!problem().cam) return;

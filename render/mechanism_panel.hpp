@@ -19,6 +19,7 @@ class MechanismPanel final : public Panel {
     void draw_ground(Canvas& canvas) const override;
     void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override;
     Box growing() const override { return whole_path() ? box_ : Box{}; }
+    bool plays(int frame) const override;
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
     const Camera& camera() const { return look_.camera; }

@@ -68,6 +68,9 @@ class Panel {
     // All that grows, nothing when nothing does [px].
     virtual Box growing() const { return {}; }
 
+    // It moves from the frame before to this one even though time stands still.
+    virtual bool plays(int) const { return false; }
+
     // What moves. `style` may be flatter than the view's.
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
 };

@@ -567,6 +567,14 @@ class Runner {
             auto input = video ? std::make_shared<output::VideoInput>(*video) : nullptr;
             return [&, own, input](long k) {
                 stop_if_interrupted();
+                if (video && repeats(p, k, *own)) {
+                    gate.pass(k, [&] {
+                        video->repeat();
+                        ++work_.frames_repeated;
+                        progress_.reach(static_cast<double>(video->statistics().frames));
+                    });
+                    return;
+                }
                 const auto start = Clock::now();
                 const render::Image& image = own->draw(p.draw[static_cast<std::size_t>(k)]);
                 const double spent = seconds_since(start);
@@ -593,6 +601,14 @@ class Runner {
         finish(p, video.get(), count);
         if (!capture_)
             note(picture_work(p, thread_count(options_.threads)), static_cast<double>(count), begun, made_of(p));
+    }
+
+    // Equal to the picture that is written just before it, and not wanted beside the film.
+    static bool repeats(const Pictures& p, long k, const render::Film& film) {
+        if (k == 0) return false;
+        const auto at = static_cast<std::size_t>(k);
+        const int frame = p.draw[at];
+        return frame == p.draw[at - 1] + 1 && film.repeats(frame) && !(p.makes_poster() && frame == *p.poster);
     }
 
     void finish(const Pictures& p, output::VideoWriter* video, long count) {

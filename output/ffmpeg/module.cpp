@@ -36,13 +36,35 @@ struct BeamcamVideoSession {
     AVPacket* packet = nullptr;
     std::vector<std::unique_ptr<OwnedFrame>> frames;
     std::int64_t next_frame = 0;
+    bool ended = false;  // the encoder has given out everything
     std::uint32_t palette[256] = {};
 
     ~BeamcamVideoSession() {
+        run_dry();
         av_packet_free(&packet);
         avcodec_free_context(&codec);
         if (format != nullptr) avio_closep(&format->pb);
         avformat_free_context(format);
+    }
+
+  private:
+    // SVT-AV1 waits forever when it is closed before it has seen a picture and their end: it gets what it lacks, and
+    // what it makes of that is dropped.
+    void run_dry() noexcept {
+        if (codec == nullptr || !avcodec_is_open(codec) || ended || std::strcmp(codec->codec->name, "libsvtav1") != 0)
+            return;
+        if (next_frame == 0) {
+            AVFrame* blank = av_frame_alloc();
+            if (blank == nullptr) return;
+            blank->format = codec->pix_fmt;
+            blank->width = codec->width;
+            blank->height = codec->height;
+            blank->pts = 0;
+            if (av_frame_get_buffer(blank, 0) >= 0) avcodec_send_frame(codec, blank);
+            av_frame_free(&blank);
+        }
+        avcodec_send_frame(codec, nullptr);
+        while (avcodec_receive_packet(codec, packet) >= 0) av_packet_unref(packet);
     }
 };
 
@@ -239,6 +261,7 @@ BeamcamVideoStatus finish(BeamcamVideoSession* session, BeamcamVideoError* error
     int code = avcodec_send_frame(session->codec, nullptr);
     if (code < 0) return fail(error, "encoding", code);
     if (const auto status = drain(*session, error); status != beamcam_video_ok) return status;
+    session->ended = true;
     return end_file(*session, error);
 }
 

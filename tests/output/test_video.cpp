@@ -194,6 +194,25 @@ TEST(Film, LeavesNothingWhenItIsNotFinished) {
     EXPECT_TRUE(scratch.names().empty());
 }
 
+// SVT-AV1 would wait forever.
+TEST(Film, OfAnyCodecEndsWhenItIsDropped) {
+    Scratch scratch;
+    const std::pair<const char*, Codec> kinds[] = {{"a.mp4", Codec::av1},   {"a.webm", Codec::vp9}, {"a.mov", Codec::prores},
+                                                   {"a.mkv", Codec::ffv1},  {"a.mp4", Codec::h264}, {"a.apng", Codec::apng},
+                                                   {"a.webp", Codec::webp}};
+    for (const auto& [name, codec] : kinds)
+        for (int pictures : {0, 1, 7}) {
+            VideoOptions options = small_film();
+            options.width = 96, options.height = 64;
+            options.codec = codec;
+            {
+                VideoWriter film(scratch / name, options);
+                for (int i = 0; i < pictures; ++i) film.write(moving_square(96, 64, i));
+            }
+            EXPECT_TRUE(scratch.names().empty()) << name << " " << pictures;
+        }
+}
+
 TEST(Film, WithoutPicturesIsRefused) {
     Scratch scratch;
     VideoWriter film(scratch / "a.mp4", small_film());

@@ -2,6 +2,7 @@
 // number of threads, text apart from text.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/film.hpp"
@@ -98,6 +99,32 @@ TEST(SolidFilm, SamePixelsInAnyOrder) {
     setup.width = 640, setup.height = 360;
     setup.view.style = Style::solid;
     same_in_any_order(std::move(setup));
+}
+
+// While time stands still so does the picture, whatever it is made of, but for the ring of an impact.
+void stands_still(FilmSetup setup) {
+    for (std::size_t k = 21; k < 47; ++k) {
+        setup.poses[k] = setup.poses[20];
+        for (Motion& other : setup.others) other.poses[k] = other.poses[20];
+    }
+    setup.speeds.assign(setup.poses.size(), 1);
+    std::fill_n(setup.speeds.begin() + 20, 27, 0.0);
+    setup.callouts = {{20, 45, "touch"}};
+    Film film(std::move(setup));
+    int repeated = 0;
+    for (int k = 20; k < film.frames(); ++k) {
+        if (!film.repeats(k)) continue;
+        EXPECT_EQ(drawn(film, k), drawn(film, k - 1)) << k;
+        ++repeated;
+    }
+    EXPECT_GT(repeated, 2);
+    EXPECT_FALSE(film.repeats(46));  // the words are gone
+}
+
+TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
+TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
+    stands_still(compared(Comparison::panels));
+    stands_still(compared(Comparison::ghosts));
 }
 
 // ---- only what moved is drawn ------------------------------------------------------------------

@@ -64,6 +64,24 @@ TEST(Films, TouchingIsDrawnTouchingAtEveryFrameInContact) {
     touches_within_half_a_pixel("\"contact\": {\"offset\": \"half-depth\"},", 50);
 }
 
+TEST(Films, WhatStandsStillIsNeitherDrawnNorConvertedAgain) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20,
+        "from": 0.2, "poster": "impact:1", "view": {"style": "flat"}, "events": [{"at": "impact:1", "freeze": 2, "text": "touch"}]}]})");
+    std::string pictures;
+    for (const char* jobs : {"1", "3"}) {
+        const Finished made = shell(folder, std::string("$BEAMCAM run s.json -v -j ") + jobs + " -o j" + jobs);
+        ASSERT_EQ(made.code, 0) << made.err;
+        EXPECT_THAT(made.err, HasSubstr("frames_repeated=15 "));  // from 24 frames after the touch, when its ring is gone
+        const std::string found = shell(folder, std::string("$BEAMCAM hash j") + jobs + "/f.mkv | cut -c1-64").out;
+        EXPECT_TRUE(pictures.empty() || found == pictures);
+        pictures = found;
+    }
+    ASSERT_EQ(shell(folder, "sed -i 's/f.mkv/f-##.png/; s/video/frames/; s/\"poster\": \"impact:1\",//' s.json && $BEAMCAM run s.json -q").code,
+              0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM hash j1/f.mkv | cut -c1-64").out, shell(folder, "$BEAMCAM hash f-*.png | cut -c1-64").out);
+}
+
 TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "frames", "file": "f-###.png",
