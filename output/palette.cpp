@@ -1,6 +1,7 @@
 #include "output/palette.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -134,7 +135,7 @@ std::vector<std::uint32_t> PaletteMaker::colors() const {
             const Cell& c = items[k].cell;
             sum.count += c.count, sum.r += c.r, sum.g += c.g, sum.b += c.b;
         }
-        const auto mean = [&](double v) { return static_cast<int>(v / sum.count + 0.5); };
+        const auto mean = [&](double v) { return static_cast<int>(std::lround(v / sum.count)); };
         out.push_back(packed({mean(sum.r), mean(sum.g), mean(sum.b)}));
     }
     std::ranges::sort(out);

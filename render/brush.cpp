@@ -33,17 +33,18 @@ void Brush::pass(const Box& box) {
 // In pieces about as long as a tile, so that a slanted line keeps to few of them.
 void Brush::pass_line(Vec2 from, Vec2 to) {
     constexpr double kPiece = 48, kMost = 1000;
-    const double pieces = std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost);
-    for (double i = 0; i < pieces; ++i) {
-        const Vec2 a = from + (to - from) * (i / pieces), b = from + (to - from) * ((i + 1) / pieces);
+    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost));
+    for (int i = 0; i < pieces; ++i) {
+        const Vec2 a = from + (to - from) * (double(i) / pieces), b = from + (to - from) * (double(i + 1) / pieces);
         path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
     }
 }
 
 void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
-    const double pieces = std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0), step = (to - from) / pieces;
+    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
+    const double step = (to - from) / pieces;
     const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
-    for (double i = 0; i < pieces; ++i) {
+    for (int i = 0; i < pieces; ++i) {
         const double p = from + i * step, q = p + step;
         const double ax = radius * std::cos(p), ay = -radius * std::sin(p), bx = radius * std::cos(q),
                      by = -radius * std::sin(q);

@@ -10,7 +10,7 @@
 #include "render/geometry.hpp"
 #include "render/tiles.hpp"
 
-using cairo_t = struct _cairo;
+using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
 
 namespace beamcam::render {
 
