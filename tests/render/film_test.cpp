@@ -11,13 +11,8 @@
 #include "render/lit.hpp"
 #include "render/mechanism.hpp"
 #include "render/trace.hpp"
+#include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"
-#else
-#define SKIP_WITHOUT_GL() (void)0
-#endif
 
 namespace beamcam::render {
 namespace {
@@ -37,12 +32,6 @@ FilmSetup small_film(Style style, test::Synthetic how = {.duration = 0.8}) {
     setup.width = 960, setup.height = 540;
     setup.view.style = style;
     return setup;
-}
-
-Image drawn(Film& film, int frame) {
-    Image image;
-    film.draw(frame, image);
-    return image;
 }
 
 void same_pixels_in_any_order(Style style) {

@@ -10,13 +10,8 @@
 #include "render/labels.hpp"
 #include "render/solid.hpp"
 #include "render/tiles.hpp"
+#include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"
-#else
-#define SKIP_WITHOUT_GL() (void)0
-#endif
 
 namespace beamcam::render {
 namespace {
@@ -70,12 +65,6 @@ FilmSetup compared(Comparison how) {
     setup.others.back().label = "ω = 2";
     setup.comparison = how;
     return setup;
-}
-
-Image drawn(Film& film, int frame) {
-    Image image;
-    film.draw(frame, image);
-    return image;
 }
 
 void same_in_any_order(FilmSetup setup) {

@@ -8,13 +8,8 @@
 #include "render/film.hpp"
 #include "render/labels.hpp"
 #include "render/smooth_path.hpp"
+#include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"
-#else
-#define SKIP_WITHOUT_GL() (void)0
-#endif
 
 namespace beamcam::render {
 namespace {
@@ -27,12 +22,6 @@ FilmSetup film_of(Style style, const test::Synthetic& how, std::optional<double>
     setup.view.style = style;
     setup.view.exaggeration = factor;
     return setup;
-}
-
-Image drawn(Film& film, int frame) {
-    Image image;
-    film.draw(frame, image);
-    return image;
 }
 
 std::uint32_t at(const Image& image, Vec2 px) {
