@@ -39,9 +39,11 @@ Look look(double t, System& system, const double* y) {
     return out;
 }
 
+const char* modes_word(const Problem& p) { return p.beam.modes == 1 ? "mode" : "modes"; }
+
 std::string shapes(const Problem& p) {
-    return fmt::format("{} model with {} {} mode{}", name(p.beam.model), p.beam.modes, name(resolved_basis(p)),
-                       p.beam.modes == 1 ? "" : "s");
+    return fmt::format("{} model with {} {} {}", name(p.beam.model), p.beam.modes, name(resolved_basis(p)),
+                       modes_word(p));
 }
 
 // ρA g L⁴/(8EI): the sag of the clamped beam's tip.
@@ -72,8 +74,7 @@ std::string tell_inertia(const Problem& p) {
             : "";
     return fmt::format(
         "the {} lost its positive inertia: the hub ({:g} kg m^2) is too light for these shapes; use {}fewer modes, a "
-        "larger "
-        "hub.inertia, or \"model\": \"second-order\"",
+        "larger hub.inertia, or \"model\": \"second-order\"",
         shapes(p), p.hub.inertia, basis);
 }
 
@@ -88,16 +89,15 @@ std::string tell_passed(const Problem& p, const Look& beam) {
     if (depth < 0.5 * radius)
         return fmt::format(
             "the beam was pressed through the centre of the cam (radius {:g} m), which no impact does at contact "
-            "stiffness "
-            "{}: {} leaves no other way; change hub.drive, gravity or the cam's path, or raise contact.stiffness",
+            "stiffness {}: {} leaves no other way; change hub.drive, gravity or the cam's path, or raise "
+            "contact.stiffness",
             radius, law, is_prescribed(p.hub.drive) ? "the prescribed angle" : "what presses the beam on");
     // A quarter of the radius deep: the force law and its geometry still mean something.
     const double stiffness = 0.5 * (n + 1) * beam.mass * beam.approach * beam.approach / std::pow(0.25 * radius, n + 1);
     return fmt::format(
         "the beam was pressed through the centre of the cam: the touch at {:.3g} m/s is {:.2g} m deep at contact "
-        "stiffness "
-        "{}, the cam's radius {:g} m; it takes contact.stiffness of {:.1g} or more, a cam.radius of {:.1g} m or more, "
-        "or "
+        "stiffness {}, the cam's radius {:g} m; it takes contact.stiffness of {:.1g} or more, a cam.radius of {:.1g} m "
+        "or more, or "
         "\"contact\": {{\"model\": \"restitution\"}}, which has no depth",
         beam.approach, depth, law, radius, stiffness, 4 * depth);
 }
@@ -118,13 +118,12 @@ std::string what_limits(const Problem& p, System& system, const Look& beam, bool
     std::vector<std::string> needs;
     const double fastest = system.highest_frequency();
     if (fastest > 0)
-        needs.push_back(fmt::format("{} mode{} up to {:.3g} rad/s need steps near {:.1g} s (fewer: longer ones)",
-                                    p.beam.modes, p.beam.modes == 1 ? "" : "s", fastest, 1 / fastest));
+        needs.push_back(fmt::format("{} {} up to {:.3g} rad/s need steps near {:.1g} s (fewer: longer ones)",
+                                    p.beam.modes, modes_word(p), fastest, 1 / fastest));
     if (p.cam && p.contact.model == ContactModel::compliant && beam.mass > 0) {
         // The depth at 1 m/s is the time to it in seconds.
         const double n = p.contact.exponent, k = contact_stiffness(p);
-        const std::string with =
-            fastest > 0 ? fmt::format(" with {} mode{}", p.beam.modes, p.beam.modes == 1 ? "" : "s") : "";
+        const std::string with = fastest > 0 ? fmt::format(" with {} {}", p.beam.modes, modes_word(p)) : "";
         needs.push_back(fmt::format(
             "contact stiffness {:g} N/m^{:g}{} needs steps near {:.1g} s in a touch (softer, or \"contact\": "
             "{{\"model\": \"restitution\"}}: longer ones)",

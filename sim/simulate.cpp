@@ -182,9 +182,9 @@ class Run {
         audience_.touch(t_, y_.data(), c);
         if (keep_) keep_->touch(t_, y_, c);
     }
-    void tell_release(const ContactState& c) {
-        audience_.release(t_, y_.data(), c);
-        if (keep_) keep_->release(t_, y_, c);
+    void tell_release(const std::vector<double>& y, const ContactState& c) {
+        audience_.release(t_, y.data(), c);
+        if (keep_) keep_->release(t_, y, c);
     }
 
     void keep_to_budget() {
@@ -593,8 +593,7 @@ class Run {
     void tell_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact) {
         c.gap_rate = impact.v_n;
         c.slip = impact.v_t;
-        audience_.release(t_, y.data(), c);
-        if (keep_) keep_->release(t_, y, c);
+        tell_release(y, c);
         last_release_ = t_;
     }
 
@@ -637,7 +636,7 @@ class Run {
     }
 
     void lift() {
-        if (!settles_) tell_release(contact_now());
+        if (!settles_) tell_release(y_, contact_now());
         settles_.reset();
         phase_.touching = phase_.held = false;
         phase_.gap_offset = 0;
@@ -680,7 +679,7 @@ class Run {
 
     void release() {
         const ContactState c = contact_now();
-        tell_release(c);
+        tell_release(y_, c);
         phase_.touching = false;
         phase_.gap_offset = 0;
         enter_phase();
