@@ -43,6 +43,7 @@ class Words {
 };
 
 struct Fonts::Handles {
+    std::string key;  // the files' paths
     FcConfig* config = nullptr;
     PangoFontMap* map = nullptr;
     PangoContext* context = nullptr;

@@ -6,6 +6,9 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,8 +55,13 @@ fs::path find(const KnownFile& file) {
     return {};
 }
 
-fs::path locate(const KnownFile& file) {
-    if (fs::path found = find(file); !found.empty()) return found;
+struct LocatedFile {
+    fs::path path;
+    const char* package;
+};
+
+LocatedFile locate(const KnownFile& file) {
+    if (fs::path found = find(file); !found.empty()) return {std::move(found), file.package};
     std::string tried;
     for (const fs::path& folder : folders()) tried += (tried.empty() ? "" : ", ") + folder.string();
     throw FontError(
@@ -62,11 +70,20 @@ fs::path locate(const KnownFile& file) {
                     file.name, tried, file.package));
 }
 
-void add(FcConfig* config, const KnownFile& file) {
-    const std::string path = locate(file).string();
-    if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(path.c_str())))
-        throw FontError(
-            fmt::format("font {} cannot be read as a font; reinstall the Debian package {}", path, file.package));
+std::vector<LocatedFile> locate_all(bool cjk, Typefaces typefaces) {
+    const bool print = typefaces == Typefaces::print;
+    std::vector<LocatedFile> all;
+    for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintFiles) : kFiles) all.push_back(locate(file));
+    if (cjk)
+        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles)
+            all.push_back(locate(file));
+    return all;
+}
+
+void add(FcConfig* config, const LocatedFile& file) {
+    if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(file.path.c_str())))
+        throw FontError(fmt::format("font {} cannot be read as a font; reinstall the Debian package {}",
+                                    file.path.string(), file.package));
 }
 
 // Pango has fontconfig read the system's files in a thread of its own, needed or not. An empty current configuration
@@ -103,17 +120,6 @@ std::vector<FontFile> font_files(Typefaces typefaces) {
     return files;
 }
 
-Fonts::Handles::~Handles() {
-    words.forget();
-    if (layout) g_object_unref(layout);
-    if (context) g_object_unref(context);
-    if (map) {
-        pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map), nullptr);  // Pango 1.50 does not let go of it by itself
-        g_object_unref(map);
-    }
-    if (config) FcConfigDestroy(config);
-}
-
 std::string missing_glyphs(std::string_view utf8) {
     if (needs_cjk(utf8))
         return fmt::format("no font of the figure can write \"{}\"; install the Debian package fonts-droid-fallback",
@@ -124,17 +130,54 @@ std::string missing_glyphs(std::string_view utf8) {
         utf8);
 }
 
-Fonts::Fonts(bool cjk, Typefaces typefaces) : handles_(std::make_unique<Handles>()) {
-    keep_system_settings_out();
-    Handles& h = *handles_;
+// ---- the sets at rest ----------------------------------------------------------------------------
+
+namespace {
+
+// Pango 1.50 sorts fonts in threads of its own, which let go of their set of fonts when they are done. A set that is
+// destroyed meanwhile is destroyed by two threads at once, without a lock (pangofc-fontmap.c, free_patterns). So no set
+// in use is ever destroyed: it rests here until somebody asks for the same files.
+class Resting {
+  public:
+    std::unique_ptr<Fonts::Handles> take(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        std::vector<std::unique_ptr<Fonts::Handles>>& all = sets_[key];
+        if (all.empty()) return nullptr;
+        auto last = std::move(all.back());
+        all.pop_back();
+        return last;
+    }
+    void put(std::unique_ptr<Fonts::Handles> handles) {
+        const std::lock_guard lock(mutex_);
+        sets_[handles->key].push_back(std::move(handles));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, std::vector<std::unique_ptr<Fonts::Handles>>> sets_;
+};
+
+Resting& resting() {
+    static Resting* const all = new Resting;  // outlives the threads
+    return *all;
+}
+
+}  // namespace
+
+// Of a set that could not be loaded: one that could rests instead.
+Fonts::Handles::~Handles() {
+    if (map) g_object_unref(map);
+    if (config) FcConfigDestroy(config);
+}
+
+namespace {
+
+std::unique_ptr<Fonts::Handles> load(std::span<const LocatedFile> files) {
+    auto handles = std::make_unique<Fonts::Handles>();
+    Fonts::Handles& h = *handles;
     h.config = FcConfigCreate();  // empty: no system file is read
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
-    const bool print = typefaces == Typefaces::print;
-    for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintFiles) : kFiles) add(h.config, file);
-    if (cjk)
-        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles)
-            add(h.config, file);
-
+    for (const LocatedFile& file : files) add(h.config, file);
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
     if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");
     pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(h.map), h.config);
@@ -149,10 +192,27 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : handles_(std::make_unique<Handles>
     pango_context_set_round_glyph_positions(h.context, FALSE);
     pango_context_set_language(h.context, pango_language_from_string("en"));  // not the locale's
     h.layout = pango_layout_new(h.context);
+    return handles;
 }
 
-Fonts::~Fonts() = default;
-Fonts::Fonts(Fonts&&) noexcept = default;
-Fonts& Fonts::operator=(Fonts&&) noexcept = default;
+}  // namespace
+
+Fonts::Fonts(bool cjk, Typefaces typefaces) {
+    keep_system_settings_out();
+    const std::vector<LocatedFile> files = locate_all(cjk, typefaces);
+    std::string key;
+    for (const LocatedFile& file : files) (key += file.path.native()) += '\n';
+    auto handles = resting().take(key);
+    if (!handles) {
+        handles = load(files);
+        handles->key = std::move(key);
+    }
+    handles_.reset(handles.release());
+}
+
+void Fonts::PutBack::operator()(Handles* handles) const {
+    handles->words.forget();
+    resting().put(std::unique_ptr<Handles>(handles));
+}
 
 }  // namespace beamcam::render

@@ -32,19 +32,19 @@ struct FontFile {
 std::vector<FontFile> font_files(Typefaces typefaces = Typefaces::screen);
 
 // One per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk), in print Droid Sans Fallback
-// (fonts-droid-fallback).
+// (fonts-droid-fallback). What is loaded stays loaded for the next that asks for the same.
 class Fonts {
   public:
     explicit Fonts(bool cjk = false, Typefaces typefaces = Typefaces::screen);
-    ~Fonts();
-    Fonts(Fonts&&) noexcept;
-    Fonts& operator=(Fonts&&) noexcept;
 
     struct Handles;
     const Handles& handles() const { return *handles_; }
 
   private:
-    std::unique_ptr<Handles> handles_;
+    struct PutBack {
+        void operator()(Handles* handles) const;
+    };
+    std::unique_ptr<Handles, PutBack> handles_;
 };
 
 }  // namespace beamcam::render

@@ -3,10 +3,13 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <thread>
+#include <vector>
 
+#include "render/canvas.hpp"
 #include "render/error.hpp"
 #include "render/lit.hpp"
 #include "render/mechanism.hpp"
@@ -281,6 +284,28 @@ TEST(Fonts, SystemSettingsDoNotInfluencePixels) {
     const Variable config("FONTCONFIG_FILE", "/nonexistent/fonts.conf");
     Film other(small_film(Style::flat, {.duration = 0.1}));
     EXPECT_EQ(drawn(other, 2), expected);
+}
+
+// Pango sorts fonts in threads of its own, which may still be at it when a picture is done.
+TEST(Fonts, ComeAndGoOnManyThreads) {
+    constexpr int kThreads = 4, kTimes = 50;
+    std::array<Image, kThreads> pictures;
+    std::vector<std::jthread> threads;
+    for (Image& picture : pictures)
+        threads.emplace_back([&picture] {
+            for (int k = 0; k < kTimes; ++k) {
+                const Fonts fonts;
+                picture = Image(80, 24);
+                Canvas canvas(picture, fonts);
+                canvas.text({2, 20}, "θ = 0.37 rad", {.size = 14});
+            }
+        });
+    threads.clear();
+    const Image none(80, 24);
+    for (const Image& picture : pictures) {
+        EXPECT_NE(picture, none);
+        EXPECT_EQ(picture, pictures.front());
+    }
 }
 
 }  // namespace
