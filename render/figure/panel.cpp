@@ -15,10 +15,10 @@ namespace beamcam::render::figure {
 namespace {
 
 constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
-constexpr double kSample = 2.6;       // length of a line in a legend, in letters
-constexpr double kCovers = 1.5;       // cells that a label may touch before it counts as covering data
-constexpr int kMostDirect = 4;        // more labels than that are told apart better in a box
-constexpr int kFewMarkers = 8;        // along a line
+constexpr double kSample = 2.6;  // length of a line in a legend, in letters
+constexpr double kCovers = 1.5;  // cells that a label may touch before it counts as covering data
+constexpr int kMostDirect = 4;   // more labels than that are told apart better in a box
+constexpr int kFewMarkers = 8;   // along a line
 
 std::vector<double> dashes(const std::vector<double>& widths, double width) {
     std::vector<double> out;
@@ -196,11 +196,51 @@ bool PanelDrawing::place(const Box& plot) {
     return boxed ? settled_ : place_labels();
 }
 
+constexpr double kColumn = 4;          // grains: a pixel, in which swings are not told apart
+constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
+
+// A million points draw and weigh as little as a few thousand.
+void PanelDrawing::lighten(Curve& curve) const {
+    const double grain = sheet_.grain();
+    const std::vector<Swing> fast = swings(curve.points, kColumn * grain);
+    const auto taken = [&](bool keep_extremes, const auto& from, auto broken) {
+        std::decay_t<decltype(from)> all;
+        for (const std::size_t i : without(fast, from.size(), keep_extremes))
+            all.push_back(i == kBreak ? broken : from[i]);
+        return all;
+    };
+    const Vec2 broken{std::nan(""), std::nan("")};
+    if (!curve.value.empty()) {
+        if (fast.empty()) return;
+        const std::vector<double> value = taken(true, curve.value, 0.0);
+        const std::vector<Vec2> points = taken(true, curve.points, broken);
+        curve.value.clear(), curve.points.clear();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            // From trough to crest in a few tones.
+            const double rise = i > 0 ? value[i] - value[i - 1] : 0;
+            const int tones =
+                std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
+            for (int k = 1; k < tones; ++k) {
+                const double share = double(k) / tones;
+                curve.points.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
+                curve.value.push_back(value[i - 1] + rise * share);
+            }
+            curve.points.push_back(points[i]);
+            curve.value.push_back(value[i]);
+        }
+        return;
+    }
+    for (const Swing& swing : fast) curve.bands.push_back(outline(swing, curve.points));
+    curve.line = reduce(taken(false, curve.points, broken), grain);
+    curve.points = fast.empty() ? curve.line : reduce(taken(true, curve.points, broken), grain);
+}
+
 void PanelDrawing::make_curves() {
     curves_.clear();
     taken_ = {Occupancy(plot_)};
     for (const Series& s : panel_.series) {
-        Curve curve{&s, {}, {}};
+        Curve curve;
+        curve.series = &s;
         const std::size_t count = std::min(s.x.size(), s.y.size());
         curve.points.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -212,7 +252,7 @@ void PanelDrawing::make_curves() {
         }
         for (std::size_t i = 0; i < std::min(count, s.value.size()); ++i)
             curve.value.push_back(bar_.empty() ? 0 : bar_.front().place(s.value[i]));
-        if (s.value.empty() && s.line && !s.every_point) curve.points = reduce(curve.points, sheet_.grain());
+        if (s.line && !s.every_point) lighten(curve);
         if (s.line) taken_.front().cover(curve.points, s.faded ? 0.7 : 1);
         if (s.every_point)
             for (const Vec2 p : curve.points) taken_.front().cover(Box{p.x, p.y, 0, 0}.inset(-style_.marker));
@@ -221,7 +261,8 @@ void PanelDrawing::make_curves() {
     for (const Band& b : panel_.bands)
         for (const auto* edge : {&b.low, &b.high}) {
             std::vector<Vec2> points;
-            for (std::size_t i = 0; i < std::min(b.x.size(), edge->size()); ++i) points.push_back(at(b.x[i], (*edge)[i]));
+            for (std::size_t i = 0; i < std::min(b.x.size(), edge->size()); ++i)
+                points.push_back(at(b.x[i], (*edge)[i]));
             taken_.front().cover(points, 0.5);
         }
     for (const Rule& r : panel_.rules) {
@@ -263,10 +304,8 @@ double PanelDrawing::place_insets() {
         if (inset.source) taken_.front().cover(shown_enlarged(*inset.source));
         // With its numbers and labels.
         const double w = inset.width * plot_.w, h = inset.height * plot_.h;
-        const Margins m =
-            PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
-        const Place place =
-            best_place(taken_.front(), w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
+        const Margins m = PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
+        const Place place = best_place(taken_.front(), w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
         inset_outer_.push_back(place.box);
         taken_.front().cover(place.box);
         cost += place.cost;
@@ -295,7 +334,8 @@ void PanelDrawing::place_marks() {
             for (int k = 0; k < 16; ++k) {
                 const double turn = (k + 0.5) * std::numbers::pi / 8;
                 const double reach = style_.marker + far * 1.2 * style_.gap;
-                const Vec2 middle{p.x + std::cos(turn) * (reach + size.w / 2), p.y - std::sin(turn) * (reach + size.h / 2)};
+                const Vec2 middle{p.x + std::cos(turn) * (reach + size.w / 2),
+                                  p.y - std::sin(turn) * (reach + size.h / 2)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
                 const Box air = box.inset(-0.8);
                 const Vec2 end{std::clamp(p.x, air.x, air.right()), std::clamp(p.y, air.y, air.bottom())};
@@ -357,7 +397,8 @@ bool PanelDrawing::place_labels() {
             plot_.y - margins().top + (panel_.letter.empty() && panel_.title.empty() ? 0 : style_.letters + style_.gap);
         return settled;
     }
-    if (panel_.legend == Legend::direct && labelled <= kMostDirect && panel_.bands.empty() && place_direct()) return true;
+    if (panel_.legend == Legend::direct && labelled <= kMostDirect && panel_.bands.empty() && place_direct())
+        return true;
     return place_legend();
 }
 
@@ -437,7 +478,8 @@ Box PanelDrawing::legend_size() {
     // Inside the plot one below the other; above it as many beside each other as the width holds.
     legend_entry_ = sample + style_.gap + widest;
     const double apart = 2 * style_.gap;
-    legend_columns_ = legend_above_ ? std::clamp(static_cast<int>((plot_.w + apart) / (legend_entry_ + apart)), 1, rows) : 1;
+    legend_columns_ =
+        legend_above_ ? std::clamp(static_cast<int>((plot_.w + apart) / (legend_entry_ + apart)), 1, rows) : 1;
     const int lines = (rows + legend_columns_ - 1) / legend_columns_;
     return {0, 0, legend_columns_ * (legend_entry_ + apart) - apart, lines * row};
 }
@@ -497,8 +539,8 @@ void PanelDrawing::draw_grounds() {
         sheet_.fill(pale(look(b.look).color, 0.72));
     }
     for (const Rule& r : panel_.rules) {
-        const double place = r.vertical ? plot_.x + plot_.w * x_.front().place(r.at)
-                                        : plot_.bottom() - plot_.h * y_.front().place(r.at);
+        const double place =
+            r.vertical ? plot_.x + plot_.w * x_.front().place(r.at) : plot_.bottom() - plot_.h * y_.front().place(r.at);
         sheet_.move_to(r.vertical ? Vec2{place, plot_.y} : Vec2{plot_.x, place});
         sheet_.line_to(r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place});
         sheet_.stroke({rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
@@ -543,6 +585,16 @@ void PanelDrawing::marker(Marker shape, Vec2 p, double r, Color color, bool holl
     sheet_.stroke({color, 0.8 * style_.line, {}, Cap::butt});
 }
 
+void PanelDrawing::draw_bands(const Curve& curve, Pen pen) {
+    pen.dash.clear();
+    for (const std::vector<Vec2>& band : curve.bands) {
+        sheet_.polyline(band);
+        sheet_.close();
+        sheet_.fill_keeping_path(pen.color);
+        sheet_.stroke(pen);
+    }
+}
+
 void PanelDrawing::draw_curve(const Curve& curve) {
     const Series& s = *curve.series;
     Pen pen = curve_pen(s, style_);
@@ -572,15 +624,16 @@ void PanelDrawing::draw_curve(const Curve& curve) {
             }
             i = k;
         }
-        const std::vector<bool> seen = s.every_point ? not_covered(curve.points, 0.15 * style_.marker) : std::vector<bool>();
+        const std::vector<bool> seen =
+            s.every_point ? not_covered(curve.points, 0.15 * style_.marker) : std::vector<bool>();
         for (std::size_t i = 0; s.every_point && i < curve.points.size(); ++i)
             if (seen[i] && step(i) >= 0 && inside(plot_, curve.points[i], style_.marker))
                 marker(look(s.look).marker, curve.points[i], 0.8 * style_.marker, map_color(curve.value[i]), false);
         return;
     }
     if (s.line) {
-        sheet_.polyline(curve.points);
-        sheet_.stroke(pen);
+        sheet_.curve(s.every_point ? curve.points : curve.line, pen);
+        draw_bands(curve, pen);
         // A single point draws no line; show it all the same.
         std::size_t finite = 0;
         Vec2 only;
@@ -625,7 +678,10 @@ void PanelDrawing::draw_ticks(const AxisMap& axis, char side, bool labelled) {
         const bool across = side == 'b' || side == 't';
         const double x = across ? plot_.x + t.at * plot_.w : side == 'l' ? plot_.x : plot_.right();
         const double y = across ? (side == 'b' ? plot_.bottom() : plot_.y) : plot_.bottom() - t.at * plot_.h;
-        const Vec2 in = side == 'l' ? Vec2{length, 0} : side == 'r' ? Vec2{-length, 0} : side == 'b' ? Vec2{0, -length} : Vec2{0, length};
+        const Vec2 in = side == 'l'   ? Vec2{length, 0}
+                        : side == 'r' ? Vec2{-length, 0}
+                        : side == 'b' ? Vec2{0, -length}
+                                      : Vec2{0, length};
         sheet_.move_to({x, y});
         sheet_.line_to(Vec2{x, y} + in);
         sheet_.stroke(pen);
@@ -676,7 +732,8 @@ void PanelDrawing::draw_titles() {
         sheet_.text({plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap, plot_.centre().y}, panel_.y.label, l);
     if (!right_.empty()) {
         l.up = Up::top;
-        sheet_.text({plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap, plot_.centre().y}, panel_.right->label, l);
+        sheet_.text({plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap, plot_.centre().y},
+                    panel_.right->label, l);
     }
     double y = plot_.y - style_.gap;
     Lettering common = numbers();

@@ -28,9 +28,11 @@ class PanelDrawing {
 
   private:
     struct Curve {
-        const Series* series;
-        std::vector<Vec2> points;   // on the sheet
-        std::vector<double> value;  // colour shares, for curves with values
+        const Series* series = nullptr;
+        std::vector<Vec2> points;              // on the sheet
+        std::vector<std::vector<Vec2>> bands;  // outlines of where it swings too fast to be told apart; not in `line`
+        std::vector<Vec2> line;                // what is drawn as a line, for curves without values
+        std::vector<double> value;             // colour shares, for curves with values
     };
     struct Writing {
         Vec2 at;
@@ -44,6 +46,7 @@ class PanelDrawing {
     Lettering numbers() const;
     void make_axes(double width, double height);
     void make_curves();
+    void lighten(Curve& curve) const;
     double place_boxes(bool legend_first);
     Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();
@@ -59,6 +62,7 @@ class PanelDrawing {
     void draw_grounds();
     void draw_curves();
     void draw_curve(const Curve& curve);
+    void draw_bands(const Curve& curve, Pen pen);
     void draw_marks();
     void draw_frame();
     void draw_ticks(const AxisMap& axis, char side, bool labelled);

@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace beamcam::render::figure {
 namespace {
 
 bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
 
+// Breaks left out.
 bool increasing(std::span<const Vec2> points) {
-    for (std::size_t i = 1; i < points.size(); ++i)
-        if (points[i].x < points[i - 1].x) return false;
+    double before = -std::numeric_limits<double>::infinity();
+    for (const Vec2 p : points) {
+        if (broken(p)) continue;
+        if (p.x < before) return false;
+        before = p.x;
+    }
     return true;
 }
 
@@ -62,7 +68,84 @@ std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
     return out;
 }
 
+// One column of a curve that may be broken.
+struct Column {
+    double place = 0;  // in columns
+    std::size_t first = 0, last = 0, least = 0, most = 0;
+    double way = 0;  // up and down, breaks left out
+};
+
+Column column_at(std::span<const Vec2> p, std::size_t first, double width) {
+    Column c{std::floor(p[first].x / width), first, first, first, first};
+    for (std::size_t i = first + 1; i < p.size(); ++i) {
+        if (broken(p[i])) continue;
+        if (std::floor(p[i].x / width) != c.place) break;
+        if (!broken(p[i - 1])) c.way += std::abs(p[i].y - p[i - 1].y);
+        if (p[i].y < p[c.least].y) c.least = i;
+        if (p[i].y > p[c.most].y) c.most = i;
+        c.last = i;
+    }
+    return c;
+}
+
 }  // namespace
+
+std::vector<Swing> swings(std::span<const Vec2> points, double column) {
+    constexpr double kTurns = 2.5;      // heights of a column that the curve goes through in it
+    constexpr std::size_t kFewest = 8;  // columns: a single one is drawn as it is
+    std::vector<Swing> all;
+    if (points.size() < 4 * kFewest || !increasing(points)) return all;
+    Swing now;
+    double before = 0;
+    const auto close = [&] {
+        if (now.least.size() >= kFewest) all.push_back(std::move(now));
+        now = {};
+    };
+    for (std::size_t i = 0; i < points.size();) {
+        if (broken(points[i])) {
+            ++i;
+            continue;
+        }
+        const Column c = column_at(points, i, column);
+        i = c.last + 1;
+        if (!now.least.empty() && c.place != before + 1) close();
+        if (c.way > kTurns * (points[c.most].y - points[c.least].y)) {
+            if (now.least.empty()) now.first = c.first;
+            now.least.push_back(c.least);
+            now.most.push_back(c.most);
+            now.last = c.last;
+            before = c.place;
+        } else {
+            close();
+        }
+    }
+    close();
+    return all;
+}
+
+std::vector<Vec2> outline(const Swing& swing, std::span<const Vec2> points) {
+    std::vector<Vec2> all{points[swing.first]};
+    for (const std::size_t k : swing.most) all.push_back(points[k]);
+    all.push_back(points[swing.last]);
+    for (auto k = swing.least.rbegin(); k != swing.least.rend(); ++k) all.push_back(points[*k]);
+    return all;
+}
+
+std::vector<std::size_t> without(const std::vector<Swing>& swings, std::size_t count, bool keep_extremes) {
+    std::vector<std::size_t> all;
+    std::size_t next = 0;
+    for (const Swing& swing : swings) {
+        for (; next <= swing.first; ++next) all.push_back(next);
+        for (std::size_t c = 0; keep_extremes && c < swing.least.size(); ++c) {
+            all.push_back(std::min(swing.least[c], swing.most[c]));
+            all.push_back(std::max(swing.least[c], swing.most[c]));
+        }
+        if (!keep_extremes) all.push_back(kBreak);
+        next = swing.last;
+    }
+    for (; next < count; ++next) all.push_back(next);
+    return all;
+}
 
 std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
     std::vector<Vec2> out;
@@ -78,7 +161,8 @@ std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
         increasing(piece) ? columns(piece, grain, out) : steps(piece, grain, out);
         i = end;
     }
-    return straightened(out, 0.25 * grain);
+    constexpr std::size_t kMany = 20'000;  // points: so dense a drawing hides what a grain more does
+    return straightened(out, out.size() > kMany ? grain : 0.25 * grain);
 }
 
 }  // namespace beamcam::render::figure

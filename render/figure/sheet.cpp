@@ -94,16 +94,17 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
     const double scale = size.dpi / kPointsPerInch;
     double unit = 1;  // device units of a point
     if (!(size.width > 0 && size.height > 0 && std::max(size.width, size.height) * scale <= kLargestSide))
-        throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm at {:g} dpi cannot be drawn; its sides must be "
-                                       "positive and at most {:g} pixels",
-                                       size.width / points(1), size.height / points(1), size.dpi, kLargestSide));
+        throw PictureError(
+            fmt::format("a figure of {:.4g} × {:.4g} mm at {:g} dpi cannot be drawn; its sides must be "
+                        "positive and at most {:g} pixels",
+                        size.width / points(1), size.height / points(1), size.dpi, kLargestSide));
     if (medium == Medium::png) {
         // At least a pixel, and never less than the page.
         h.image = Image(static_cast<int>(std::ceil(size.width * scale - 1e-6)),
                         static_cast<int>(std::ceil(size.height * scale - 1e-6)));
-        h.surface = cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
-                                                        CAIRO_FORMAT_ARGB32, h.image.width, h.image.height,
-                                                        4 * h.image.width);
+        h.surface =
+            cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
+                                                CAIRO_FORMAT_ARGB32, h.image.width, h.image.height, 4 * h.image.width);
         unit = scale;
     } else if (medium == Medium::pdf) {
         h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, size.width, size.height);
@@ -130,6 +131,22 @@ double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::p
 void Sheet::arc(Vec2 c, double radius, double from, double to) {
     cairo_new_sub_path(cr_);
     Brush::arc(c, radius, from, to);
+}
+
+void Sheet::curve(std::span<const Vec2> points, const Pen& pen) {
+    // To fill pixels, Cairo carries every edge of a path along from row to row: a long one goes in pieces, whose round
+    // ends are the joins. A file keeps the path as it is.
+    constexpr std::size_t kLong = 10'000, kPiece = 128;  // points
+    if (medium_ != Medium::png || points.size() <= kLong || !pen.dash.empty()) {
+        polyline(points);
+        return stroke(pen);
+    }
+    Pen part = pen;
+    part.cap = Cap::round;
+    for (std::size_t from = 0; from + 1 < points.size(); from += kPiece - 1) {
+        polyline(points.subspan(from, std::min(kPiece, points.size() - from)));
+        stroke(part);
+    }
 }
 
 void Sheet::gradient(const Box& box, std::span<const Color> colors) {
@@ -215,7 +232,8 @@ Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) {
         piece.x = stacked ? base_end : label.width;
         if (before && before->symbol && before->script == 0 && run.script >= 0 && !run.symbol)
             piece.x += (run.script > 0 ? 0.08 : 0.03) * l.size;
-        if (run.script == 0 || !before || before->script == 0) base_end = run.script == 0 ? piece.x + piece.advance : piece.x;
+        if (run.script == 0 || !before || before->script == 0)
+            base_end = run.script == 0 ? piece.x + piece.advance : piece.x;
         label.width = std::max(label.width, piece.x + piece.advance);
         label.smallest = std::min(label.smallest, piece.size);
         label.ascent = std::max(label.ascent, -piece.y + (run.script ? cap_height(piece.size) : 0));
@@ -240,7 +258,8 @@ void Sheet::show(const Set& label) {
         // Dots stand above the middle of the slanted letter.
         for (int k = 0; k < piece.run.dots; ++k) {
             const double across = (k - 0.5 * (piece.run.dots - 1)) * 0.22 * piece.size;
-            circle({x0 + piece.x + 0.58 * piece.advance + across, y0 + piece.y - 0.90 * piece.size}, 0.065 * piece.size);
+            circle({x0 + piece.x + 0.58 * piece.advance + across, y0 + piece.y - 0.90 * piece.size},
+                   0.065 * piece.size);
             cairo_fill(cr_);
         }
     }

@@ -64,6 +64,8 @@ class Sheet : public Brush {
     void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
+    // A line through any number of points; NaN breaks it.
+    void curve(std::span<const Vec2> points, const Pen& pen);
     void clip(const Box& box);  // until `unclip`
     void unclip();
 

@@ -130,6 +130,43 @@ TEST(FigureReduce, NanBreaksTheLine) {
     EXPECT_TRUE(std::isnan(kept[1].x));
 }
 
+// 40 swings a column: the outline is the envelope, and little else is left to draw.
+TEST(FigureReduce, FastSwingsBecomeABandWithTheirEnvelope) {
+    const auto envelope = [](double x) { return 10 + 5 * std::exp(-x / 60); };
+    std::vector<Vec2> points;
+    for (int i = 0; i < 1'000'000; ++i)
+        points.push_back({i * 1e-4, i % 7 == 3 ? std::nan("") : envelope(i * 1e-4) * std::sin(i * 0.0251327)});
+    const std::vector<Swing> fast = swings(points, 1);
+    ASSERT_EQ(fast.size(), 1u);
+    EXPECT_EQ(fast[0].least.size(), 100u);
+    EXPECT_EQ(fast[0].first, 0u);
+    EXPECT_EQ(fast[0].last, points.size() - 1);
+    for (std::size_t column = 0; column < 100; ++column) {
+        const Vec2 crest = points[fast[0].most[column]], trough = points[fast[0].least[column]];
+        EXPECT_EQ(std::floor(crest.x), column);
+        EXPECT_EQ(std::floor(trough.x), column);
+        EXPECT_NEAR(crest.y, envelope(crest.x), 0.01);
+        EXPECT_NEAR(trough.y, -envelope(trough.x), 0.01);
+    }
+    EXPECT_EQ(outline(fast[0], points).size(), 202u);
+    EXPECT_EQ(without(fast, points.size(), false), (std::vector<std::size_t>{0, kBreak, points.size() - 1}));
+    EXPECT_EQ(without(fast, points.size(), true).size(), 202u);
+}
+
+TEST(FigureReduce, CurvesThatCanBeToldApartAreNoBands) {
+    std::vector<Vec2> slow, orbit, apart;
+    for (int i = 0; i < 100'000; ++i) {
+        const double t = i * 1e-3;
+        slow.push_back({t, std::sin(3 * t)});  // half a swing a column
+        orbit.push_back({std::cos(500 * t), std::sin(500 * t)});
+        apart.push_back({std::floor(t) * 2 + t - std::floor(t), std::sin(500 * t)});  // every second column
+    }
+    EXPECT_TRUE(swings(slow, 1).empty());
+    EXPECT_TRUE(swings(orbit, 1).empty());
+    EXPECT_TRUE(swings(apart, 1).empty());
+    EXPECT_TRUE(swings({}, 1).empty());
+}
+
 TEST(FigurePlacement, GoesWhereNothingIs) {
     Occupancy taken({0, 0, 100, 100});
     taken.cover(Box{50, 0, 50, 50});
@@ -164,6 +201,30 @@ Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi
     Sheet sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
     draw(figure, page, sheet);
     return {sheet.image(), sheet.written};
+}
+
+// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each value.
+TEST(Figure, ABandLooksLikeItsSwings) {
+    std::vector<double> x, y;
+    for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
+    Figure by_outline = plot(x, y), in_tones = by_outline;
+    in_tones.panels[0].series[0].value = std::vector<double>(x.size(), 0.5);
+    in_tones.panels[0].color_bar.emplace().hidden = true;
+    // Back and forth in x by less than a thousandth of a pixel: nothing is a band.
+    for (std::size_t i = 1; i < x.size(); i += 2) x[i] = x[i - 1] - 1e-9;
+    const Image band = draw_png(by_outline).image, lines = draw_png(plot(x, y)).image;
+    const Image tones = draw_png(in_tones).image;
+    ASSERT_EQ(band.pixels.size(), lines.pixels.size());
+    const auto ink = [](std::uint32_t p) { return (p & 255) != (p >> 16 & 255); };  // of the curve, not the axes
+    std::size_t all = 0, differ = 0, of_tones = 0;
+    for (std::size_t i = 0; i < band.pixels.size(); ++i) {
+        all += ink(lines.pixels[i]);
+        differ += ink(lines.pixels[i]) != ink(band.pixels[i]);
+        of_tones += ink(lines.pixels[i]) != ink(tones.pixels[i]);
+    }
+    EXPECT_GT(all, 5000u);
+    EXPECT_LT(differ, all / 100);
+    EXPECT_LT(of_tones, all / 50);
 }
 
 TEST(Figure, BadNumbersGiveAPictureOrAClearError) {
