@@ -14,9 +14,9 @@ std::uint32_t unpremultiplied(std::uint32_t channel, std::uint32_t alpha) {
 
 }  // namespace
 
-bool is_opaque(const render::Image& image) {
+bool is_opaque(std::span<const std::uint32_t> pixels) {
     std::uint32_t all = 0xff000000;
-    for (std::uint32_t pixel : image.pixels) all &= pixel;
+    for (std::uint32_t pixel : pixels) all &= pixel;
     return all >= 0xff000000;
 }
 
@@ -34,21 +34,21 @@ std::string rgb_bytes(const render::Image& image) {
 
 std::string rgba_bytes(const render::Image& image) {
     std::string bytes(image.pixels.size() * 4, '\0');
-    rgba_bytes(image, reinterpret_cast<std::uint8_t*>(bytes.data()));
+    rgba_bytes(image.pixels, reinterpret_cast<std::uint8_t*>(bytes.data()));
     return bytes;
 }
 
-void rgba_bytes(const render::Image& image, std::uint8_t* out) {
+void rgba_bytes(std::span<const std::uint32_t> pixels, std::uint8_t* out) {
     static_assert(std::endian::native == std::endian::little, "pixels are swapped in memory order");
-    if (is_opaque(image)) {  // nearly all pictures: blue and red change places, which compilers do many at once
-        for (const std::uint32_t pixel : image.pixels) {
+    if (is_opaque(pixels)) {  // nearly all pictures: blue and red change places, which compilers do many at once
+        for (const std::uint32_t pixel : pixels) {
             const std::uint32_t swapped = (pixel & 0xff00ff00) | (pixel >> 16 & 0xff) | (pixel & 0xff) << 16;
             std::memcpy(out, &swapped, 4);
             out += 4;
         }
         return;
     }
-    for (const std::uint32_t pixel : image.pixels) {
+    for (const std::uint32_t pixel : pixels) {
         const std::uint32_t alpha = pixel >> 24;
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t channel = pixel >> (16 - 8 * i) & 0xff;

@@ -2,19 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "render/image.hpp"
 
 namespace beamcam::output {
 
-bool is_opaque(const render::Image& image);
+bool is_opaque(std::span<const std::uint32_t> pixels);
 
 // R, G, B per pixel, rows top to bottom; right for opaque images only.
 std::string rgb_bytes(const render::Image& image);
 // R, G, B, A per pixel: c = round(255 c' / a) for the premultiplied c', 0 where a = 0.
 std::string rgba_bytes(const render::Image& image);
-// The same into 4·width·height bytes of the caller's.
-void rgba_bytes(const render::Image& image, std::uint8_t* out);
+// The same of some pixels, into four bytes each of the caller's.
+void rgba_bytes(std::span<const std::uint32_t> pixels, std::uint8_t* out);
 
 }  // namespace beamcam::output

@@ -7,7 +7,7 @@ namespace beamcam::output {
 
 void to_raster(const render::Image& image, Raster& out) {
     out.resize(image.width, image.height);
-    rgba_bytes(image, out.rgba.data());
+    rgba_bytes(image.pixels, out.rgba.data());
 }
 
 render::Image to_image(const Raster& raster) {

@@ -554,9 +554,11 @@ class Runner {
                             ? p.file
                             : numbered_file(p.file, p.first_frame + p.draw[static_cast<std::size_t>(k)]));
             const auto start = Clock::now();
-            output::write_png(
-                file, image, {std::nullopt, meta},
-                p.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
+            if (p.kind == Pictures::Kind::still)
+                output::write_png(file, image, {std::nullopt, meta});
+            else
+                output::write_png(file, image, {std::nullopt, meta, output::PngCompression::quick},
+                                  output::Durability::buffered);
             const std::lock_guard lock(mutex);
             times_.write += seconds_since(start);
             if (p.kind == Pictures::Kind::frames) record(file, inputs_of(p));

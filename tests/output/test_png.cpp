@@ -1,5 +1,7 @@
 #include <png.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "output/pixels.hpp"
@@ -29,6 +31,8 @@ Decoded decoded(const std::string& file) {
     return result;
 }
 
+constexpr std::array kCompressions = {PngCompression::small, PngCompression::quick};
+
 render::Image pattern(int width, int height, bool opaque) {
     render::Image image(width, height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -43,10 +47,13 @@ TEST(Png, DecodesToTheSamePixelsAtAnySize) {
     for (bool opaque : {true, false})
         for (auto [width, height] : {std::pair{1, 1}, {1, 7}, {7, 1}, {33, 5}, {257, 129}}) {
             const render::Image image = pattern(width, height, opaque);
-            const Decoded png = decoded(encode_png(image));
-            EXPECT_EQ(png.width, width);
-            EXPECT_EQ(png.height, height);
-            EXPECT_EQ(png.rgba, rgba_bytes(image)) << width << "x" << height << (opaque ? " opaque" : " transparent");
+            for (PngCompression compression : kCompressions) {
+                const Decoded png = decoded(encode_png(image, {{}, {}, compression}));
+                EXPECT_EQ(png.width, width);
+                EXPECT_EQ(png.height, height);
+                EXPECT_EQ(png.rgba, rgba_bytes(image))
+                    << width << "x" << height << (opaque ? " opaque" : " transparent");
+            }
         }
 }
 
@@ -58,12 +65,45 @@ TEST(Png, DecodesToTheSamePixelsWhateverTheyAre) {
     std::uint32_t state = 1;
     for (std::uint32_t& pixel : noise.pixels) pixel = 0xff000000U | (state = state * 1664525U + 1013904223U) >> 8;
     for (const render::Image& image : {drawing, noise})
-        EXPECT_EQ(decoded(encode_png(image)).rgba, rgba_bytes(image)) << image.width;
+        for (PngCompression compression : kCompressions)
+            EXPECT_EQ(decoded(encode_png(image, {{}, {}, compression})).rgba, rgba_bytes(image)) << image.width;
+}
+
+// Wherever the first pixel stands that is not opaque, and whatever is as above: all that was told till then is told
+// anew.
+TEST(Png, DecodesToTheSamePixelsWhereverOneIsNotOpaque) {
+    for (std::size_t at : {0, 1, 99, 100, 131, 132, 4950, 9900, 9999})
+        for (std::uint32_t other : {0x80402010U, 0xfe000000U, 0x00000000U}) {
+            render::Image image(100, 100);
+            std::fill(image.pixels.begin(), image.pixels.end(), 0xfff4f1eaU);
+            for (std::size_t i = 4000; i < 4700; ++i) image.pixels[i] = 0xff000000U | static_cast<std::uint32_t>(i * i);
+            image.pixels[at] = other;
+            for (PngCompression compression : kCompressions) {
+                const Decoded png = decoded(encode_png(image, {{}, {}, compression}));
+                EXPECT_TRUE(png.alpha);
+                EXPECT_EQ(png.rgba, rgba_bytes(image)) << at;
+            }
+        }
+}
+
+TEST(Png, DrawingsAreSmallInSequencesToo) {
+    render::Image image(1280, 720);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {  // a slanted bar with soft edges
+        const std::size_t x = i % 1280, y = i / 1280, into = x + y - std::min(x + y, 2 * y);
+        image.pixels[i] =
+            0xff000000U | 0x010101U * static_cast<std::uint32_t>(into > 200 && into < 400 ? 40 + y % 5 : 240);
+    }
+    const std::size_t small = encode_png(image).size(),
+                      quick = encode_png(image, {{}, {}, PngCompression::quick}).size();
+    EXPECT_LE(small, quick);
+    EXPECT_LT(quick, 20'000u);  // of 2.8 MB
 }
 
 TEST(Png, HasAnAlphaChannelOnlyWhereItIsNeeded) {
-    EXPECT_FALSE(decoded(encode_png(pattern(9, 9, true))).alpha);
-    EXPECT_TRUE(decoded(encode_png(pattern(9, 9, false))).alpha);
+    for (PngCompression compression : kCompressions) {
+        EXPECT_FALSE(decoded(encode_png(pattern(9, 9, true), {{}, {}, compression})).alpha);
+        EXPECT_TRUE(decoded(encode_png(pattern(9, 9, false), {{}, {}, compression})).alpha);
+    }
 }
 
 // Keyword and text of every text chunk, in libpng's reading.
@@ -105,7 +145,9 @@ TEST(Png, RefusesWhatTheFormatCannotHold) {
 }
 
 TEST(Png, SamePictureGivesTheSameBytes) {
-    EXPECT_EQ(encode_png(pattern(64, 64, true)), encode_png(pattern(64, 64, true)));
+    for (PngCompression compression : kCompressions)
+        EXPECT_EQ(encode_png(pattern(640, 64, true), {{}, {}, compression}),
+                  encode_png(pattern(640, 64, true), {{}, {}, compression}));
 }
 
 }  // namespace
