@@ -292,7 +292,12 @@ struct VideoWriter::Impl {
                                                colors.data(),
                                                metadata.data()};
         BeamcamVideoError error = {};
-        check(module.open(&settings, &session, &error), error);
+        const BeamcamVideoStatus opened = module.open(&settings, &session, &error);
+        if (opened == beamcam_video_failed)  // what no rule of ours knew
+            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
+                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                    " pixels here (" + error.text + "); choose a smaller size, or write \"frames\"");
+        check(opened, error);
     }
 
     // Slots for one more input.

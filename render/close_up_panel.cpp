@@ -22,8 +22,8 @@ class CloseUpPanel final : public Panel {
         plot_ = {std::round(box_.x + 70 * u), std::round(box_.y + 46 * u), std::round(box_.w - 78 * u),
                  std::round(box_.h - 46 * u - 40 * u)};
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
-        for (const sim::Pose& p : motion().poses)
-            if (p.nearest) depth_ = std::max(depth_, -p.nearest->gap);
+        for (int k = 0; k < facts.frames(); ++k)
+            if (const auto near = facts.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
         if (!motion().problem.cam) return;
         const double radius = motion().problem.cam->radius;
         // An impulsive contact does not penetrate: a millionth of the radius keeps a scale.

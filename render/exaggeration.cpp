@@ -182,11 +182,17 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
 }
 
 double film_factor(const Problem& problem, std::span<const Pose> poses, std::optional<double> wanted) {
+    return film_factor(problem, poses.size(), [&](std::size_t k) { return poses[k]; }, wanted);
+}
+
+double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
+                   std::optional<double> wanted) {
     constexpr double kShare = 0.10, kTilt = 0.25;  // of the length; [rad]
     double factor = wanted.value_or(1e6);
     if (!wanted) {
         double deflection = 0, slope = 0;
-        for (const Pose& pose : poses) {
+        for (std::size_t k = 0; k < frames; ++k) {
+            const Pose pose = pose_of(k);
             const double weight = cam_weight(problem, pose), base = base_angle(problem, pose, weight);
             deflection = std::max(deflection, largest_deflection(pose, base));
             if (pose.nearest && pose.nearest->touching && problem.cam)
@@ -199,8 +205,9 @@ double film_factor(const Problem& problem, std::span<const Pose> poses, std::opt
         factor = factor > 1 ? round_down_125(factor) : 1.0;
     }
     const auto clear = [&](double n) {
-        return std::ranges::all_of(poses,
-                                   [&](const Pose& p) { return drawn_beam(problem, p, n, problem.beam.depth).clear; });
+        for (std::size_t k = 0; k < frames; ++k)
+            if (!drawn_beam(problem, pose_of(k), n, problem.beam.depth).clear) return false;
+        return true;
     };
     while (factor > 1 && !clear(factor)) factor = round_down_125(factor * 0.999);
     return std::max(factor, 1.0);

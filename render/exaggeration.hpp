@@ -9,6 +9,8 @@
 // beam enters the drawn cam nowhere, and the motion stays continuous through touch and release.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,5 +51,8 @@ DrawnBeam drawn_beam(const sim::Problem& problem, const sim::Pose& pose, double 
 // length without tilting the contact by more than a quarter radian; 1 for a rigid beam or one that bends visibly.
 // Either yields to the next smaller round number as long as some frame would show the beam in the cam.
 double film_factor(const sim::Problem& problem, std::span<const sim::Pose> poses, std::optional<double> wanted);
+// The same for poses that are not held at once.
+double film_factor(const sim::Problem& problem, std::size_t frames,
+                   const std::function<sim::Pose(std::size_t)>& pose_of, std::optional<double> wanted);
 
 }  // namespace beamcam::render

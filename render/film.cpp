@@ -177,8 +177,8 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     const double u = facts.unit;
     const FilmSetup& setup = *facts.setup;
     const TextStyle big{.size = 46 * u, .color = facts.palette->ink, .weight = Weight::semibold};
-    const double last = setup.poses.back().t;
-    const std::string text = clock_text(facts.time, facts.pose(0, frame).t, last);
+    const double last = setup.time(setup.frames() - 1);
+    const std::string text = clock_text(facts.time, facts.at(0, frame), last);
     const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
     if (widest > b.w) return;
     canvas.text({b.x, b.y + 40 * u}, text, big);
@@ -231,7 +231,7 @@ bool Film::repeats(int frame) const {
     for (const Callout& words : setup.callouts)
         if (shown(words, frame) != shown(words, frame - 1)) return false;
     if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->plays(frame); })) return false;
-    const auto still = [&](const Motion& motion) { return motion.poses[now].t == motion.poses[before].t; };
+    const auto still = [&](const Motion& motion) { return motion.time(now) == motion.time(before); };
     return still(setup) && std::ranges::all_of(setup.others, still);
 }
 

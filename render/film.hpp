@@ -50,14 +50,28 @@ struct View {
     bool transparent = false;  // no paper: the pictures have an alpha channel
 };
 
+// Poses kept elsewhere than in memory, read by several threads at once.
+class PoseStore {
+  public:
+    virtual ~PoseStore() = default;
+    virtual std::size_t size() const = 0;
+    virtual double time(std::size_t frame) const = 0;  // of its pose [s]
+    virtual sim::Pose pose(std::size_t frame) const = 0;
+};
+
 // One run of one mechanism as a film shows it.
 struct Motion {
     sim::Problem problem;
     std::string label;             // plain text; told where several motions stand beside each other
     std::vector<sim::Pose> poses;  // one a frame, true geometry, times not decreasing, at least one
+    std::shared_ptr<const PoseStore> stored;  // in place of `poses`
     sim::Table chart;              // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
+
+    std::size_t frames() const { return stored ? stored->size() : poses.size(); }
+    double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
+    sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
 };
 
 // Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.

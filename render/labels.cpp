@@ -143,8 +143,10 @@ TimeFormat time_format(const std::vector<double>& times) {
 std::string clock_text(const TimeFormat& format, double t, double last) {
     const std::string number = fixed(t / format.unit, format.decimals);
     const std::string longest = fixed(last / format.unit, format.decimals);
+    // Faint zeros keep the room of the digits that come later: neither a hole nor a step.
     std::string room;
-    for (std::size_t i = number.size(); i < longest.size(); ++i) room += "\u2007";  // as wide as a digit
+    if (number.size() < longest.size())
+        room = fmt::format("<span alpha='22%'>{}</span>", std::string(longest.size() - number.size(), '0'));
     return math("t") + "\u2009=\u2009" + room + number + "\u00A0" + format.symbol;
 }
 

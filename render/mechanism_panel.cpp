@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ranges>
 
 #include "render/smooth_path.hpp"
 #include "render/ticks.hpp"
@@ -165,7 +166,7 @@ void MechanismPanel::note_extent() {
     }
     wide_ = std::clamp(0.06 * motion().problem.beam.length * look_.camera.scale, 18 * u_, 80 * u_);
     for (int k = 0; k < facts_.frames(); ++k)
-        moved_.push_back(k == 0 ? 0 : moved_.back() + (facts_.pose(0, k).t > facts_.pose(0, k - 1).t ? 1 : 0));
+        moved_.push_back(k == 0 ? 0 : moved_.back() + (facts_.at(0, k) > facts_.at(0, k - 1) ? 1 : 0));
     if (facts_.setup->view.tip_path) note_path();
     lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
 }
@@ -178,7 +179,7 @@ void MechanismPanel::note_path() {
         std::vector<Vec2> piece{tips_[k]};
         if (k > 0) piece = smooth_piece(tips_, k - 1, kArcStep * u_), piece.erase(piece.begin());
         for (Vec2 p : piece) {
-            times.push_back(facts_.pose(member_, static_cast<int>(k)).t);
+            times.push_back(facts_.at(member_, static_cast<int>(k)));
             inside.push_back(p - Vec2{box_.x, box_.y});
         }
     }
@@ -186,14 +187,15 @@ void MechanismPanel::note_path() {
 }
 
 void MechanismPanel::find_flashes() {
-    const std::vector<Pose>& poses = motion().poses;
+    const auto frames = std::views::iota(0, facts_.frames());
+    const auto time = [&](int frame) { return facts_.at(member_, frame); };
     for (const sim::Impact& impact : motion().impacts) {
-        const auto at = std::ranges::lower_bound(poses, impact.t_start, {}, &Pose::t);
-        if (at == poses.end() || (at == poses.begin() && at->t > impact.t_start)) continue;
-        const int frame = static_cast<int>(at - poses.begin());
-        const DrawnBeam b = beam(frame);
+        const auto at = std::ranges::lower_bound(frames, impact.t_start, {}, time);
+        if (at == frames.end() || (*at == 0 && time(0) > impact.t_start)) continue;
+        const DrawnBeam b = beam(*at);
         if (!b.contact) continue;
-        flashes_.push_back({frame, std::atan2(b.contact->normal.y, b.contact->normal.x) - at->cam_angle});
+        flashes_.push_back({*at, std::atan2(b.contact->normal.y, b.contact->normal.x) -
+                                     facts_.pose(member_, *at).cam_angle});
     }
 }
 
@@ -275,7 +277,7 @@ bool MechanismPanel::whole_path() const {
 void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const {
     if (!whole_path()) return;
     GrowingLayer& path = static_cast<Threads*>(state)->path;
-    Box changed = path.until(facts_.pose(member_, frame).t, path_, kept.fonts(), {palette_.motion_faint, 1.6 * u_});
+    Box changed = path.until(facts_.at(member_, frame), path_, kept.fonts(), {palette_.motion_faint, 1.6 * u_});
     if (anew) changed = path.whole();
     if (changed.empty()) return;
     kept.replace_part(ground, 0, 0, {changed.x + box_.x, changed.y + box_.y, changed.w, changed.h});
@@ -358,6 +360,32 @@ void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threa
     canvas.image_part(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y), lit_bounds(scene));
 }
 
+// Out along the face and back, from where the beam leaves the hub.
+std::vector<Vec2> MechanismPanel::ghost_outline(const Scene& s, const DrawnBeam& beam) const {
+    const auto outside = [&](const auto& point) {
+        std::vector<Vec2> line;
+        for (std::size_t i = 0; i < beam.line.size(); ++i) {
+            const Vec2 p = px(point(i));
+            if (norm(p - s.shape.hinge) < s.shape.hub) continue;
+            if (line.empty() && i > 0) {  // where it crosses the hub's edge
+                Vec2 in = px(point(i - 1)), out = p;
+                for (int pass = 0; pass < 40; ++pass) {
+                    const Vec2 middle = (in + out) * 0.5;
+                    (norm(middle - s.shape.hinge) < s.shape.hub ? in : out) = middle;
+                }
+                line.push_back(out);
+            }
+            line.push_back(p);
+        }
+        return line;
+    };
+    std::vector<Vec2> all = outside([&](std::size_t i) { return beam.face(i); });
+    const std::vector<Vec2> back = outside([&](std::size_t i) { return beam.back(i); });
+    all.insert(all.end(), back.rbegin(), back.rend());
+    for (Vec2& p : all) p = s.on(p);
+    return all;
+}
+
 // The other motions: outlines of their beams, and of their discs where those stand elsewhere.
 void MechanismPanel::ghosts(const Scene& s) const {
     for (int m : shown_) {
@@ -370,11 +398,15 @@ void MechanismPanel::ghosts(const Scene& s) const {
             s.arc(px(pose.disc_centre), cam->radius * look_.camera.scale, 0, 2 * kPi);
             s.canvas.stroke({color.faded(0.8), 2 * u_, {8 * u_, 6 * u_}, Cap::butt});
         }
-        for (std::size_t i = 0; i < other.line.size(); ++i)
-            i == 0 ? s.canvas.move_to(s.px(other.face(i))) : s.canvas.line_to(s.px(other.face(i)));
-        for (std::size_t i = other.line.size(); i-- > 0;) s.canvas.line_to(s.px(other.back(i)));
-        s.canvas.close();
-        s.canvas.fill_keeping_path(color.faded(0.16));
+        const std::vector<Vec2> outline = ghost_outline(s, other);
+        s.canvas.polyline(outline);
+        if (outline.size() > 1) {  // along the hub, which stays in front
+            const Vec2 from = outline.back() - s.shape.hinge, to = outline.front() - s.shape.hinge;
+            const double begin = std::atan2(-from.y, from.x), end = std::atan2(-to.y, to.x);
+            if (!s.view) s.canvas.arc(s.shape.hinge, norm(from), begin, begin + std::remainder(end - begin, 2 * kPi));
+        }
+        s.canvas.fill(color.faded(0.16));
+        s.canvas.polyline(outline);
         s.canvas.stroke({color, 2.2 * u_});
     }
 }
@@ -406,17 +438,28 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
     s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
-    // The letter stands in the middle of what the section leaves free.
-    const double out = radius - 17 * u_;
-    const double covered = (angle > 0 ? -s.beam.low : s.beam.high) * look_.camera.scale / out;  // [rad]
-    const double free = std::abs(angle) - std::max(covered, 0.0);
-    const double room = std::clamp((free * out - 24 * u_) / (10 * u_), 0.0, 1.0);
-    if (room > 0 && radius > hub + 38 * u_)
-        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(free / 2, angle)) * out) + Vec2{0, 6 * u_}, math("θ"),
-                      {.size = 21 * u_,
-                       .color = palette_.muted.faded(room),
-                       .align = Align::centre,
-                       .halo = palette_.paper.faded(room)});
+    // The letter stands in the middle of what the section leaves free; where that is too little it gives way to
+    // beyond the horizontal.
+    const double out = radius - 17 * u_, need = 19 * u_ / out;
+    double free = std::abs(angle);
+    const auto keep_off = [&](const auto& edge) {
+        const double far = out / look_.camera.scale;
+        for (std::size_t i = 1; i < s.beam.line.size(); ++i) {
+            const Vec2 a = edge(i - 1), b = edge(i);
+            const double from = norm(a), to = norm(b);
+            if (to < far || from == to) continue;
+            const Vec2 p = a + (b - a) * std::clamp((far - from) / (to - from), 0.0, 1.0);
+            const double beyond = std::remainder(std::atan2(p.y, p.x) - angle, 2 * kPi);
+            free = std::min(free, std::abs(angle) + std::copysign(beyond, beyond * angle));
+            return;
+        }
+    };
+    keep_off([&](std::size_t i) { return s.beam.face(i); });
+    keep_off([&](std::size_t i) { return s.beam.back(i); });
+    const double at = std::min(free / 2, free - need);
+    if (radius > hub + 38 * u_)
+        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * u_}, math("θ"),
+                      {.size = 21 * u_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
 }
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.

@@ -87,7 +87,7 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
                            : layout(setup->width, setup->height, standard(*setup), mechanisms);
     unit = places.unit;
     std::vector<double> times;
-    for (const Pose& p : setup->poses) times.push_back(p.t);
+    for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
     time = time_format(times);
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
@@ -104,14 +104,14 @@ void FilmFacts::check() const {
     if (s.width < 1 || s.height < 1 || s.width > kLargest || s.height > kLargest)
         throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn; choose 1 to {} each way", s.width,
                                        s.height, kLargest));
-    if (s.poses.empty()) throw PictureError("the film has no frames; give it a duration longer than half a frame");
+    if (s.frames() == 0) throw PictureError("the film has no frames; give it a duration longer than half a frame");
     if (s.view.exaggeration && !(*s.view.exaggeration >= 1 && std::isfinite(*s.view.exaggeration)))
         throw PictureError(
             fmt::format("deflection cannot be exaggerated by {}; choose 1 (true) or more", *s.view.exaggeration));
     for (int m = 0; m < members(); ++m) {
-        if (motion(m).poses.size() != s.poses.size())
-            throw PictureError("motions that are compared need the same instants");
-        for (const Pose& pose : motion(m).poses)
+        const Motion& one = motion(m);
+        if (one.frames() != s.frames()) throw PictureError("motions that are compared need the same instants");
+        for (const Pose& pose : one.poses)
             if (pose.centreline.size() < 2) throw PictureError("a pose needs at least two stations along the beam");
     }
 }
@@ -124,9 +124,12 @@ void FilmFacts::choose_scales() {
         const bool flexible = one.problem.beam.model != sim::ModelKind::rigid;
         // A rigid beam beside flexible ones has nothing to exaggerate and does not hold them back.
         if (flexible || members() == 1)
-            factor = std::min(factor, film_factor(one.problem, one.poses, setup->view.exaggeration));
+            factor = std::min(factor, film_factor(
+                                          one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); },
+                                          setup->view.exaggeration));
         double largest = 0;
-        for (const Pose& p : one.poses) {
+        for (std::size_t k = 0; k < one.frames(); ++k) {
+            const Pose p = one.pose(k);
             for (double value : p.moment) largest = std::max(largest, std::abs(value));
             if (p.nearest) force = std::max(force, p.nearest->force);
         }

@@ -35,12 +35,13 @@ struct FilmFacts {
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
     std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
 
-    int frames() const { return static_cast<int>(setup->poses.size()); }
+    int frames() const { return static_cast<int>(setup->frames()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }
     const Motion& motion(int member) const {
         return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
     }
-    const sim::Pose& pose(int member, int frame) const { return motion(member).poses[static_cast<std::size_t>(frame)]; }
+    sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
+    double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
 

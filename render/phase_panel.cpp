@@ -51,7 +51,8 @@ class PhasePanel final : public Panel {
                 x0 = std::min(x0, (*x)[i]), x1 = std::max(x1, (*x)[i]);
                 y0 = std::min(y0, (*y)[i]), y1 = std::max(y1, (*y)[i]);
             }
-            for (const sim::Pose& p : facts.motion(m).poses) {
+            for (int k = 0; k < facts.frames(); ++k) {
+                const sim::Pose p = facts.pose(m, k);
                 x0 = std::min(x0, p.theta), x1 = std::max(x1, p.theta);
                 y0 = std::min(y0, p.theta_dot), y1 = std::max(y1, p.theta_dot);
             }
@@ -116,7 +117,7 @@ class PhasePanel final : public Panel {
         auto& layers = static_cast<Layers*>(state)->layers;
         std::vector<Box> changed;
         for (std::size_t m = 0; m < paths_.size(); ++m)
-            changed.push_back(layers[m].until(facts_.pose(static_cast<int>(m), frame).t, paths_[m], kept.fonts(),
+            changed.push_back(layers[m].until(facts_.at(static_cast<int>(m), frame), paths_[m], kept.fonts(),
                                               {color(m), 1.3 * facts_.unit}));
         if (anew && !layers.empty()) changed = {layers.front().whole()};
         const Box at = growing();

@@ -117,12 +117,12 @@ class ChartPanel : public Panel {
         const Box at = chart_.past_box();
         double& shown = static_cast<Shown*>(state)->until;
         if (anew) shown = at.x;
-        const double until = std::max(shown, chart_.cursor_column(facts_.pose(0, frame).t) + 1.0);
+        const double until = std::max(shown, chart_.cursor_column(facts_.at(0, frame)) + 1.0);
         kept.image_part(past_, static_cast<int>(at.x), static_cast<int>(at.y), {shown - at.x, 0, until - shown, at.h});
         shown = until;
     }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, *facts_.palette, facts_.pose(0, frame).t, readings(frame));
+        chart_.draw_moving(canvas, *facts_.palette, facts_.at(0, frame), readings(frame));
     }
 
   protected:
@@ -202,7 +202,7 @@ Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel
         for (double v : curve.v) see(v);
     if (channel.kind == ChannelKind::theta)
         for (int m = 0; m < facts.members(); ++m)
-            for (const sim::Pose& p : facts.motion(m).poses) see(p.theta);
+            for (int k = 0; k < facts.frames(); ++k) see(facts.pose(m, k).theta);
     if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
     if (!(low <= high)) return {0, 1};
     // A constant still needs an axis: a twentieth of it either way, or of one unit.
@@ -344,13 +344,13 @@ class CollisionPanel final : public Panel {
 
     void draw_ground(Canvas&) const override {}
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
-    int stage(int frame) const override { return static_cast<int>(shown(facts_.pose(0, frame).t)); }
+    int stage(int frame) const override { return static_cast<int>(shown(facts_.at(0, frame))); }
     Box growing() const override { return box_.inset(-8); }
 
     // The axes of a collision when it begins, then column by column what has been.
     void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
         Shown& s = *static_cast<Shown*>(state);
-        const double now = facts_.pose(0, frame).t;
+        const double now = facts_.at(0, frame);
         const std::size_t which = shown(now);
         if (!s.chart || s.which != which) {
             s.chart.emplace(chart_of(which));

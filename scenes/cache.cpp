@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 #include "output/atomic_file.hpp"
 #include "output/checksum.hpp"
@@ -107,18 +108,51 @@ std::optional<double> Cache::reach(const std::string& key) const {
     return trailer ? std::optional(trailer->end) : std::nullopt;
 }
 
-std::optional<std::vector<double>> Cache::load(const std::string& key, double end) const {
+namespace {
+
+// Of an entry whose checksum was found right.
+class EntryNumbers final : public sim::NumberSource {
+  public:
+    EntryNumbers(std::ifstream file, std::uint64_t count) : file_(std::move(file)), count_(count) {}
+    std::uint64_t size() const override { return count_; }
+    void read(std::uint64_t from, std::span<double> into) const override {
+        file_.clear();
+        file_.seekg(static_cast<std::streamoff>(from * sizeof(double)));
+        if (!file_.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size_bytes())))
+            throw std::invalid_argument("a kept trajectory became shorter while it was read");
+    }
+
+  private:
+    mutable std::ifstream file_;
+    std::uint64_t count_;
+};
+
+std::uint32_t checksum(const sim::NumberSource& numbers) {
+    std::uint32_t sum = 0;
+    std::vector<double> piece(std::size_t{1} << 15);
+    for (std::uint64_t from = 0; from < numbers.size(); from += piece.size()) {
+        piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), numbers.size() - from)));
+        numbers.read(from, piece);
+        sum = output::crc32(sum, piece.data(), piece.size() * sizeof(double));
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const sim::NumberSource> Cache::load(const std::string& key, double end) const {
     std::ifstream in(path_of(key), std::ios::binary);
-    if (!in) return std::nullopt;
+    if (!in) return nullptr;
     const auto trailer = read_trailer(in, key);
-    if (!trailer || trailer->end < end) return std::nullopt;
-    std::vector<double> numbers(trailer->count);
-    const std::size_t bytes = numbers.size() * sizeof(double);
-    in.seekg(0);
-    if (!in.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(bytes))) return std::nullopt;
-    if (output::crc32(0, numbers.data(), bytes) != trailer->numbers) {
-        drop(key);  // else it would keep a whole one of the same length out
-        return std::nullopt;
+    if (!trailer || trailer->end < end) return nullptr;
+    auto numbers = std::make_shared<EntryNumbers>(std::move(in), trailer->count);
+    try {
+        if (checksum(*numbers) != trailer->numbers) {
+            drop(key);  // else it would keep a whole one of the same length out
+            return nullptr;
+        }
+    } catch (const std::invalid_argument&) {  // cut or unreadable meanwhile
+        return nullptr;
     }
     std::error_code ignored;
     fs::last_write_time(path_of(key), fs::file_time_type::clock::now(), ignored);

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/trajectory.hpp"
+
 namespace beamcam::scenes {
 
 // $BEAMCAM_CACHE_DIR, else beamcam in $XDG_CACHE_HOME, else ~/.cache/beamcam; nothing without any of them.
@@ -27,8 +29,9 @@ class Cache {
 
     // How far the kept trajectory goes [s]. Reads its last few bytes only.
     std::optional<double> reach(const std::string& key) const;
-    // Its numbers, if it goes to `end` and is whole. Marks it as used.
-    std::optional<std::vector<double>> load(const std::string& key, double end) const;
+    // Its numbers, if it goes to `end` and is whole; null otherwise. Marks it as used. They stay readable, piece by
+    // piece, even when the entry is removed or replaced.
+    std::shared_ptr<const sim::NumberSource> load(const std::string& key, double end) const;
     // Of no use after all.
     void drop(const std::string& key) const;
 

@@ -28,6 +28,6 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion);
 // k / rate from `from`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);
 
-constexpr double kMostFrames = 250'000;  // over an hour at 60 fps; poses are held in memory
+constexpr double kMostFrames = 250'000;  // over an hour at 60 fps; their poses fill 0.6 GB of disk
 
 }  // namespace beamcam::scenes

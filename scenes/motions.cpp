@@ -9,6 +9,7 @@
 #include "output/interrupt.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/identity.hpp"
+#include "scenes/spooled.hpp"
 #include "sim/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -21,7 +22,7 @@ long fewest_steps(const sim::Problem& problem) {
     return model == sim::ModelKind::exact || model == sim::ModelKind::second_order ? 20 : 500;
 }
 
-constexpr std::size_t kMostRemembered = std::size_t{1} << 25;  // numbers of a trajectory held in memory: 256 MiB
+constexpr std::size_t kMostRemembered = std::size_t{1} << 25;  // numbers of a trajectory: 256 MiB
 
 std::string words_about(const sim::Problem& problem) {
     if (problem.beam.model == sim::ModelKind::rigid) return name(problem.beam.model);
@@ -187,20 +188,22 @@ void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
 }
 
 std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {
-    const auto replay = [&](std::span<const double> numbers) {
+    const auto replay = [&](const sim::Trajectory& trajectory) {
         sim::Effort effort;
-        auto results = sim::replay(job.problem, sim::Trajectory(job.problem, numbers), job.requests, progress, &effort);
+        auto results = sim::replay(job.problem, trajectory, job.requests, progress, &effort);
         const std::lock_guard lock(mutex_);
         effort_.add(effort);
         return results;
     };
-    if (const auto known = known_.find(job.key); known != known_.end())
-        if (sim::Trajectory(job.problem, known->second).end() >= job.until) return replay(known->second);
+    if (const auto known = known_.find(job.key); known != known_.end()) {
+        const sim::Trajectory trajectory(job.problem, known->second);
+        if (trajectory.end() >= job.until) return replay(trajectory);
+    }
     if (!cache_) return std::nullopt;
     const auto numbers = cache_->load(job.key, job.until);
     if (!numbers) return std::nullopt;
     try {
-        auto results = replay(*numbers);
+        auto results = replay(sim::Trajectory(job.problem, numbers));
         const std::lock_guard lock(mutex_);
         ++from_cache_;
         return results;
@@ -213,18 +216,18 @@ std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const
 std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress& progress) {
     std::optional<Cache::Entry> entry;
     if (job.keep && cache_) entry.emplace(cache_->begin(job.key));
-    std::vector<double> remembered;
+    const auto remembered = std::make_shared<SpooledNumbers>();
     bool remember = job.remember;
     sim::TrajectoryWriter writer([&](std::span<const double> numbers) {
         if (entry) entry->add(numbers);
-        remember = remember && remembered.size() + numbers.size() <= kMostRemembered;
-        if (remember) remembered.insert(remembered.end(), numbers.begin(), numbers.end());
+        remember = remember && remembered->size() + numbers.size() <= kMostRemembered;
+        if (remember) remembered->add(numbers);
     });
     sim::Effort effort;
     auto results = sim::simulate(job.problem, job.requests, progress, entry || remember ? &writer : nullptr, &effort);
     const std::lock_guard lock(mutex_);
     effort_.add(effort);
-    if (remember && writer.complete()) known_[job.key] = std::move(remembered);
+    if (remember && writer.complete()) known_[job.key] = remembered;
     if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
     if (entry->commit(job.until, writer.steps(), words_about(job.problem)))
         ++kept_;

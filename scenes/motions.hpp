@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -77,7 +78,8 @@ class Motions {
     Options options_;
     std::deque<Wish> wishes_;
     std::size_t fulfilled_ = 0;                         // so many of the first
-    std::map<std::string, std::vector<double>> known_;  // trajectories of `find`, by motion
+    // Trajectories of `find`, by motion.
+    std::map<std::string, std::shared_ptr<const sim::NumberSource>> known_;
     std::mutex mutex_;                                  // of the counts
     sim::Effort effort_;
     long from_cache_ = 0, kept_ = 0;

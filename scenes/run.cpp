@@ -29,6 +29,7 @@
 #include "scenes/figures/make.hpp"
 #include "scenes/files.hpp"
 #include "scenes/motions.hpp"
+#include "scenes/spooled.hpp"
 #include "scenes/survey.hpp"
 #include "scenes/version.hpp"
 
@@ -157,7 +158,12 @@ class Runner {
 
     // What this scene wants of its own motion and of others.
     void ask() {
-        if (plan_.simulation) own_ = shop_.motions.want(scene_.problem, requests_of(plan_));
+        if (plan_.simulation) {
+            std::vector<sim::Request> requests = requests_of(plan_);
+            for (const Pictures& p : plan_.pictures)
+                own_poses_.push_back(p.compared.empty() ? spooled(requests.front().poses[p.poses]) : nullptr);
+            own_ = shop_.motions.want(scene_.problem, std::move(requests));
+        }
         ask_for_others();
     }
     void take() { take(own_ ? shop_.motions.take(*own_) : std::vector<sim::Result>()); }
@@ -213,10 +219,22 @@ class Runner {
         for (const FigureFile& f : plan_.figures)
             for (const Study& study : f.studies)
                 if (!study.of_scene) others_.push_back(shop_.motions.want(study.problem, {study.request}, f.file));
-        for (const Pictures& p : plan_.pictures)
-            for (const ComparedMotion& each : p.compared)
-                others_.push_back(
-                    shop_.motions.want(each.problem, {each.request}, fmt::format("{}, {}", p.file, each.label)));
+        for (const Pictures& p : plan_.pictures) {
+            compared_poses_.emplace_back();
+            for (const ComparedMotion& each : p.compared) {
+                sim::Request request = each.request;
+                compared_poses_.back().push_back(spooled(request.poses.front()));
+                others_.push_back(shop_.motions.want(each.problem, {std::move(request)},
+                                                     fmt::format("{}, {}", p.file, each.label)));
+            }
+        }
+    }
+
+    // Where the poses of a picture go, so that they are not held.
+    static std::shared_ptr<SpooledPoses> spooled(sim::PoseRequest& request) {
+        auto poses = std::make_shared<SpooledPoses>(request.times.size(), request.stations);
+        request.take = [poses](std::size_t row, const sim::Pose& pose) { poses->put(row, pose); };
+        return poses;
     }
 
     // The results in the order of the requests.
@@ -469,6 +487,7 @@ class Runner {
         setup.callouts = p.callouts;
         if (p.compared.empty()) {
             static_cast<render::Motion&>(setup) = motion_of(scene_.problem, result_, p.poses, p.chart, p.trace);
+            if (!own_poses_.empty()) setup.stored = own_poses_[index];
             setup.accuracy_note = accuracy_note(p);
             setup.impacts = seen_by(p).impacts;
         } else {
@@ -501,6 +520,7 @@ class Runner {
             render::Motion motion =
                 motion_of(each.problem, result, 0, 0, traced ? std::optional<std::size_t>(1) : std::nullopt);
             motion.label = each.label;
+            motion.stored = compared_poses_[index][i];
             if (i == 0)
                 static_cast<render::Motion&>(setup) = std::move(motion);
             else
@@ -652,6 +672,8 @@ class Runner {
     std::vector<sim::Result> ends_;                     // as Simulation::ends
     std::vector<std::vector<sim::Result>> of_figures_;  // one for each study of each figure
     std::vector<std::vector<sim::Result>> compared_;    // one for each motion of each picture
+    std::vector<std::shared_ptr<SpooledPoses>> own_poses_;  // of each picture; none where results bring theirs
+    std::vector<std::vector<std::shared_ptr<SpooledPoses>>> compared_poses_;  // as `compared_`
 };
 
 // ---- all together ------------------------------------------------------------------------------

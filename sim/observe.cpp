@@ -287,7 +287,7 @@ Recorder::Recorder(const System& system, const Request& request, double end)
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ordered(poses.times));
-        result_.poses.emplace_back(poses.times.size());
+        result_.poses.emplace_back(poses.take ? 0 : poses.times.size());
     }
     for (const PointRequest& points : request.points) {
         point_cursors_.push_back(ordered(points.times));
@@ -341,8 +341,12 @@ void Recorder::sample(const Stretch& s) {
     }
     for (std::size_t i = 0; i < request_.poses.size(); ++i) {
         const PoseRequest& poses = request_.poses[i];
-        sweep(poses.times, pose_cursors_[i], s,
-              [&](std::size_t row) { result_.poses[i][row] = eye_.pose(poses.stations); });
+        sweep(poses.times, pose_cursors_[i], s, [&](std::size_t row) {
+            if (poses.take)
+                poses.take(row, eye_.pose(poses.stations));
+            else
+                result_.poses[i][row] = eye_.pose(poses.stations);
+        });
     }
     for (std::size_t i = 0; i < request_.points.size(); ++i) {
         const PointRequest& points = request_.points[i];

@@ -75,6 +75,9 @@ struct TableRequest {
 struct PoseRequest {
     std::vector<double> times;  // [s]
     int stations = 97;          // points along the centre line, >= 2
+    // Takes each pose, by the row of its time, as soon as it is known: then Result::poses keeps none. A row may be told
+    // again, and not all are told when the run fails.
+    std::function<void(std::size_t row, const Pose& pose)> take{};
 };
 // The path of a material point of the centre line.
 struct PointRequest {

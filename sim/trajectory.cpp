@@ -1,5 +1,6 @@
 #include "sim/trajectory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -137,18 +138,59 @@ struct Piece {
     Numbers numbers;
 };
 
-// Cuts the first record off.
-Piece next_record(std::span<const double>& left) {
-    if (left.size() < 2) throw std::invalid_argument("the trajectory ends within a record");
-    const double kind = left[0], length = left[1];
-    if (!(kind >= static_cast<int>(kBegin) && kind <= static_cast<int>(kEnd)) ||
-        !(length >= 2 && length <= static_cast<double>(left.size())))
-        throw std::invalid_argument("a record of the trajectory is damaged");
-    const auto count = static_cast<std::size_t>(length);
-    const Piece piece{static_cast<Record>(static_cast<int>(kind)), Numbers(left.subspan(2, count - 2))};
-    left = left.subspan(count);
-    return piece;
-}
+// Record after record, of which a window is held.
+class Feed {
+  public:
+    explicit Feed(const NumberSource& source, std::uint64_t from = 0) : source_(source), read_(from) {}
+    bool over() const { return left() == 0; }
+
+    // The numbers of a record last until the next.
+    Piece next() {
+        if (left() < 2) throw std::invalid_argument("the trajectory ends within a record");
+        const std::span<const double> head = first(2);
+        const double kind = head[0], length = head[1];
+        if (!(kind >= static_cast<int>(kBegin) && kind <= static_cast<int>(kEnd)) ||
+            !(length >= 2 && length <= static_cast<double>(left())))
+            throw std::invalid_argument("a record of the trajectory is damaged");
+        const auto count = static_cast<std::size_t>(length);
+        const Piece piece{static_cast<Record>(static_cast<int>(kind)), Numbers(first(count).subspan(2))};
+        used_ += count;
+        return piece;
+    }
+
+  private:
+    std::uint64_t left() const { return source_.size() - read_ + (window_.size() - used_); }
+    std::span<const double> first(std::size_t count) {
+        constexpr std::size_t kWindow = 1 << 15;  // numbers
+        if (window_.size() - used_ < count) {
+            window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(used_));
+            used_ = 0;
+            const std::size_t known = window_.size();
+            const std::uint64_t more = std::min<std::uint64_t>(std::max(kWindow, count) - known, source_.size() - read_);
+            window_.resize(known + static_cast<std::size_t>(more));
+            source_.read(read_, std::span(window_).subspan(known));
+            read_ += more;
+        }
+        return std::span(window_).subspan(used_, count);
+    }
+
+    const NumberSource& source_;
+    std::uint64_t read_;          // of the source
+    std::vector<double> window_;  // its last numbers
+    std::size_t used_ = 0;        // of the window
+};
+
+class Held final : public NumberSource {
+  public:
+    explicit Held(std::span<const double> numbers) : numbers_(numbers) {}
+    std::uint64_t size() const override { return numbers_.size(); }
+    void read(std::uint64_t from, std::span<double> into) const override {
+        std::ranges::copy(numbers_.subspan(static_cast<std::size_t>(from), into.size()), into.begin());
+    }
+
+  private:
+    std::span<const double> numbers_;
+};
 
 }  // namespace
 
@@ -222,16 +264,22 @@ void TrajectoryWriter::end(double t) {
 
 // ---- reader --------------------------------------------------------------------------------------
 
-Trajectory::Trajectory(const Problem& problem, std::span<const double> numbers) : numbers_(numbers) {
+Trajectory::Trajectory(const Problem& problem, std::span<const double> numbers)
+    : Trajectory(problem, std::make_shared<Held>(numbers)) {}
+
+Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers)
+    : numbers_(std::move(numbers)) {
     constexpr std::size_t kLast = 3;  // the numbers of the record that ends it
     const std::size_t size = static_cast<std::size_t>(System(problem).size);
-    std::span<const double> left = numbers;
     constexpr std::size_t kPhase = 5;
-    if (next_record(left).kind != kBegin || numbers[1] != static_cast<double>(2 + kPhase + size))
+    Feed head(*numbers_);
+    Piece begin = head.next();
+    const std::size_t begins = kPhase + size;
+    if (begin.kind != kBegin || begin.numbers.rest().size() != begins)
         throw std::invalid_argument("this is no trajectory of this problem");
-    if (left.size() < kLast) throw std::invalid_argument("the trajectory has no end");
-    std::span<const double> tail = left.last(kLast);
-    Piece end = next_record(tail);
+    if (numbers_->size() < 2 + begins + kLast) throw std::invalid_argument("the trajectory has no end");
+    Feed tail(*numbers_, numbers_->size() - kLast);
+    Piece end = tail.next();
     if (end.kind != kEnd) throw std::invalid_argument("the trajectory has no end");
     end_ = end.numbers.next();
 }
@@ -248,9 +296,9 @@ void Trajectory::play(const Problem& problem, Audience& audience) const {
     const Audience::TallySource tally_source = [&] { return tally; };
     std::vector<double> y;
     double reached = 0;
-    std::span<const double> left = numbers_;
-    for (bool over = false; !over && !left.empty();) {
-        auto [kind, n] = next_record(left);
+    Feed feed(*numbers_);
+    for (bool over = false; !over && !feed.over();) {
+        auto [kind, n] = feed.next();
         switch (kind) {
             case kBegin: {
                 const Phase phase = phase_of(n);

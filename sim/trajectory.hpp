@@ -6,7 +6,9 @@
 // stores them must see to it that no other reads them, and that none is damaged.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -41,17 +43,25 @@ class TrajectoryWriter {
     bool broken_ = false, ended_ = false;
 };
 
-// The numbers must outlive it.
+// Numbers in their order, wherever they are kept.
+class NumberSource {
+  public:
+    virtual ~NumberSource() = default;
+    virtual std::uint64_t size() const = 0;
+    virtual void read(std::uint64_t from, std::span<double> into) const = 0;  // all of them, or throws
+};
+
 class Trajectory {
   public:
     // Throws std::invalid_argument when they are no whole trajectory of this problem.
-    Trajectory(const Problem& problem, std::span<const double> numbers);
+    Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
+    Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
     double end() const { return end_; }
-    // Tells it again, as far as the audience looks: at most to `end`.
+    // Tells it again, as far as the audience looks: at most to `end`. Few of the numbers are held at once.
     void play(const Problem& problem, Audience& audience) const;
 
   private:
-    std::span<const double> numbers_;
+    std::shared_ptr<const NumberSource> numbers_;
     double end_ = 0;
 };
 

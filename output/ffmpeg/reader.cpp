@@ -112,7 +112,10 @@ BeamcamVideoStatus open_codec(BeamcamVideoReader& r, BeamcamVideoError* error) {
     r.codec->flags |= AV_CODEC_FLAG_BITEXACT;
     code = avcodec_open2(r.codec, decoder, nullptr);
     if (code < 0) return fail(error, "its decoder cannot be opened", code);
-    if (r.codec->width <= 0 || r.codec->height <= 0) return refuse(error, "it has pictures of no size");
+    if (r.codec->width <= 0 || r.codec->height <= 0)
+        return refuse(error, parameters->codec_id == AV_CODEC_ID_WEBP
+                                 ? "FFmpeg does not decode animated WebP; an .apng of the same film can be read"
+                                 : "it has pictures of no size");
     return beamcam_video_ok;
 }
 

@@ -106,7 +106,8 @@ void apply_render_options(const Arguments& args, VideoOutput& film) {
     if (args.size) {
         const auto size = parse_size(*args.size);
         if (!size)
-            throw UsageError(fmt::format("--size {}: write WIDTHxHEIGHT in pixels, for example 1280x720", *args.size));
+            throw UsageError(fmt::format(
+                "--size {}: write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720", *args.size));
         film.size = *size;
     }
     if (args.fps) {

@@ -123,6 +123,10 @@ TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {
     EXPECT_EQ(format_problem(".mov", Codec::prores, true), "");
     EXPECT_NE(size_problem(Codec::vp9, 101, 50).find("102x50"), std::string::npos);
     EXPECT_EQ(size_problem(Codec::gif, 101, 51), "");
+    EXPECT_NE(size_problem(Codec::h264, 16384, 16384).find("16250x16250"), std::string::npos);
+    EXPECT_EQ(size_problem(Codec::h264, 16256, 16254), "");
+    EXPECT_NE(size_problem(Codec::webp, 16384, 64).find("16383"), std::string::npos);
+    EXPECT_EQ(size_problem(Codec::webp, 16383, 64), "");
     EXPECT_NE(rate_problem(Codec::gif, 60).find("50"), std::string::npos);
     EXPECT_EQ(rate_problem(Codec::apng, 60), "");
 }

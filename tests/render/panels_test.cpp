@@ -298,6 +298,47 @@ TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
     EXPECT_GT(l.panels[1].box.y, l.panels[0].box.bottom());
 }
 
+// The close-up: in the middle of its plot the face stands as high above the rim as the gap says. Its heights go from
+// 1.35 of the largest penetration below the rim to 1.9 above.
+TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
+    constexpr double kDeepest = 4e-5;  // [m]
+    FilmSetup setup = test::synthetic_film({.duration = 0.4});
+    setup.width = 960, setup.height = 1080;
+    setup.view.style = Style::flat;
+    setup.impacts.clear();
+    for (std::size_t k = 0; k < setup.poses.size(); ++k) {
+        sim::Nearest& near = *setup.poses[k].nearest;
+        near.gap = kDeepest * (-1 + 2.4 * double(k) / double(setup.poses.size() - 1));
+        near.force = 0, near.touching = false;
+    }
+    setup.layout = leaf({.kind = PanelKind::close_up});
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    const Layout places = film.geometry(0).layout;
+    const Box box = places.first(PanelKind::close_up)->box;
+    const double u = places.unit, low = -1.35 * kDeepest, high = 1.9 * kDeepest;
+    const Box plot{std::round(box.x + 70 * u), std::round(box.y + 46 * u), std::round(box.w - 78 * u),
+                   std::round(box.h - 86 * u)};
+    const Color motion = palette(Theme::light).motion;
+    // The middle of the rows that the face's line covers.
+    const auto row_of_face = [&](const Image& image) {
+        double sum = 0, count = 0;
+        const auto x = std::size_t(plot.x + plot.w / 2);
+        for (int y = int(plot.y); y < int(plot.bottom()); ++y) {
+            const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + x];
+            const double off = std::abs((p >> 16 & 255) / 255.0 - motion.r) + std::abs((p >> 8 & 255) / 255.0 - motion.g) +
+                               std::abs((p & 255) / 255.0 - motion.b);
+            if (off < 0.25) sum += y + 0.5, ++count;
+        }
+        return count > 0 ? sum / count : -1;
+    };
+    for (int k = 0; k < film.frames(); k += 2) {
+        const double gap = poses[std::size_t(k)].nearest->gap;
+        EXPECT_NEAR(row_of_face(drawn(film, k)), plot.bottom() - plot.h * (gap - low) / (high - low), 0.75)
+            << "a gap of " << gap * 1e6 << " µm";
+    }
+}
+
 // What no typeface has would be drawn as a box: the picture is the one without it.
 TEST(Panels, PictographsLeaveNoBoxes) {
     FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;

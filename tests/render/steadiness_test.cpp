@@ -2,6 +2,7 @@
 // neighbours, what moves is drawn where it is, and a contact that touches shows no gap.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/canvas.hpp"
@@ -73,6 +74,51 @@ TEST(GlSteadiness, ATouchingContactShowsNoPaperBetween) {
     no_paper_between(Style::lit, {});
 }
 
+// The lit picture itself: within the drawn cam there is nothing but its metal, however much the deflection is
+// exaggerated, while the beam beside it is coloured.
+TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
+    SKIP_WITHOUT_GL();
+    for (const double factor : {1.0, 20.0}) {
+        FilmSetup setup = film_of(Style::lit, {.duration = 2.4, .amplitude = 6e-3}, factor);
+        setup.impacts.clear();  // no rings, no traces, no arrows: only bodies, and the beam in one strong colour
+        for (auto& column : setup.trace.values) column.clear();
+        for (sim::Pose& pose : setup.poses) {
+            pose.nearest->force = 0;
+            std::ranges::fill(pose.moment, 1.0);
+        }
+        const auto poses = setup.poses;
+        const double radius = setup.problem.cam->radius;
+        Film film(std::move(setup));
+        const auto colourful = [](std::uint32_t pixel) {
+            const int r = int(pixel >> 16 & 255), g = int(pixel >> 8 & 255), b = int(pixel & 255);
+            return std::max({r, g, b}) - std::min({r, g, b}) > 40;
+        };
+        int touching = 0, coloured = 0;
+        for (int k = 0; k < film.frames(); k += 3) {
+            const sim::Pose& pose = poses[std::size_t(k)];
+            if (pose.nearest->gap > 0.05) continue;
+            const FrameGeometry g = film.geometry(k);
+            const Image image = drawn(film, k);
+            const Vec2 centre = g.camera.to_pixels(pose.disc_centre);
+            const double r = radius * g.camera.scale - 1.5;
+            for (int y = int(centre.y - r); y <= int(centre.y + r); ++y)
+                for (int x = int(centre.x - r); x <= int(centre.x + r); ++x) {
+                    const Vec2 px{double(x), double(y)};
+                    if (norm(px + Vec2{0.5, 0.5} - centre) > r) continue;
+                    ASSERT_FALSE(colourful(at(image, px))) << "frame " << k << " at " << x << ", " << y << ", ×" << factor;
+                }
+            if (!pose.nearest->touching) continue;
+            ++touching;
+            const DrawnContact& contact = *g.beam.contact;
+            EXPECT_LT(std::abs(contact.gap) * g.camera.scale, 0.5) << k;
+            const Vec2 n{contact.normal.x, -contact.normal.y};
+            coloured += colourful(at(image, g.camera.to_pixels(contact.on_face) + n * 9));
+        }
+        EXPECT_GT(touching, 5) << factor;
+        EXPECT_EQ(coloured, touching) << factor;
+    }
+}
+
 // ---- what is static ----------------------------------------------------------------------------
 
 // Titles, parameters, colour bars with their marks, the note: the same bits in every frame.
@@ -122,7 +168,7 @@ TEST(Steadiness, FiguresAreTabular) {
         const TextStyle style{.size = 30, .weight = weight};
         const double zero = canvas.measure("00.00", style).w;
         for (const char* number : {"11.11", "47.19", "88.88"}) EXPECT_NEAR(canvas.measure(number, style).w, zero, 0.05);
-        EXPECT_NEAR(canvas.measure("\u20071.11", style).w, zero, 0.05);  // the clock's room for a digit
+        EXPECT_NEAR(canvas.measure("\u20071.11", style).w, zero, 0.05);
     }
 }
 

@@ -23,6 +23,14 @@ std::vector<double> numbers(std::size_t count) {
     return all;
 }
 
+std::optional<std::vector<double>> loaded(const Cache& cache, char digit, double end) {
+    const auto kept = cache.load(key(digit), end);
+    if (!kept) return std::nullopt;
+    std::vector<double> all(kept->size());
+    kept->read(0, all);
+    return all;
+}
+
 bool keep(const Cache& cache, char digit, double end, std::size_t count) {
     Cache::Entry entry = cache.begin(key(digit));
     const std::vector<double> all = numbers(count);
@@ -38,8 +46,8 @@ TEST(Cache, GivesBackWhatItWasGiven) {
     EXPECT_FALSE(cache.reach(key('a')));
     EXPECT_TRUE(keep(cache, 'a', 1.5, 1000));
     EXPECT_EQ(cache.reach(key('a')), 1.5);
-    EXPECT_EQ(cache.load(key('a'), 1.5), numbers(1000));
-    EXPECT_EQ(cache.load(key('a'), 0.3), numbers(1000));
+    EXPECT_EQ(loaded(cache, 'a', 1.5), numbers(1000));
+    EXPECT_EQ(loaded(cache, 'a', 0.3), numbers(1000));
     EXPECT_FALSE(cache.load(key('a'), 1.6));
     EXPECT_FALSE(cache.load(key('b'), 0.3));
     ASSERT_EQ(cache.list().size(), 1u);
@@ -55,7 +63,7 @@ TEST(Cache, ALongerEntryReplacesAShorterAndNeverTheOtherWay) {
     EXPECT_TRUE(keep(cache, 'a', 1, 100));
     EXPECT_TRUE(keep(cache, 'a', 2, 200));
     EXPECT_FALSE(keep(cache, 'a', 1.5, 150));
-    EXPECT_EQ(cache.load(key('a'), 1), numbers(200));
+    EXPECT_EQ(loaded(cache, 'a', 1), numbers(200));
 }
 
 TEST(Cache, AnEntryThatIsNotCommittedLeavesNothing) {
