@@ -181,6 +181,16 @@ void ExponentialSegment::value(double t, double* y) const {
     if (books) ledger_at(t, s, weights, y);
 }
 
+// Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
+// by no more than the last two terms.
+double ExponentialSegment::largest_rate(std::size_t i, double amplitude, double force) const {
+    const Oscillator& o = form_->oscillators[i];
+    const double vibrating = o.omega * amplitude;
+    if (!decays(o)) return vibrating;
+    const double at_nodes = std::max(std::fabs(v0[i]), largest(v[i]));
+    return std::min(vibrating, at_nodes + (o.omega * vibrating + 2 * force) / decays_of(o).apart());
+}
+
 // Between two nodes the amplitude √(q² + (q̇/ω)²) of a mode changes by at most ∫|f|/ω, and by twice the static
 // deflection |f|/ω²; polynomials between nodes stay near their nodal values (Lebesgue's constant of Gauss nodes
 // is 3: kMargin of the spread is added).                                                                 (S53)
@@ -198,12 +208,12 @@ const MotionBounds* ExponentialSegment::bounds() const {
         const double force = 1.5 * largest(f[i]);
         double amplitude = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
         amplitude += force / w * std::min(kNodeGap * h, 2 / w);
-        b.deflection_speed += shape * w * amplitude;
-        b.deflection_acceleration +=
-            shape * (w * w * amplitude + force + 2 * form_->oscillators[i].gamma * w * amplitude);
-        b.slope_speed += shape * form_->beta[i] * w * amplitude;
+        const double speed = largest_rate(i, amplitude, force);
+        b.deflection_speed += shape * speed;
+        b.deflection_acceleration += shape * (w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed);
+        b.slope_speed += shape * form_->beta[i] * speed;
         turn += std::fabs(form_->h[i]) * amplitude;
-        turn_rate += std::fabs(form_->h[i]) * w * amplitude;
+        turn_rate += std::fabs(form_->h[i]) * speed;
     }
     double low = spin[0], high = spin[0];
     for (int k = 1; k < kNodes; ++k) {
@@ -213,6 +223,8 @@ const MotionBounds* ExponentialSegment::bounds() const {
     const double spread = kMargin * (high - low) + 1e-6 * std::max(std::fabs(low), std::fabs(high));
     low -= spread;
     high += spread;
+    b.ripple = turn;
+    b.ripple_rate = turn_rate;
     b.spin = std::max(std::fabs(low), std::fabs(high));
     b.spin_acceleration = form_->prescribed ? 4 * (high - low) / h : 2 * largest(push) / form_->J;
     b.rate_low = low - turn_rate;
@@ -223,9 +235,70 @@ const MotionBounds* ExponentialSegment::bounds() const {
     return &bounds_;
 }
 
-// ∫₀ g q̇ up to s for a polynomial g(z), z = 2s − 1, where the nodes do not resolve q̇: the particular solution is a
-// polynomial too, and the free oscillation v_h is integrated by parts against g.                             (S54)
+bool ExponentialSegment::resolved(std::size_t i) const {
+    const Oscillator& o = form_->oscillators[i];
+    return (decays(o) ? decays_of(o).fast : o.omega) * h < kResolved;
+}
+
+Lanes ExponentialSegment::resolved_rate(std::size_t i) const {
+    if (resolved(i)) return v[i];
+    if (!decays(form_->oscillators[i])) return Lanes{};
+    const Decays d = decays_of(form_->oscillators[i]);
+    return d.slow * h < kResolved ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
+}
+
+// ∫₀ g q̇ up to s for a polynomial g(z), z = 2s − 1, of what of q̇ the nodes do not resolve.
 double ExponentialSegment::work_on(std::size_t i, const double* g, double s, const double* y) const {
+    if (!decays(form_->oscillators[i])) return work_on_vibration(i, g, s, y);
+    const double fast = work_on_decay(i, true, g, s, y);
+    const bool slow_resolved = decays_of(form_->oscillators[i]).slow * h < kResolved;
+    return slow_resolved ? fast : fast + work_on_decay(i, false, g, s, y);
+}
+
+// The part −r x of q̇: ẋ = −rx + cf has a polynomial solution, and what decays is integrated by parts.        (S52a)
+double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const double* g, double s, const double* y) const {
+    const Decays d = decays_of(form_->oscillators[i]);
+    const double r = fast ? d.fast : d.slow, other = fast ? d.slow : d.fast, c = (fast ? -1 : 1) / d.apart();
+    double particular[kNodes] = {}, derived[kNodes];
+    for (std::size_t j = 0; j < kNodes; ++j) derived[j] = sum(Collocation::get().monomial[j] * f[i]);
+    const auto derive = [&](double* polynomial) {
+        for (int j = 0; j + 1 < kNodes; ++j) polynomial[j] = (j + 1) * polynomial[j + 1] * (2 / h);
+        polynomial[kNodes - 1] = 0;
+    };
+    double factor = c / r;
+    for (int k = 0; k < kNodes; ++k) {
+        for (int j = 0; j < kNodes; ++j) particular[j] += factor * derived[j];
+        derive(derived);
+        factor /= -r;
+    }
+    const auto integral = [&](double z, double x) {
+        double power[2 * kNodes];
+        power[0] = 1;
+        for (int j = 1; j < 2 * kNodes; ++j) power[j] = power[j - 1] * z;
+        double total = 0;
+        for (int a = 0; a < kNodes; ++a) {
+            x -= particular[a] * power[a];
+            for (int b = 0; b < kNodes; ++b) total += g[a] * particular[b] * power[a + b + 1] / (a + b + 1);
+        }
+        total *= 0.5 * h;
+        double poly[kNodes];
+        std::copy_n(g, kNodes, poly);
+        for (int k = 0; k < kNodes; ++k) {
+            double value = 0;
+            for (int j = 0; j < kNodes; ++j) value += poly[j] * power[j];
+            x /= r;
+            total -= value * x;
+            derive(poly);
+        }
+        return total;
+    };
+    const double x0 = c * (v0[i] + other * q0[i]), x1 = c * (y[2 + n_ + i] + other * y[1 + i]);
+    return -r * (integral(2 * s - 1, x1) - integral(-1, x0));
+}
+
+// Where all of q̇ vibrates: the particular solution is a polynomial too, and the free oscillation v_h is integrated by
+// parts against g.                                                                                              (S54)
+double ExponentialSegment::work_on_vibration(std::size_t i, const double* g, double s, const double* y) const {
     const Oscillator& o = form_->oscillators[i];
     const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
     double particular[kNodes] = {}, speed[kNodes] = {}, derived[kNodes];
@@ -276,7 +349,7 @@ double ExponentialSegment::structural_loss(std::size_t i, double s, const double
     const Oscillator& o = form_->oscillators[i];
     const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
     const double fell = 0.5 * (v0[i] * v0[i] - dx1 * dx1 + w2 * (q0[i] * q0[i] - x1 * x1));
-    if (o.omega * h < kResolved) return form_->mass * fell;
+    if (resolved(i)) return form_->mass * fell;
     double force[kNodes];
     for (std::size_t j = 0; j < kNodes; ++j) force[j] = sum(Collocation::get().monomial[j] * f[i]);
     return form_->mass * (fell + work_on(i, force, s, y));
@@ -290,7 +363,7 @@ double ExponentialSegment::torque_on_vibration(double s, const double* y) const 
     double polynomial[kNodes], work = 0;
     for (std::size_t j = 0; j < kNodes; ++j) polynomial[j] = sum(gauss.monomial[j] * torque);
     for (std::size_t i = 0; i < n_; ++i)
-        if (form_->oscillators[i].omega * h >= kResolved) work += form_->h[i] * work_on(i, polynomial, s, y);
+        if (!resolved(i)) work += form_->h[i] * work_on(i, polynomial, s, y);
     return work;
 }
 

@@ -45,8 +45,11 @@ class ExponentialSegment final : public Segment {
     void ledger_at(double t, double s, const Lanes& weights, double* y) const;
     // What the power of the drive integrates to in closed form, at t.
     double drive_boundary(double t, const double* y) const;
-    // Modes whose structural loss `rate` cannot resolve: ωh beyond this.
+    // What of the motion of a mode the nodes do not resolve turns by more radians, or decays by more, in a step.
     static constexpr double kResolved = 3;
+    bool resolved(std::size_t mode) const;
+    // q̇ of a mode at the nodes, as far as they resolve it: one of two decays, perhaps.
+    Lanes resolved_rate(std::size_t mode) const;
     // Θ̇ for given coordinates.
     double spin_at(double p, const double* coordinates) const;
 
@@ -57,6 +60,9 @@ class ExponentialSegment final : public Segment {
     void expand(int point) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;
+    double work_on_vibration(std::size_t mode, const double* g, double s, const double* y) const;
+    double work_on_decay(std::size_t mode, bool fast, const double* g, double s, const double* y) const;
+    double largest_rate(std::size_t mode, double amplitude, double force) const;
     double torque_on_vibration(double s, const double* y) const;
 
     std::shared_ptr<const ModalForm> form_;

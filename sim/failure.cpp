@@ -14,11 +14,14 @@ namespace {
 // Beyond these a modal model's small deflections are the likelier cause than anything that they lead to.
 constexpr double kLargestSlope = 0.5;  // [rad], between the ends of the beam
 constexpr double kLargestSag = 0.2;    // of the length, of the clamped beam under its weight
+constexpr double kFastSpin = 0.5;      // of the first bending frequency: what turning does to the stiffness matters
+constexpr double kRunaway = 1e3;       // of that frequency: nothing but a vanished inertia lets a hub turn so fast
 constexpr double kSharpTouch = 0.1;    // of the time to the deepest point: what a step in a touch may span
 
 // What the beam looks like, and how its contact point answers, at the last good instant.
 struct Look {
     double slope = 0, deflection = 0;  // of the tip against the root's tangent [rad], [m]
+    double spin = 0;                   // |θ̇| [rad/s]
     double approach = 0;               // of the touch [m/s]
     double mass = 0;                   // that the contact point feels [kg]
 };
@@ -31,6 +34,7 @@ Look look(double t, System& system, const double* y) {
     system.model().point(system.model().length(), tip);
     out.slope = std::fabs(std::atan2(cross(root.r1, tip.r1), dot(root.r1, tip.r1)));
     out.deflection = std::fabs(cross(root.r1, tip.r - root.r)) / norm(root.r1);
+    out.spin = std::fabs(system.model().hub_rate());
     out.approach = system.phase().approach;
     if (!system.has_cam()) return out;
     const ContactState c = system.contact(t, y, true);
@@ -56,7 +60,33 @@ bool bent(const Problem& p, const Look& beam) {
     return p.beam.model != ModelKind::rigid && p.beam.model != ModelKind::exact && beam.slope > kLargestSlope;
 }
 
+// The first bending frequency of the clamped beam [rad/s].
+double bending_frequency(const Problem& p) {
+    return 3.5160152685 / (p.beam.length * p.beam.length) *
+           std::sqrt(p.beam.bending_stiffness() / p.beam.line_density());
+}
+
+// Whether the model's own equations let the deflection of a turning beam grow without end.
+std::string tell_lost_stiffness(const Problem& p, const Look& beam) {
+    const double bending = bending_frequency(p);
+    if (!(beam.spin > kFastSpin * bending)) return "";
+    const char* lacks = nullptr;
+    if (p.beam.model == ModelKind::zeroth_order)
+        lacks = "the zeroth-order model has no centrifugal stiffening, so that turning only takes stiffness away";
+    if (p.beam.model == ModelKind::paper)
+        lacks =
+            "the paper's equation (4) has L cos θ for L in its centrifugal stiffening, so that turning takes stiffness "
+            "away unless the beam is nearly level";
+    if (!lacks) return "";
+    return fmt::format(
+        "the deflection grows without end: {}, at |θ̇| = {:.3g} rad/s more than bending has (first bending frequency "
+        "{:.3g} rad/s); use \"model\": \"first-order\", which is the consistent equation, a stiffer beam, or a slower "
+        "turn",
+        lacks, beam.spin, bending);
+}
+
 std::string tell_bent(const Problem& p, const Look& beam) {
+    if (std::string lost = tell_lost_stiffness(p, beam); !lost.empty()) return lost;
     std::string by;
     if (sag(p) > kLargestSag * p.beam.length)
         by = fmt::format(" (clamped, it would sag by {:.2g} m under gravity {:g} m/s^2)", sag(p), p.gravity);
@@ -163,8 +193,16 @@ std::string cause(const Failure& failure, System& system, const Look& beam) {
         case Stop::method:
             break;
     }
+    const bool coupled = resolved_basis(p) == Basis::cantilever && !is_prescribed(p.hub.drive);
+    if (coupled && beam.spin > kRunaway * bending_frequency(p)) return tell_inertia(p);
     if (bent(p, beam)) return tell_bent(p, beam);
-    return fmt::format("{}; {}", failure.words, what_limits(p, system, beam, false));
+    if (std::string lost = tell_lost_stiffness(p, beam); !lost.empty()) return lost;
+    const char* unbounded =
+        p.beam.model == ModelKind::paper
+            ? " (the paper's equation (4) has no energy that would bound its motion: use \"model\": "
+              "\"first-order\", which has)"
+            : "";
+    return fmt::format("{}{}; {}", failure.words, unbounded, what_limits(p, system, beam, false));
 }
 
 }  // namespace

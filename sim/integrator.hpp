@@ -33,6 +33,7 @@ struct MotionBounds {
     double slope_speed = 0;                  // ∂²v/∂x∂t [1/s]
     double angle_low = 0, angle_high = 0;    // of the hub angle [rad]
     double rate_low = 0, rate_high = 0;      // of its rate [rad/s]
+    double ripple = 0, ripple_rate = 0;      // of the hub against the frame [rad], [rad/s]
 };
 
 // What a step in contact knows of the contact at its start, at its nodes and at its end, in this order.

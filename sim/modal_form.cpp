@@ -7,8 +7,6 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kMostDamping = 0.5;  // ζ: what the recursion of `respond` is stable for
-
 void copy_rows(const Eigen::MatrixXd& m, double factor, std::vector<double>& out) {
     const Eigen::Index n = m.rows();
     out.resize(static_cast<std::size_t>(n * n));
@@ -42,7 +40,6 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
     for (int i = 0; i < n; ++i) {
         Oscillator o{model->frequency(i), 0};
         if (const double* damping = model->diagonal_damping()) o.gamma = 0.5 * damping[i] / form->mass;
-        if (o.gamma > kMostDamping * o.omega) return nullptr;
         form->oscillators.push_back(o);
         form->weight.push_back(m.W[i] / form->mass);
         form->U.push_back(model->coupled() ? m.U[i] : 0);

@@ -12,7 +12,7 @@ namespace beamcam::sim {
 
 struct ModalForm {
     // Null when the equations of this problem do not have the form: other models, clamped shapes with a free hub,
-    // damping that couples the modes or exceeds half of the critical one.
+    // damping that couples the modes.
     static std::shared_ptr<const ModalForm> of(System& system);
 
     int n = 0;  // modes

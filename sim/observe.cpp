@@ -358,49 +358,52 @@ void Recorder::sample(const Stretch& s) {
     }
 }
 
+// For how many pieces from here on neither the hub's angle nor its rate can change sign: the frame is too far from that
+// for the vibration, and needs a while to come near. Half of its rate is left to the inertia's own vibration.
+int Recorder::quiet_pieces(const Turn& hub, const Stretch& s, double piece) {
+    const MotionBounds* b = s.segment->bounds();
+    if (!b) return 0;
+    const double rate = 0.5 * std::fabs(hub.frame_rate) - b->ripple_rate, angle = std::fabs(hub.frame) - b->ripple;
+    if (!(rate > 0 && angle > 0)) return 0;
+    const double quiet = std::min(rate / b->spin_acceleration, angle / b->spin) / piece;
+    return static_cast<int>(std::min(quiet, kMostPieces));
+}
+
+Recorder::Turn Recorder::turn(const Stretch& s, double t) {
+    s.segment->value(t, y_.data());
+    eye_.system().place(t, y_.data());
+    const Model& model = eye_.system().model();
+    return {model.hub_angle(), model.hub_rate(), y_[0], y_[static_cast<std::size_t>(eye_.system().coordinates())]};
+}
+
 void Recorder::turning_points(const Stretch& s) {
     if (!request_.turning_points) return;
     if (const MotionBounds* b = s.segment->bounds()) {
         const bool turns = b->rate_low <= 0 && b->rate_high >= 0, crosses = b->angle_low <= 0 && b->angle_high >= 0;
         if (!turns && !crosses) return;
     }
-    const auto at = [&](double t, double& theta, double& rate) {
-        s.segment->value(t, y_.data());
-        eye_.system().place(t, y_.data());
-        theta = eye_.system().model().hub_angle();
-        rate = eye_.system().model().hub_rate();
-    };
+    const auto angle = [&](double t) { return turn(s, t).angle; };
+    const auto rate = [&](double t) { return turn(s, t).rate; };
     const int count = pieces(s);
-    double t0 = s.from, theta0, rate0, theta1, rate1;
-    at(t0, theta0, rate0);
-    for (int i = 1; i <= count; ++i) {
-        const double t1 = i == count ? s.to : s.from + (s.to - s.from) * i / count;
-        at(t1, theta1, rate1);
-        if (rate0 > 0 && rate1 <= 0) {
-            double theta, rate;
-            const double t = find_root(
-                [&](double x) {
-                    at(x, theta, rate);
-                    return rate;
-                },
-                t0, t1, rate0, rate1);
-            at(t, theta, rate);
-            result_.apexes.push_back({t, theta});
+    const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
+    Turn before = turn(s, s.from);
+    for (int i = 0; i < count;) {
+        if (const int quiet = quiet_pieces(before, s, (s.to - s.from) / count)) {
+            i = std::min(count, i + quiet);
+            before = turn(s, time(i));
+            continue;
         }
-        if ((theta0 > 0) != (theta1 > 0) && theta0 != 0) {
-            double theta, rate;
-            const double t = find_root(
-                [&](double x) {
-                    at(x, theta, rate);
-                    return theta;
-                },
-                t0, t1, theta0, theta1);
-            at(t, theta, rate);
-            result_.theta_zero.push_back({t, rate});
+        const Turn after = turn(s, time(i + 1));
+        if (before.rate > 0 && after.rate <= 0) {
+            const double t = find_root(rate, time(i), time(i + 1), before.rate, after.rate);
+            result_.apexes.push_back({t, angle(t)});
         }
-        t0 = t1;
-        theta0 = theta1;
-        rate0 = rate1;
+        if ((before.angle > 0) != (after.angle > 0) && before.angle != 0) {
+            const double t = find_root(angle, time(i), time(i + 1), before.angle, after.angle);
+            result_.theta_zero.push_back({t, rate(t)});
+        }
+        before = after;
+        ++i;
     }
 }
 

@@ -83,6 +83,11 @@ class Recorder {
         std::size_t next = 0;
     };
     void sample(const Stretch& s);
+    struct Turn {  // of the hub, and of the frame that the beam vibrates in
+        double angle, rate, frame, frame_rate;
+    };
+    Turn turn(const Stretch& s, double t);
+    static int quiet_pieces(const Turn& hub, const Stretch& s, double piece);
     void turning_points(const Stretch& s);
     void contact_peaks(const Stretch& s);
     void extrema(const Stretch& s);

@@ -61,6 +61,7 @@ constexpr long kMostLooks = 100000;  // of the advancement through one step
 // Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
 // events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
 constexpr int kMostFlips = 10;
+constexpr double kEndless = 1e60;        // of the length: far beyond any sense, and far from overflow
 constexpr double kBounces = 4;           // a first step in flight spans, at most
 constexpr double kLowestBounce = 1e-13;  // of the beam's length: the gap is known to about 1e-15 of it
 constexpr double kRestSpeed = 1e-12;     // [m/s] slower is rounding
@@ -144,6 +145,7 @@ class Run {
         long steps = 0;
         while (t_ < end_) {
             keep_to_budget();
+            keep_in_bounds();
             const Segment* segment = &integrator_->step();
             last_step_ = segment->t1 - segment->t0;
             if (progress_ && (++steps & kTold) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
@@ -191,6 +193,13 @@ class Run {
         if (integrator_->counters.steps + integrator_->counters.rejected < problem_.solver.max_steps) return;
         why_ = Stop::steps_spent;
         throw StepFailure("the budget of steps is spent");
+    }
+
+    // An equation that lets a deflection grow without end would go on until numbers overflow.
+    void keep_in_bounds() {
+        for (std::size_t i = 1; i < static_cast<std::size_t>(dynamics_.coordinates()); ++i)
+            if (!(std::fabs(y_[i]) < kEndless * problem_.beam.length))
+                throw StepFailure("the deflection grows without end");
     }
 
     double next_kink() const {

@@ -68,6 +68,29 @@ TEST(Failure, APrescribedAngleThatLeavesNoWayIsToldSo) {
     EXPECT_THAT(words(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive")));
 }
 
+TEST(Failure, AModelWhoseTurningTakesStiffnessAwayIsToldSo) {
+    Problem p;
+    p.cam.reset();
+    p.beam.youngs_modulus = 1e9;
+    p.hub.drive = ConstantSpeed{-30};
+    p.beam.model = ModelKind::paper;
+    EXPECT_THAT(words(p, 100),
+                AllOf(HasSubstr("L cos θ"), HasSubstr("30 rad/s"), HasSubstr("22.4 rad/s"), HasSubstr("first-order")));
+    p.beam.model = ModelKind::zeroth_order;
+    EXPECT_THAT(words(p, 100), AllOf(HasSubstr("no centrifugal stiffening"), HasSubstr("first-order")));
+    p.beam.model = ModelKind::first_order;
+    EXPECT_EQ(words(p, 1), "");
+}
+
+TEST(Failure, StepsThatVanishWithTheInertiaAreToldSo) {
+    Problem p;  // hardly any inertia left beside these shapes: the torque turns them fast at once
+    p.beam.model = ModelKind::paper;
+    p.beam.modes = 8;
+    p.hub.drive = ConstantTorque{-100};
+    p.solver.rtol = 1e-6;
+    EXPECT_THAT(words(p, 0.2), AllOf(HasSubstr("positive inertia"), HasSubstr("fewer modes")));
+}
+
 TEST(Failure, ASpentBudgetNamesWhatKeepsTheStepsShort) {
     Problem p;
     p.beam.modes = 40;
