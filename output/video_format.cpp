@@ -91,7 +91,7 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
     if (!h) {
         std::string all;
         for (const Home& known : kHomes) all += (all.empty() ? "" : ", ") + std::string(known.ending);
-        return "\"" + std::string(ending) + "\" is no film's ending; use " + all;
+        return std::string("\"").append(ending) + "\" is no film's ending; use " + all;
     }
     if (!goes_into(codec, ending)) {
         std::string held, homes;

@@ -54,6 +54,8 @@ struct VideoReader::Impl {
             case beamcam_video_missing_codec:
                 throw MissingCodec("cannot read " + file.string() + ": " + error.text);
             case beamcam_video_write_failed:
+            case beamcam_video_read_failed:
+            case beamcam_video_differs:
             case beamcam_video_failed:
                 break;
         }
