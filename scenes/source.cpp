@@ -105,8 +105,10 @@ std::string describe(const std::vector<Source>& sources, const Message& message)
 std::string describe(const std::vector<Source>& sources, std::vector<Message> messages) {
     std::stable_sort(messages.begin(), messages.end(),
                      [](const Message& a, const Message& b) { return a.place < b.place; });
+    constexpr std::size_t kMost = 100;  // that anybody reads
     std::string out;
-    for (const Message& message : messages) out += describe(sources, message);
+    for (std::size_t i = 0; i < std::min(messages.size(), kMost); ++i) out += describe(sources, messages[i]);
+    if (messages.size() > kMost) out += fmt::format("and {} more\n", messages.size() - kMost);
     return out;
 }
 

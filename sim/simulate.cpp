@@ -55,6 +55,7 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b) 
 enum class EventKind { none, touch, release, clamp, grip, lift };
 
 constexpr long kTold = 15;           // steps between two calls of `progress`, less one
+constexpr long kLooksTold = 255;     // the same of looks into one step
 constexpr int kMaxLooks = 16;        // into one step, for events
 constexpr double kMostPieces = 1e5;  // of one step, for touches
 constexpr long kMostLooks = 100000;  // of the advancement through one step
@@ -148,7 +149,7 @@ class Run {
             keep_in_bounds();
             const Segment* segment = &integrator_->step();
             last_step_ = segment->t1 - segment->t0;
-            if (progress_ && (++steps & kTold) == 0 && !progress_(std::min(segment->t1, end_))) throw Interrupted();
+            if ((++steps & kTold) == 0) tell(segment->t1);
             const Event event = first_event(*segment);
             if (event.kind == EventKind::none) {
                 const bool kink = segment->t1 >= next_kink();
@@ -223,6 +224,10 @@ class Run {
     void enter_phase() {
         dynamics_.set_phase(phase_);
         scout_.set_phase(phase_);
+    }
+
+    void tell(double t) const {
+        if (progress_ && !progress_(std::min(t, end_))) throw Interrupted();
     }
 
     // ---- guards ----
@@ -332,6 +337,7 @@ class Run {
             c.gap = std::max(c.gap, 0.0);  // rounding of the release
         }
         for (long looks = 0; looks < kMostLooks; ++looks) {
+            if ((looks & kLooksTold) == kLooksTold) tell(segment.t0);
             // It opens, and is below zero by rounding only.
             if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem_.beam.length) c.gap = 0;
             if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return {EventKind::touch, t};

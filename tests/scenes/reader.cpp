@@ -1,5 +1,6 @@
 #include "scenes/reader.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -147,6 +148,16 @@ TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {
                             "3:25 cam.eccentricity = \"2 s\" has the wrong dimension (s); it is measured in m",
                             "4:17 time.end = -1 s must be positive; write how many seconds to simulate",
                             "4:34 outputs.0 needs \"at\", for example \"370 ms\""));
+}
+
+TEST(Reader, BeyondAHundredIssuesAreCounted) {
+    std::string text = "{\n";
+    for (int i = 0; i < 250; ++i) text += fmt::format("\"nothing{}\": 1,\n", i);
+    const Reading reading = read(text + "\"time\": {}}");
+    EXPECT_EQ(reading.messages.size(), 250u);
+    EXPECT_THAT(reading.report(),
+                ::testing::AllOf(::testing::HasSubstr("nothing99"), ::testing::Not(::testing::HasSubstr("nothing100")),
+                                 ::testing::EndsWith("and 150 more\n")));
 }
 
 TEST(Reader, AValueOfTheWrongKindIsToldNextToTheOthers) {

@@ -644,6 +644,29 @@ TEST(Runs, CanBeInterrupted) {
     EXPECT_EQ(calls, 3);
 }
 
+// The search for a touch in one step may take far longer than the step.
+TEST(Runs, CanBeInterruptedWithinAStep) {
+    Problem p;
+    p.beam.modes = 16;
+    p.beam.kelvin_voigt = 1e4;
+    p.cam->speed = 100;
+    p.initial.angle = -2 * kQuarterTurn;
+    p.initial.angular_velocity = 10;
+    p.solver.rtol = 1e-11;
+    Request request;
+    request.end_time = 0.2;
+    double last = -1;
+    int calls = 0;
+    bool again = false;
+    const auto stop_at_the_second_of_a_step = [&](double t) {
+        again = t == last;
+        last = t;
+        return !again && ++calls < 1000;
+    };
+    EXPECT_THROW(simulate(p, request, stop_at_the_second_of_a_step), Interrupted);
+    EXPECT_TRUE(again);
+}
+
 TEST(Runs, RefuseImpossibleProblemsBeforeAnyWork) {
     Problem p;
     p.initial.angle = 0.1;
