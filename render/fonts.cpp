@@ -55,13 +55,8 @@ fs::path find(const KnownFile& file) {
     return {};
 }
 
-struct LocatedFile {
-    fs::path path;
-    const char* package;
-};
-
-LocatedFile locate(const KnownFile& file) {
-    if (fs::path found = find(file); !found.empty()) return {std::move(found), file.package};
+void require(const FontFile& file) {
+    if (!file.path.empty()) return;
     std::string tried;
     for (const fs::path& folder : folders()) tried += (tried.empty() ? "" : ", ") + folder.string();
     throw FontError(
@@ -70,17 +65,18 @@ LocatedFile locate(const KnownFile& file) {
                     file.name, tried, file.package));
 }
 
-std::vector<LocatedFile> locate_all(bool cjk, Typefaces typefaces) {
+std::vector<FontFile> files_of(Typefaces typefaces, bool cjk) {
     const bool print = typefaces == Typefaces::print;
-    std::vector<LocatedFile> all;
-    for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintFiles) : kFiles) all.push_back(locate(file));
-    if (cjk)
-        for (const KnownFile& file : print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles)
-            all.push_back(locate(file));
-    return all;
+    std::vector<FontFile> files;
+    const auto look_for = [&](std::span<const KnownFile> known) {
+        for (const KnownFile& file : known) files.push_back({file.name, file.package, find(file)});
+    };
+    look_for(print ? std::span<const KnownFile>(kPrintFiles) : kFiles);
+    if (cjk) look_for(print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles);
+    return files;
 }
 
-void add(FcConfig* config, const LocatedFile& file) {
+void add(FcConfig* config, const FontFile& file) {
     if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(file.path.c_str())))
         throw FontError(fmt::format("font {} cannot be read as a font; reinstall the Debian package {}",
                                     file.path.string(), file.package));
@@ -109,16 +105,7 @@ bool needs_cjk(std::string_view utf8) {
     return false;
 }
 
-std::vector<FontFile> font_files(Typefaces typefaces) {
-    std::vector<FontFile> files;
-    if (typefaces == Typefaces::print) {
-        for (const KnownFile& file : kPrintFiles) files.push_back({file.name, file.package, find(file)});
-        for (const KnownFile& file : kPrintCjkFiles) files.push_back({file.name, file.package, find(file)});
-        return files;
-    }
-    for (const KnownFile& file : kFiles) files.push_back({file.name, file.package, find(file)});
-    return files;
-}
+std::vector<FontFile> font_files(Typefaces typefaces) { return files_of(typefaces, typefaces == Typefaces::print); }
 
 std::string missing_glyphs(std::string_view utf8) {
     if (needs_cjk(utf8))
@@ -172,12 +159,12 @@ Fonts::Handles::~Handles() {
 
 namespace {
 
-std::unique_ptr<Fonts::Handles> load(std::span<const LocatedFile> files) {
+std::unique_ptr<Fonts::Handles> load(std::span<const FontFile> files) {
     auto handles = std::make_unique<Fonts::Handles>();
     Fonts::Handles& h = *handles;
     h.config = FcConfigCreate();  // empty: no system file is read
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
-    for (const LocatedFile& file : files) add(h.config, file);
+    for (const FontFile& file : files) add(h.config, file);
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
     if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");
     pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(h.map), h.config);
@@ -199,9 +186,12 @@ std::unique_ptr<Fonts::Handles> load(std::span<const LocatedFile> files) {
 
 Fonts::Fonts(bool cjk, Typefaces typefaces) {
     keep_system_settings_out();
-    const std::vector<LocatedFile> files = locate_all(cjk, typefaces);
+    const std::vector<FontFile> files = files_of(typefaces, cjk);
     std::string key;
-    for (const LocatedFile& file : files) (key += file.path.native()) += '\n';
+    for (const FontFile& file : files) {
+        require(file);
+        (key += file.path.native()) += '\n';
+    }
     auto handles = resting().take(key);
     if (!handles) {
         handles = load(files);

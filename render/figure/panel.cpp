@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "render/error.hpp"
 #include "render/figure/reduce.hpp"
@@ -199,40 +200,46 @@ bool PanelDrawing::place(const Box& plot) {
 constexpr double kColumn = 4;          // grains: a pixel, in which swings are not told apart
 constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
 
+// Those of the items with these indices, `broken` for kBreak.
+template <class Item>
+std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vector<Item>& from, Item broken) {
+    std::vector<Item> all;
+    all.reserve(indices.size());
+    for (const std::size_t i : indices) all.push_back(i == kBreak ? broken : from[i]);
+    return all;
+}
+
 // A million points draw and weigh as little as a few thousand.
 void PanelDrawing::lighten(Curve& curve) const {
     const double grain = sheet_.grain();
-    const std::vector<Swing> fast = swings(curve.points, kColumn * grain);
-    const auto taken = [&](bool keep_extremes, const auto& from, auto broken) {
-        std::decay_t<decltype(from)> all;
-        for (const std::size_t i : without(fast, from.size(), keep_extremes))
-            all.push_back(i == kBreak ? broken : from[i]);
-        return all;
-    };
     const Vec2 broken{std::nan(""), std::nan("")};
+    const std::vector<Swing> fast = swings(curve.points, kColumn * grain);
+    const std::size_t count = curve.points.size();
     if (!curve.value.empty()) {
-        if (fast.empty()) return;
-        const std::vector<double> value = taken(true, curve.value, 0.0);
-        const std::vector<Vec2> points = taken(true, curve.points, broken);
-        curve.value.clear(), curve.points.clear();
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            // From trough to crest in a few tones.
-            const double rise = i > 0 ? value[i] - value[i - 1] : 0;
-            const int tones =
-                std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
-            for (int k = 1; k < tones; ++k) {
-                const double share = double(k) / tones;
-                curve.points.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
-                curve.value.push_back(value[i - 1] + rise * share);
-            }
-            curve.points.push_back(points[i]);
-            curve.value.push_back(value[i]);
-        }
+        if (!fast.empty()) thin_out_tones(curve, without(fast, count, true));
         return;
     }
     for (const Swing& swing : fast) curve.bands.push_back(outline(swing, curve.points));
-    curve.line = reduce(taken(false, curve.points, broken), grain);
-    curve.points = fast.empty() ? curve.line : reduce(taken(true, curve.points, broken), grain);
+    curve.line = reduce(taken(without(fast, count, false), curve.points, broken), grain);
+    curve.points = fast.empty() ? curve.line : reduce(taken(without(fast, count, true), curve.points, broken), grain);
+}
+
+// Keeps these points of a curve that is coloured by a value, and goes from one to the next in a few tones.
+void PanelDrawing::thin_out_tones(Curve& curve, const std::vector<std::size_t>& kept) {
+    const std::vector<double> value = taken(kept, std::exchange(curve.value, {}), 0.0);
+    const std::vector<Vec2> points = taken(kept, std::exchange(curve.points, {}), Vec2{});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double rise = i > 0 ? value[i] - value[i - 1] : 0;
+        const int tones =
+            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
+        for (int k = 1; k < tones; ++k) {
+            const double share = double(k) / tones;
+            curve.points.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
+            curve.value.push_back(value[i - 1] + rise * share);
+        }
+        curve.points.push_back(points[i]);
+        curve.value.push_back(value[i]);
+    }
 }
 
 void PanelDrawing::make_curves() {

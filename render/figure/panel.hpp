@@ -47,6 +47,7 @@ class PanelDrawing {
     void make_axes(double width, double height);
     void make_curves();
     void lighten(Curve& curve) const;
+    static void thin_out_tones(Curve& curve, const std::vector<std::size_t>& kept);
     double place_boxes(bool legend_first);
     Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();
