@@ -221,7 +221,7 @@ void Chart::draw_curves(Canvas& canvas, const Palette& p, const View& view, bool
     for (const ChartDot& d : c_.dots) {
         if (d.t < view.from || d.t > view.to) continue;
         canvas.circle(Vec2{view.x(plot_, d.t), y(d.value)} + shift, (past ? 2.6 : 2.2) * unit_);
-        canvas.fill(past ? d.color : mix(p.paper, p.contact_faint, 0.9));
+        canvas.fill(past ? d.color : d.faint);
     }
     if (!past) return;
     for (const ChartMark& mark : c_.marks) {

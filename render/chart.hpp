@@ -39,7 +39,7 @@ struct Curve {
 };
 struct ChartDot {
     double t = 0, value = 0;
-    Color color;
+    Color color, faint;  // faint: still to come
 };
 // The instant of an impact: a tick at the time axis, in one of the lanes above each other.
 struct ChartMark {

@@ -91,6 +91,7 @@ struct FilmSetup : Motion {
     std::vector<Motion> others;        // to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
     std::vector<double> speeds;  // of time at each frame, 1: as it is; empty: always 1
+    bool slow_motion = false;    // the standard arrangement shows collisions one by one
     std::vector<Callout> callouts;
     std::string accuracy_note;  // plain text in the corner; may be empty
 };

@@ -360,8 +360,8 @@ void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threa
     canvas.image_part(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y), lit_bounds(scene));
 }
 
-// Out along the face and back, from where the beam leaves the hub.
-std::vector<Vec2> MechanismPanel::ghost_outline(const Scene& s, const DrawnBeam& beam) const {
+// Out along the face and back, from where the beam leaves the hub; `foot`: along the hub, which stays in front.
+MechanismPanel::Outline MechanismPanel::ghost_outline(const Scene& s, const DrawnBeam& beam) const {
     const auto outside = [&](const auto& point) {
         std::vector<Vec2> line;
         for (std::size_t i = 0; i < beam.line.size(); ++i) {
@@ -379,10 +379,20 @@ std::vector<Vec2> MechanismPanel::ghost_outline(const Scene& s, const DrawnBeam&
         }
         return line;
     };
-    std::vector<Vec2> all = outside([&](std::size_t i) { return beam.face(i); });
+    Outline all{outside([&](std::size_t i) { return beam.face(i); }), {}};
     const std::vector<Vec2> back = outside([&](std::size_t i) { return beam.back(i); });
-    all.insert(all.end(), back.rbegin(), back.rend());
-    for (Vec2& p : all) p = s.on(p);
+    all.edge.insert(all.edge.end(), back.rbegin(), back.rend());
+    if (all.edge.empty()) return all;
+    const Vec2 from = all.edge.back() - s.shape.hinge, to = all.edge.front() - s.shape.hinge;
+    const double begin = std::atan2(from.y, from.x), radius = norm(from);
+    const double turn = std::remainder(std::atan2(to.y, to.x) - begin, 2 * kPi);
+    const int pieces = 1 + static_cast<int>(std::abs(turn) * std::sqrt(radius));  // within 1/8 px of the circle
+    for (int i = 1; i < pieces; ++i) {
+        const double a = begin + turn * i / pieces;
+        all.foot.push_back(s.shape.hinge + Vec2{std::cos(a), std::sin(a)} * radius);
+    }
+    for (std::vector<Vec2>* line : {&all.edge, &all.foot})
+        for (Vec2& p : *line) p = s.on(p);
     return all;
 }
 
@@ -398,15 +408,11 @@ void MechanismPanel::ghosts(const Scene& s) const {
             s.arc(px(pose.disc_centre), cam->radius * look_.camera.scale, 0, 2 * kPi);
             s.canvas.stroke({color.faded(0.8), 2 * u_, {8 * u_, 6 * u_}, Cap::butt});
         }
-        const std::vector<Vec2> outline = ghost_outline(s, other);
-        s.canvas.polyline(outline);
-        if (outline.size() > 1) {  // along the hub, which stays in front
-            const Vec2 from = outline.back() - s.shape.hinge, to = outline.front() - s.shape.hinge;
-            const double begin = std::atan2(-from.y, from.x), end = std::atan2(-to.y, to.x);
-            if (!s.view) s.canvas.arc(s.shape.hinge, norm(from), begin, begin + std::remainder(end - begin, 2 * kPi));
-        }
+        const Outline outline = ghost_outline(s, other);
+        s.canvas.polyline(outline.edge);
+        for (const Vec2& p : outline.foot) s.canvas.line_to(p);
         s.canvas.fill(color.faded(0.16));
-        s.canvas.polyline(outline);
+        s.canvas.polyline(outline.edge);
         s.canvas.stroke({color, 2.2 * u_});
     }
 }

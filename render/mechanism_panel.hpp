@@ -64,7 +64,10 @@ class MechanismPanel final : public Panel {
     void label(Canvas& canvas) const;
 
     void ghosts(const Scene& s) const;
-    std::vector<Vec2> ghost_outline(const Scene& s, const DrawnBeam& beam) const;
+    struct Outline {
+        std::vector<Vec2> edge, foot;  // [px]
+    };
+    Outline ghost_outline(const Scene& s, const DrawnBeam& beam) const;
     bool whole_path() const;  // of the tip, instead of a trail
     void trail(const Scene& s) const;
     void angle_arc(const Scene& s) const;

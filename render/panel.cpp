@@ -21,8 +21,7 @@ using sim::Pose;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
-    const bool slow = std::ranges::any_of(setup.speeds, [](double s) { return s < 0.5; });
-    std::vector<PanelSpec> specs = standard_panels(setup.problem, slow);
+    std::vector<PanelSpec> specs = standard_panels(setup.problem, setup.slow_motion);
     // What the film has no data for is no panel.
     std::erase_if(specs, [&](const PanelSpec& s) {
         return s.kind == PanelKind::strip && s.channels.front().kind == ChannelKind::tip_deflection &&

@@ -274,10 +274,12 @@ class StripPanel final : public ChartPanel {
             for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
                 low = std::min(low, s.x), high = std::max(high, s.x);
                 if (s.t < c.time.low || s.t > c.time.high) continue;
-                const Color color = facts.members() > 1
-                                        ? facts.member_color(m)
-                                        : force_color(*facts.palette, std::sqrt(s.force / facts.force_scale));
-                c.dots.push_back({s.t, s.x, color});
+                const Palette& p = *facts.palette;
+                if (facts.members() > 1)
+                    c.dots.push_back({s.t, s.x, facts.member_color(m), mix(p.paper, facts.member_color(m), 0.25)});
+                else
+                    c.dots.push_back({s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)),
+                                      mix(p.paper, p.contact_faint, 0.9)});
             }
         const double length = facts.setup->problem.beam.length;
         if (!(low <= high)) {

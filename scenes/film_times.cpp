@@ -18,6 +18,7 @@ constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
 constexpr double kFinePoints = 40000;                   // more of them where time runs slowly
 constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still's instant
 constexpr int kFineSteps = 8;                           // between two frames
+constexpr double kLongestCollision = 0.1;               // [s] that a strip shows of one
 
 double chart_rate(double duration) {
     const double seconds = std::max(duration, 1e-12);
@@ -79,6 +80,31 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
     return out;
 }
 
+// As many rows for each collision as a strip of it has columns; with very many collisions fewer.
+std::vector<double> rows_of_collisions(const sim::Result& motion, double from, double to) {
+    struct Span {
+        double low, high;
+    };
+    std::vector<Span> spans;
+    std::optional<int> last;
+    for (const sim::Impact& i : motion.impacts) {
+        if (i.t_start > to) break;
+        if (last != i.collision) spans.push_back({i.t_start, i.t_start});
+        last = i.collision;
+        spans.back().high = std::max(spans.back().high, std::min(i.t_end.value_or(to), to));
+    }
+    std::vector<double> out;
+    const double count = std::clamp(kFinePoints / std::max(1.0, double(spans.size())), 4.0, 600.0);
+    for (const Span& s : spans) {
+        if (s.high < from) continue;
+        const double length = std::clamp(s.high - s.low, 1e-4, kLongestCollision), before = 0.15 * length;
+        for (const double t : rows(std::max(from, s.low - before), std::min(to, s.low + length + before),
+                                   count / (length + 2 * before)))
+            out.push_back(t);
+    }
+    return out;
+}
+
 // The first frame at this instant or after it, else the last: what an impact has begun shows.
 int first_at(const std::vector<double>& frames, double t) {
     const auto at = std::ranges::lower_bound(frames, t - 1e-12 * std::max(1.0, t));
@@ -98,7 +124,7 @@ std::vector<double> rows(double from, double to, double rate) {
     return times;
 }
 
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions) {
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, fine);
@@ -110,6 +136,7 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
         merge(out.chart, fine);
         merge(out.trace, fine);
     }
+    if (collisions) merge(out.chart, rows_of_collisions(motion, span.from, to));
     return out;
 }
 

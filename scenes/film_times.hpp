@@ -22,7 +22,8 @@ struct FilmTimes {
 
 // `motion` has the impacts and collisions until the span's end where the span looks at them; else it may be empty.
 // Throws render::PictureError for an impact that does not exist and for a film of too many frames.
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion);
+// `collisions`: the charts get more rows within each of the motion's.
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
 FilmTimes still_times(const Instant& at, const sim::Result& motion);
 
 // k / rate from `from`, and `to` itself.

@@ -57,15 +57,20 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
 }
 
-FilmTimes times_of(const Pictures& p, double end_time, const sim::Result& motion) {
-    return p.kind == Pictures::Kind::still ? still_times(p.at, motion) : film_times(p.span, end_time, motion);
+std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& problem) {
+    return p.picture.layout ? render::panels_of(*p.picture.layout)
+                            : render::standard_panels(problem, is_slow_motion(p));
 }
 
-std::vector<sim::Channel> channels_of(const Picture& picture, const FrameSpan& span, const sim::Problem& problem) {
-    const std::vector<render::PanelSpec> panels =
-        picture.layout ? render::panels_of(*picture.layout)
-                       : render::standard_panels(problem, span.speed.around || span.speed.factor < 0.5);
-    return render::chart_channels(panels);
+// One collision after the other, which takes more rows than the whole time does.
+bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
+    return p.kind != Pictures::Kind::still && p.picture.compare.empty() && problem.cam &&
+           std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
+}
+
+FilmTimes times_of(const Pictures& p, double end_time, const sim::Result& motion) {
+    return p.kind == Pictures::Kind::still ? still_times(p.at, motion)
+                                           : film_times(p.span, end_time, motion, p.collisions);
 }
 
 // Collects what the outputs want of the one simulation.
@@ -154,8 +159,9 @@ class Planner {
         if (const auto there = known_.frames.find(p.output); there != known_.frames.end()) p.there = there->second;
         if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
         const bool still = p.kind == Pictures::Kind::still;
-        p.settled = still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts();
-        p.chart_channels = channels_of(p.picture, p.span, scene_.problem);
+        p.collisions = shows_collisions(p, scene_.problem);
+        p.settled = still ? p.at.kind == Instant::Kind::time : !(p.span.looks_at_impacts() || p.collisions);
+        p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
         if (p.settled) {
             const FilmTimes times = times_of(p, ends, {});
             p.first_frame = times.first;
@@ -392,6 +398,10 @@ std::string shard_file(const std::string& file, int shard, int shards) {
     return (path.parent_path() /
             fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
         .string();
+}
+
+bool is_slow_motion(const Pictures& p) {
+    return p.picture.compare.empty() && (p.span.speed.around || p.span.speed.factor <= 0.1);
 }
 
 bool Pictures::makes_poster() const { return poster && std::ranges::binary_search(draw, *poster); }

@@ -79,7 +79,8 @@ struct Pictures {
     FrameSpan span;         // of video and frames
     Instant at;             // of a still
     Encoding encoding;      // of video
-    bool settled = true;    // false: the frames' instants are not known before the impacts are
+    bool collisions = false;  // a strip of a film shows them one by one
+    bool settled = true;  // false: the instants of frames or of the charts' rows are not known before the impacts are
     double end_time = 0;    // nothing is looked at beyond it [s]
     long first_frame = 0;   // number of the first frame; the others follow
     Ask ask;                // which of them are asked for
@@ -152,6 +153,9 @@ Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
 // What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
 // in their order. None without a simulation.
 std::vector<sim::Request> requests_of(const Plan& plan);
+
+// A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
+bool is_slow_motion(const Pictures& p);
 
 // "fall.mp4" as the second of three: "fall.2of3.mp4".
 std::string shard_file(const std::string& file, int shard, int shards);

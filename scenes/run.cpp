@@ -36,6 +36,8 @@
 namespace beamcam::scenes {
 namespace {
 
+std::string counted(std::size_t n, std::string_view thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
@@ -456,7 +458,8 @@ class Runner {
             } else {
                 output::write_impacts(path_of(i.file), result_);
                 wrote(path_of(i.file),
-                      fmt::format("{} impacts in {} collisions", result_.impacts.size(), result_.collisions.size()),
+                      fmt::format("{} in {}", counted(result_.impacts.size(), "impact"),
+                                  counted(result_.collisions.size(), "collision")),
                       inputs_of(i));
             }
         }
@@ -484,6 +487,7 @@ class Runner {
         setup.layout = p.picture.layout;
         setup.comparison = p.picture.comparison;
         setup.speeds = p.speeds;
+        setup.slow_motion = is_slow_motion(p);
         setup.callouts = p.callouts;
         if (p.compared.empty()) {
             static_cast<render::Motion&>(setup) = motion_of(scene_.problem, result_, p.poses, p.chart, p.trace);

@@ -33,14 +33,17 @@ void touches_within_half_a_pixel(const std::string& overrides, double wanted_fac
     const Reading reading = testing::read("{" + overrides + "\"time\": {\"end\": 1}}");
     ASSERT_TRUE(reading.scene) << reading.report();
     const sim::Problem& problem = reading.scene->problem;
-    const sim::Result first = sim::simulate(problem, {.end_time = 1});
+    sim::Request all;
+    all.end_time = 1;
+    const sim::Result first = sim::simulate(problem, all);
     ASSERT_FALSE(first.impacts.empty());
     sim::PoseRequest request;
     for (int k = 0; k < 60; ++k) request.times.push_back(k / 60.0);
     for (const sim::Impact& impact : first.impacts)
         for (double t = impact.t_start; t < impact.t_end.value_or(1); t += 5e-5) request.times.push_back(t);
     std::ranges::sort(request.times);
-    const sim::Result motion = sim::simulate(problem, {.end_time = 1, .poses = {request}});
+    all.poses = {request};
+    const sim::Result motion = sim::simulate(problem, all);
     const std::vector<sim::Pose>& poses = motion.poses[0];
     const double factor =
         render::film_factor(problem, poses, wanted_factor > 0 ? std::optional(wanted_factor) : std::nullopt);
@@ -137,9 +140,23 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
 }
 
 TEST(Films, RealTimeFilmsNeedNoFirstRun) {
-    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.1}]})");
+    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.25}]})");
     EXPECT_FALSE(plan(*reading.scene).impacts_until);
-    EXPECT_EQ(plan(*reading.scene).frames(), 900u);
+    EXPECT_EQ(plan(*reading.scene).frames(), 360u);
+}
+
+// What shows collisions one by one, as very slow films do of themselves, has to know them.
+TEST(Films, ThoseOfCollisionsNeedAFirstRun) {
+    for (const char* keys : {R"("speed": 0.1)", R"("layout": {"panel": "contact_force", "window": "collision"})"}) {
+        const Reading reading = testing::read(std::string(R"({"outputs": [{"type": "video", )") + keys + "}]}");
+        ASSERT_TRUE(reading.scene) << keys;
+        EXPECT_EQ(plan(*reading.scene).impacts_until, 1.5) << keys;
+    }
+    // Nor is a close-up of one motion shown where several are compared.
+    const Reading both = testing::read(
+        R"({"outputs": [{"type": "video", "speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}]}]})");
+    ASSERT_TRUE(both.scene);
+    EXPECT_FALSE(plan(*both.scene).impacts_until);
 }
 
 // ---- posters -----------------------------------------------------------------------------------

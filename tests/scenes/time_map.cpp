@@ -127,6 +127,35 @@ TEST(FilmTimes, SlowMotionHasRowsBetweenItsFrames) {
     EXPECT_GE(within(times.chart, 0.300, 0.301), 22);
 }
 
+// A strip that turns from one collision to the next is smooth at any speed of the film.
+TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
+    sim::Result motion;
+    const auto add = [&](double from, std::optional<double> to) {
+        sim::Impact& next = motion.impacts.emplace_back();
+        next.t_start = from, next.t_end = to;
+        next.collision = static_cast<int>(motion.impacts.size()) - 1;
+    };
+    for (int i = 0; i < 3; ++i) add(0.2 + 0.2 * i, 0.21 + 0.2 * i);
+    const FrameSpan span{.fps = {60, 1}};
+    const FilmTimes plain = film_times(span, 1, motion), fine = film_times(span, 1, motion, true);
+    EXPECT_EQ(plain.frames, fine.frames);
+    EXPECT_EQ(plain.trace, fine.trace);
+    EXPECT_TRUE(std::is_sorted(fine.chart.begin(), fine.chart.end()));
+    EXPECT_EQ(std::adjacent_find(fine.chart.begin(), fine.chart.end()), fine.chart.end());
+    const auto within = [](const std::vector<double>& all, double from, double to) {
+        return std::lower_bound(all.begin(), all.end(), to) - std::lower_bound(all.begin(), all.end(), from);
+    };
+    for (const sim::Impact& i : motion.impacts) {
+        EXPECT_LT(within(plain.chart, i.t_start, *i.t_end), 50);
+        EXPECT_GT(within(fine.chart, i.t_start, *i.t_end), 450);
+    }
+    // Very many of them, the last of which never ends.
+    motion.impacts.clear();
+    for (int i = 0; i < 100'000; ++i) add(1e-5 * i, 1e-5 * (i + 0.5));
+    add(1, std::nullopt);
+    EXPECT_LT(film_times(span, 1, motion, true).chart.size(), 600'000u);
+}
+
 TEST(FilmTimes, WordsStandAsLongAsTheFreeze) {
     const FilmTimes times =
         film_times({.fps = {10, 1}, .events = {{.at = {.t = 0.5}, .freeze = 2, .text = "now", .show = 1}}}, 1, {});
