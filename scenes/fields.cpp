@@ -9,7 +9,7 @@ std::string shown(const Node& node) {
         case Node::Kind::boolean:
             return node.boolean ? "true" : "false";
         case Node::Kind::number:
-            return node.text;
+            return shortened(node.text);
         case Node::Kind::string:
             return in_quotes(node.text);
         case Node::Kind::array:

@@ -146,7 +146,7 @@ class Fields {
             return false;
         }
         if (node.number < lowest || node.number > highest) {
-            fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), node.text, lowest, highest));
+            fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), shown(node), lowest, highest));
             return false;
         }
         out = static_cast<int>(node.number);

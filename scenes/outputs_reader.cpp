@@ -116,7 +116,7 @@ void read_view(Findings& findings, Fields& f, render::View& view) {
         } else if (v.value(*factor, "exaggeration", dim::kNone, value)) {
             if (value < 1 || value > 1e6)
                 v.fail(*factor, "exaggeration",
-                       fmt::format("{} = {} is outside 1 (true shape) … 1e6", v.path("exaggeration"), factor->text));
+                       fmt::format("{} = {} is outside 1 (true shape) … 1e6", v.path("exaggeration"), shown(*factor)));
             else
                 view.exaggeration = value;
         }

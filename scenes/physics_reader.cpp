@@ -307,13 +307,20 @@ void read_solver(Findings& findings, const Node* node, sim::Solver& solver) {
     f.finish();
 }
 
+constexpr double kLatestEnd = 1e12;  // [s]: a step of a millisecond is 16 digits less
+
 void read_time(Findings& findings, const Node* node, double& end_time) {
     if (!node) return;
     Fields f(findings, node, "time");
-    if (const Node* end = f.take("end"))
-        if (f.value(*end, "end", dim::kTime, end_time) && !(end_time > 0))
+    if (const Node* end = f.take("end"); end && f.value(*end, "end", dim::kTime, end_time)) {
+        if (!(end_time > 0))
             f.fail(*end, "end",
                    fmt::format("time.end = {} s must be positive; write how many seconds to simulate", end_time));
+        else if (end_time > kLatestEnd)
+            f.fail(*end, "end",
+                   fmt::format("time.end = {:g} s is beyond {:g} s, where steps are lost in the digits of time", end_time,
+                               kLatestEnd));
+    }
     f.finish();
 }
 

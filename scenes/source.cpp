@@ -112,10 +112,12 @@ std::string describe(const std::vector<Source>& sources, std::vector<Message> me
     return out;
 }
 
-std::string in_quotes(std::string_view text) {
+std::string shortened(std::string_view text) {
     constexpr std::size_t kLongest = 60;  // characters
     std::string_view shown = first_characters(text, kLongest);
-    return fmt::format("\"{}{}\"", printable(shown), shown.size() < text.size() ? "…" : "");
+    return fmt::format("{}{}", printable(shown), shown.size() < text.size() ? "…" : "");
 }
+
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", shortened(text)); }
 
 }  // namespace beamcam::scenes

@@ -44,5 +44,7 @@ std::string describe(const std::vector<Source>& sources, std::vector<Message> me
 
 // A value inside a message: quoted, control characters made visible, long text shortened.
 std::string in_quotes(std::string_view text);
+// The same without quotes, for numbers as they were written.
+std::string shortened(std::string_view text);
 
 }  // namespace beamcam::scenes

@@ -104,7 +104,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         const std::string_view what = error.what();
         if (what.find("number overflow") != std::string_view::npos) {
             skip_separators_and_brackets();
-            return fail(at_, fmt::format("number {} is too large for a double; the largest is 1.8e308", word_at(at_)));
+            return fail(at_, fmt::format("number {} is too large for a double; the largest is 1.8e308", shortened(word_at(at_))));
         }
         return syntax_error(position, what);
     }
@@ -163,7 +163,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
             const std::string_view mantissa = std::string_view(node.text).substr(0, node.text.find_first_of("eE"));
             if (value == 0 && mantissa.find_first_of("123456789") != std::string_view::npos)
                 say(node.place.offset,
-                    fmt::format("number {} is too small for a double; write 0 if zero is meant", node.text));
+                    fmt::format("number {} is too small for a double; write 0 if zero is meant", shortened(node.text)));
         });
     }
 
@@ -248,7 +248,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         if (is_word_or_number(c)) {
             const std::string_view word = word_at(at);
             if (word.size() > 1 && c == '0' && word[1] >= '0' && word[1] <= '9')
-                return fail(at, fmt::format("number {} begins with 0; JSON writes it without", word));
+                return fail(at, fmt::format("number {} begins with 0; JSON writes it without", shortened(word)));
             if (says("invalid")) return bad_word(at, word);
         }
         if (says("; expected ':'")) return fail(at, "a colon is missing between a key and its value");
@@ -277,7 +277,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
     bool bad_word(std::size_t at, std::string_view word) {
         if (word == "NaN" || word == "nan" || word.ends_with("Infinity") || word.ends_with("inf"))
-            return fail(at, fmt::format("{} is not a number that a scene can have; write a finite one", word));
+            return fail(at, fmt::format("{} is not a number that a scene can have; write a finite one", shortened(word)));
         if (word[0] == '+' || word[0] == '.' || word[0] == '-' || (word[0] >= '0' && word[0] <= '9'))
             return fail(at, fmt::format("{} is not how JSON writes a number; write for example 0.5, -3 or 1e-8, and "
                                         "\"12 mm\" with a unit in quotes",

@@ -250,7 +250,7 @@ class Exponential final : public Integrator {
             while (flight_rung_ > kLowest && rung(flight_rung_) > now->h) --flight_rung_;
             flight_rung_ -= down;
             if (flight_rung_ < kLowest || rung(flight_rung_) < 4e-16 * std::fabs(t_))
-                throw StepFailure("the step size vanished");
+                throw StepFailure(vanished(std::isfinite(error)));
         }
         ++counters.steps;
         finish();

@@ -9,6 +9,7 @@ namespace beamcam::sim {
 
 enum class Stop {
     steps_spent,   // solver.max_steps
+    too_slow,      // at the pace of all steps so far, far more than solver.max_steps would be needed
     inertia_lost,  // the model's inertia is no longer positive
     passed_cam,    // the beam was pressed over the middle of the disc
     stuck,         // events without time passing
@@ -20,6 +21,7 @@ struct Failure {
     std::string words;     // of the integrator
     double t = 0;          // the last good instant [s]
     double last_step = 0;  // the last accepted step before it [s]
+    double whole = 0;      // steps that the whole run would take at this pace, for `too_slow`
 };
 
 // `system` is in the phase of the last good instant, `y` the state there.

@@ -77,6 +77,12 @@ struct StepFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// Why even the shortest step was of no use: its error could be told, or the numbers were no longer finite.
+inline const char* vanished(bool finite) {
+    return finite ? "no step, however short, keeps to the tolerance"
+                  : "the forces grow beyond all numbers, however short the steps";
+}
+
 struct IntegratorCounters {
     long steps = 0, rejected = 0, rhs = 0, jacobians = 0;
 };

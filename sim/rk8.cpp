@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -233,13 +234,14 @@ class Rk8 final : public Integrator, private Segment {
         k_[0] = k_[12];
         dense_known_ = false;
         bool rejected = false;
+        double error = std::numeric_limits<double>::infinity();
         for (;;) {
             double h = next_;
             const bool to_stop = t0 + 1.01 * h >= stop_;
             if (to_stop) h = stop_ - t0;
             if (!(std::fabs(h) > 4e-16 * std::max(std::fabs(t0), 1e-300)) || !std::isfinite(h))
-                throw StepFailure("the step size vanished");
-            const double error = advance(h);
+                throw StepFailure(vanished(std::isfinite(error)));
+            error = advance(h);
             if (error <= 1) {
                 const double factor =
                     error == 0 ? kGrow : std::clamp(kSafety * std::pow(error, -0.125), kShrink, kGrow);

@@ -59,9 +59,15 @@ constexpr long kLooksTold = 255;     // the same of looks into one step
 constexpr int kMaxLooks = 16;        // into one step, for events
 constexpr double kMostPieces = 1e5;  // of one step, for touches
 constexpr long kMostLooks = 100000;  // of the advancement through one step
+constexpr long kFirstLooks = 2000;   // of them, until the pace tells whether they will do
+constexpr double kLongStep = 1e3;    // [rad] of the fastest vibration; such steps are looked into many times
 // Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
 // events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
 constexpr int kMostFlips = 10;
+// Whoever will need a hundred times the budget of steps need not spend it first. Fewer steps than kSurePace may be those
+// of a brief phase, a touch or a transient: their pace counts only where it is hopeless by as much more, squared.
+constexpr long kFirstPace = 1000;
+constexpr double kSurePace = 30000, kHopeless = 100;
 constexpr double kEndless = 1e60;        // of the length: far beyond any sense, and far from overflow
 constexpr double kBounces = 4;           // a first step in flight spans, at most
 constexpr double kLowestBounce = 1e-13;  // of the beam's length: the gap is known to about 1e-15 of it
@@ -149,7 +155,7 @@ class Run {
             keep_in_bounds();
             const Segment* segment = &integrator_->step();
             last_step_ = segment->t1 - segment->t0;
-            if ((++steps & kTold) == 0) tell(segment->t1);
+            if ((++steps & kTold) == 0 || last_step_ * dynamics_.highest_frequency() > kLongStep) tell(segment->t1);
             const Event event = first_event(*segment);
             if (event.kind == EventKind::none) {
                 const bool kink = segment->t1 >= next_kink();
@@ -191,9 +197,18 @@ class Run {
     }
 
     void keep_to_budget() {
-        if (integrator_->counters.steps + integrator_->counters.rejected < problem_.solver.max_steps) return;
-        why_ = Stop::steps_spent;
-        throw StepFailure("the budget of steps is spent");
+        const long tried = integrator_->counters.steps + integrator_->counters.rejected;
+        if (tried >= problem_.solver.max_steps) {
+            why_ = Stop::steps_spent;
+            throw StepFailure("the budget of steps is spent");
+        }
+        if (tried < next_pace_) return;
+        next_pace_ = 2 * tried;
+        whole_ = static_cast<double>(tried) * (end_ / t_);
+        const double unsure = std::max(1.0, kSurePace / static_cast<double>(tried));
+        if (!(whole_ > kHopeless * unsure * unsure * problem_.solver.max_steps)) return;
+        why_ = Stop::too_slow;
+        throw StepFailure("the budget of steps cannot do");
     }
 
     // An equation that lets a deflection grow without end would go on until numbers overflow.
@@ -338,6 +353,8 @@ class Run {
         }
         for (long looks = 0; looks < kMostLooks; ++looks) {
             if ((looks & kLooksTold) == kLooksTold) tell(segment.t0);
+            const auto behind = static_cast<double>(looks) / kMostLooks;
+            if (looks % kFirstLooks == kFirstLooks - 1 && !(t - segment.t0 > behind * h)) break;
             // It opens, and is below zero by rounding only.
             if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem_.beam.length) c.gap = 0;
             if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return {EventKind::touch, t};
@@ -724,7 +741,7 @@ class Run {
     std::string explain(const StepFailure& failure) {
         if (dynamics_.inertia_lost()) why_ = Stop::inertia_lost;
         enter_phase();
-        return sim::explain({why_, failure.what(), t_, last_step_}, scout_, y_.data());
+        return sim::explain({why_, failure.what(), t_, last_step_, whole_}, scout_, y_.data());
     }
 
     const Problem& problem_;
@@ -742,6 +759,8 @@ class Run {
     int idle_events_ = 0;
     double last_rebound_ = 0;  // [m/s]
     double last_step_ = 0;     // [s]
+    double whole_ = 0;         // steps that the whole run would take at the pace so far, when last looked
+    long next_pace_ = kFirstPace;
     Stop why_ = Stop::method;  // of a failure
     bool started_ = false;     // a state to begin with was found
     const Audience::TallySource tally_source_ = [this] { return tally(); };

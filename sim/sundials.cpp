@@ -33,6 +33,9 @@ constexpr int kMaxOrder = 12;  // of Adams; BDF uses 5
 // Weight of components that error control shall not see, relative to those it sees.
 constexpr double kIgnored = 1e-30;
 
+constexpr const char* kBelowRounding = "the tolerance asks for more digits than numbers have";
+constexpr const char* kGaveUp = "the integrator gave up";
+
 void check(int flag, const char* call) {
     if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag));
 }
@@ -172,11 +175,7 @@ class Cvode final : public SundialsSolver {
         double t = t0;
         const int flag = CVode(memory_, target(), y_, &t, CV_ONE_STEP);
         if (flag < 0) {
-            const char* reason = flag == CV_TOO_MUCH_ACC   ? "the tolerance is below rounding"
-                                 : flag == CV_ERR_FAILURE  ? "the error test failed again and again"
-                                 : flag == CV_CONV_FAILURE ? "the nonlinear iteration did not converge"
-                                                           : "the integrator gave up";
-            throw StepFailure(reason);
+            throw StepFailure(reason(flag));
         }
         reached(t);
         int order = 1;
@@ -213,6 +212,27 @@ class Cvode final : public SundialsSolver {
     }
 
   private:
+    static const char* reason(int flag) {
+        switch (flag) {
+            case CV_TOO_MUCH_ACC:
+                return kBelowRounding;
+            case CV_ERR_FAILURE:
+                return vanished(true);
+            case CV_CONV_FAILURE:
+                return "the iteration of an implicit step does not converge, however short the step";
+            case CV_LSETUP_FAIL:
+            case CV_LSOLVE_FAIL:
+                return "the equations of an implicit step have no solution";
+            case CV_RHSFUNC_FAIL:
+            case CV_FIRST_RHSFUNC_ERR:
+            case CV_REPTD_RHSFUNC_ERR:
+            case CV_UNREC_RHSFUNC_ERR:
+                return vanished(false);
+            default:
+                return kGaveUp;
+        }
+    }
+
     void collect() override {
         if (!memory_) return;
         long steps = 0, rhs = 0, rejected = 0, jacobians = 0, linear_rhs = 0;
@@ -302,7 +322,8 @@ class Arkode final : public SundialsSolver {
         t0 = t1;
         if (stops()) check(ARKStepSetStopTime(memory_, stop_), "the stop time");
         double t = t0;
-        if (ARKStepEvolve(memory_, target(), y_, &t, ARK_ONE_STEP) < 0) throw StepFailure("the integrator gave up");
+        const int flag = ARKStepEvolve(memory_, target(), y_, &t, ARK_ONE_STEP);
+        if (flag < 0) throw StepFailure(reason(flag));
         reached(t);
         collect();
         return *this;
@@ -318,6 +339,22 @@ class Arkode final : public SundialsSolver {
     }
 
   private:
+    static const char* reason(int flag) {
+        switch (flag) {
+            case ARK_TOO_MUCH_ACC:
+                return kBelowRounding;
+            case ARK_ERR_FAILURE:
+                return vanished(true);
+            case ARK_RHSFUNC_FAIL:
+            case ARK_FIRST_RHSFUNC_ERR:
+            case ARK_REPTD_RHSFUNC_ERR:
+            case ARK_UNREC_RHSFUNC_ERR:
+                return vanished(false);
+            default:
+                return kGaveUp;
+        }
+    }
+
     void collect() override {
         if (!memory_) return;
         long steps = 0, rhs = 0, implicit = 0, rejected = 0;

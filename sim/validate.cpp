@@ -6,10 +6,14 @@
 
 #include "sim/initial.hpp"
 #include "sim/problem.hpp"
+#include "sim/scales.hpp"
 #include "sim/system.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// No number of a mechanism is larger, in SI; squares and products of a few such numbers stay far from overflow.
+constexpr double kLargest = 1e30;
 
 class Findings {
   public:
@@ -18,14 +22,28 @@ class Findings {
     void positive(const char* path, double value, const char* unit) {
         if (!(value > 0) || !std::isfinite(value))
             refuse(path, fmt::format("must be a positive number{}{}, is {:g}", *unit ? " of " : "", unit, value));
+        else
+            sane(path, value);
     }
     void not_negative(const char* path, double value) {
-        if (!(value >= 0) || !std::isfinite(value)) refuse(path, fmt::format("must not be negative, is {:g}", value));
+        if (!(value >= 0) || !std::isfinite(value))
+            refuse(path, fmt::format("must not be negative, is {:g}", value));
+        else
+            sane(path, value);
     }
     void finite(const char* path, double value) {
-        if (!std::isfinite(value)) refuse(path, fmt::format("must be a finite number, is {:g}", value));
+        if (!std::isfinite(value))
+            refuse(path, fmt::format("must be a finite number, is {:g}", value));
+        else
+            sane(path, value);
     }
     std::vector<Finding> list;
+
+  private:
+    void sane(const char* path, double value) {
+        if (!(std::fabs(value) <= kLargest))
+            refuse(path, fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers", kLargest, value));
+    }
 };
 
 void check_table(Findings& out, const char* t_path, const char* v_path, const std::vector<double>& t,
@@ -39,21 +57,16 @@ void check_table(Findings& out, const char* t_path, const char* v_path, const st
             out.refuse(t_path, fmt::format("times must increase: {:g} follows {:g}", t[i], t[i - 1]));
             break;
         }
-    for (double x : t)
-        if (!std::isfinite(x)) {
-            out.refuse(t_path, "times must be finite");
-            break;
-        }
-    for (double x : v)
-        if (!std::isfinite(x)) {
-            out.refuse(v_path, "values must be finite");
-            break;
-        }
+    const auto sane = [](double x) { return std::fabs(x) <= kLargest; };
+    if (!std::all_of(t.begin(), t.end(), sane))
+        out.refuse(t_path, fmt::format("times must be finite, and within ±{:g}", kLargest));
+    if (!std::all_of(v.begin(), v.end(), sane))
+        out.refuse(v_path, fmt::format("values must be finite, and within ±{:g}", kLargest));
 }
 
 void check_hub(Findings& out, const Problem& p) {
-    if (!std::isfinite(p.hub.radius)) out.refuse("hub.radius", "must be finite");
-    if (p.beam.length > 0 && !(p.hub.radius > -p.beam.length))
+    out.finite("hub.radius", p.hub.radius);
+    if (p.beam.length > 0 && std::isfinite(p.hub.radius) && !(p.hub.radius > -p.beam.length))
         out.refuse("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
                                              -p.beam.length, p.hub.radius));
     out.not_negative("hub.inertia", p.hub.inertia);
@@ -87,8 +100,8 @@ void check_beam(Findings& out, const Problem& p) {
     if (b.modes < 1 || b.modes > kMaxModes)
         out.refuse("beam.modes", fmt::format("must be 1 to {}, is {}", kMaxModes, b.modes));
     for (double z : b.damping_ratio)
-        if (!(z >= 0) || !std::isfinite(z)) {
-            out.refuse("beam.damping_ratio", fmt::format("must not be negative, is {:g}", z));
+        if (!(z >= 0 && z <= kLargest)) {
+            out.not_negative("beam.damping_ratio", z);
             break;
         }
     if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
@@ -137,6 +150,8 @@ void check_contact(Findings& out, const Problem& p) {
             out.refuse(
                 "contact.friction.static_coefficient",
                 fmt::format("must be at least the coefficient {:g}, is {:g}", f->coefficient, *f->static_coefficient));
+        else if (f->static_coefficient)
+            out.not_negative("contact.friction.static_coefficient", *f->static_coefficient);
         if (f->stiffness) out.positive("contact.friction.stiffness", *f->stiffness, "N/m");
         if (f->damping) out.not_negative("contact.friction.damping", *f->damping);
     }
@@ -145,7 +160,7 @@ void check_contact(Findings& out, const Problem& p) {
 void check_cam(Findings& out, const Problem& p) {
     const Cam& cam = *p.cam;
     out.positive("cam.radius", cam.radius, "metres");
-    out.finite("cam.centre", cam.centre.x + cam.centre.y);
+    out.finite("cam.centre", std::fabs(cam.centre.x) > std::fabs(cam.centre.y) ? cam.centre.x : cam.centre.y);
     out.finite("cam.phase", cam.phase);
     out.finite("cam.speed", cam.speed);
     if (!(cam.eccentricity >= 0))
@@ -231,7 +246,9 @@ std::vector<Finding> validate(const Problem& problem) {
     out.finite("initial.angular_velocity", problem.initial.angular_velocity);
     if (!(problem.solver.rtol >= 1e-13 && problem.solver.rtol <= 1e-2))
         out.refuse("solver.rtol", fmt::format("must lie between 1e-13 and 1e-2, is {:g}", problem.solver.rtol));
-    out.positive("solver.atol", problem.solver.atol, "");
+    // Far below rounding of anything that moves; a tolerance of zero by another name.
+    if (!(problem.solver.atol >= 1e-40 && problem.solver.atol <= 1e10))
+        out.refuse("solver.atol", fmt::format("must lie between 1e-40 and 1e10, is {:g}", problem.solver.atol));
     if (problem.solver.max_steps < 1)
         out.refuse("solver.max_steps", fmt::format("must be at least 1, is {}", problem.solver.max_steps));
     if (problem.initial.shape == InitialShape::resting) {
@@ -241,7 +258,11 @@ std::vector<Finding> validate(const Problem& problem) {
             out.refuse("initial.shape",
                        "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
-    const bool sane = out.list.empty();
+    bool sane = out.list.empty();
+    if (sane) {
+        out.list = beyond_arithmetic(problem);
+        sane = out.list.empty();
+    }
     if (sane && problem.cam) check_geometry(out, problem);
     if (sane && problem.beam.model == ModelKind::paper)
         out.warn("beam.model",

@@ -77,6 +77,8 @@ TEST(Tree, SyntaxErrorsNameThePlaceAndTheRemedy) {
               "1:7 this text has no closing quote in its line; close it with \" (a line break inside a text is \\n)");
     EXPECT_EQ(first_message("{\"a\": 09}"), "1:7 number 09 begins with 0; JSON writes it without");
     EXPECT_EQ(first_message("{\"a\": 1e999}"), "1:7 number 1e999 is too large for a double; the largest is 1.8e308");
+    EXPECT_EQ(first_message("{\"a\": " + std::string(5000, '9') + "}"),
+              "1:7 number " + std::string(60, '9') + "… is too large for a double; the largest is 1.8e308");
     EXPECT_EQ(first_message("{} {}"), "1:4 text after the end of the scene; a file holds one object { … }");
     EXPECT_EQ(
         first_message("{\"a\": yes}"),

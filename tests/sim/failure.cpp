@@ -12,6 +12,7 @@ namespace beamcam::sim::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -102,6 +103,33 @@ TEST(Failure, ASpentBudgetNamesWhatKeepsTheStepsShort) {
     p.beam.modes = 2;
     p.beam.damping_ratio = {1000};
     EXPECT_THAT(words(p, 0.5), AllOf(HasSubstr("damping 1e+03 times the critical"), HasSubstr("cvode-bdf")));
+}
+
+TEST(Failure, APaceThatTheBudgetCannotMeetEndsTheRunEarly) {
+    Problem p;
+    p.cam.reset();
+    p.beam.modes = 1;
+    p.beam.model = ModelKind::second_order;
+    p.beam.youngs_modulus = 1e25;
+    p.solver.max_steps = 1'000'000;
+    EXPECT_THAT(words(p, 1e3), AllOf(HasSubstr("at the pace so far"), HasSubstr("its budget of 1000000"), HasSubstr("1 mode up to")));
+}
+
+TEST(Failure, NoStepThatKeepsToTheToleranceIsToldInWords) {
+    for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::arkode_erk}) {
+        Problem p;
+        p.cam.reset();
+        p.gravity = 1e30;
+        p.solver.method = method;
+        try {
+            run(p, 1);
+            ADD_FAILURE() << name(method) << " ended";
+        } catch (const SolverError& error) {
+            EXPECT_THAT(error.what(), AnyOf(HasSubstr("no step, however short"), HasSubstr("budget"),
+                                            HasSubstr("beyond all numbers"), HasSubstr("has bent through")))
+                << name(method);
+        }
+    }
 }
 
 TEST(Failure, NoLawIsBlamedForRoundingOfAHeldContact) {

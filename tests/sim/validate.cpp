@@ -146,6 +146,27 @@ const Refusal kRefusals[] = {
     {"solver.rtol", [](Problem& p) { p.solver.rtol = 1e-14; }},
     {"solver.rtol", [](Problem& p) { p.solver.rtol = 0.1; }},
     {"solver.atol", [](Problem& p) { p.solver.atol = 0; }},
+    {"solver.atol", [](Problem& p) { p.solver.atol = 5e-324; }},
+    // Beyond what numbers can hold, or what is left of them after rounding.
+    {"beam.length", [](Problem& p) { p.beam.length = 5e-324; }},
+    {"beam.length", [](Problem& p) { p.beam.length = 1e-25; }},
+    {"beam.length", [](Problem& p) { p.beam.length = 1e308; }},
+    {"beam.area", [](Problem& p) { p.beam.area = 1e-300; }},
+    {"beam.density", [](Problem& p) { p.beam.density = 1e-100; }},
+    {"beam.second_moment", [](Problem& p) { p.beam.second_moment = 1e-320; }},
+    {"beam.youngs_modulus", [](Problem& p) { p.beam.youngs_modulus = 1e300; }},
+    {"beam.youngs_modulus", [](Problem& p) { p.beam.youngs_modulus = 1e-300; }},
+    {"beam.damping_ratio", [](Problem& p) { p.beam.damping_ratio = {1e300}; }},
+    {"beam.kelvin_voigt", [](Problem& p) { p.beam.kelvin_voigt = 1.7e308; }},
+    {"hub.radius", [](Problem& p) { p.hub.radius = 1e30; }},
+    {"hub.inertia", [](Problem& p) { p.hub.inertia = 1.7e308; }},
+    {"hub.drive.speed", [](Problem& p) { p.hub.drive = ConstantSpeed{1e10}; }},
+    {"cam.speed", [](Problem& p) { p.cam->speed = -1e300; }},
+    {"cam.speed", [](Problem& p) { p.cam->speed = 1e12; }},
+    {"contact.stiffness", [](Problem& p) { p.contact.stiffness = 1e300; }},
+    {"contact.stiffness", [](Problem& p) { p.contact.stiffness = 5e-324; }},
+    {"initial.angular_velocity", [](Problem& p) { p.initial.angular_velocity = 1e9; }},
+    {"gravity", [](Problem& p) { p.gravity = 1e300; }},
 };
 
 bool has(const std::vector<Finding>& findings, const std::string& path, bool fatal) {
@@ -191,6 +212,31 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
     p.solver.rtol = 1e-2;
     p.contact.collision_gap = 0;
     EXPECT_TRUE(validate(p).empty());
+}
+
+TEST(Validate, TellsTheOneNumberThatMakesAScaleImpossible) {
+    Problem p;
+    p.beam.length = 5e-324;
+    const std::vector<Finding> findings = validate(p);
+    ASSERT_EQ(findings.size(), 1u);  // not what follows from it
+    EXPECT_NE(findings[0].message.find("the beam's mass smaller than 1e-60 kg"), std::string::npos) << findings[0].message;
+    p.beam.length = 1;
+    p.contact.stiffness = 5e-324;
+    for (const Finding& f : validate(p)) EXPECT_EQ(f.message.find("inf"), std::string::npos) << f.message;
+}
+
+TEST(Validate, TakesBeamsOfNanometresAndKilometres) {
+    for (const double length : {1e-8, 1e-4, 1e4}) {
+        Problem p;
+        p.beam.length = length;
+        p.beam.area *= length * length;
+        p.beam.second_moment *= std::pow(length, 4);
+        p.beam.depth *= length;
+        p.cam->centre = length * p.cam->centre;
+        p.cam->radius *= length;
+        p.cam->eccentricity *= length;
+        EXPECT_TRUE(validate(p).empty()) << length;
+    }
 }
 
 TEST(Validate, WarnsOfACamOutOfReach) {
