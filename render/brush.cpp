@@ -60,25 +60,44 @@ void Brush::touch_path(double around, bool inside) {
         for (const Box& box : path_) touch(box.inset(-around));
         return;
     }
+    if (!path_.empty()) touch(path_box());
+}
+
+Box Brush::path_box() const {
     Bounds all;
     for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
-    if (!path_.empty()) touch({all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0});
+    return path_.empty() ? Box{} : Box{all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0};
+}
+
+void Brush::note(char what, std::initializer_list<double> numbers, std::string_view words) {
+    if (!keeps_stencils()) return;
+    key_.append(1, what).append(words);
+    key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
+}
+
+void Brush::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
+    if (keeps_stencils() && !name.empty() && stencils->paint(name, box, color, cr_, paint)) return;
+    use(color);
+    paint(cr_);
 }
 
 // ---- paths -------------------------------------------------------------------------------------
 
 void Brush::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
+    note('m', {p.x, p.y});
     start_ = at_ = p, open_ = true;
 }
 void Brush::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
+    note('l', {p.x, p.y});
     if (!open_) start_ = at_ = p;  // as Cairo does
     if (touched) pass_line(at_, p);
     at_ = p, open_ = true;
 }
 void Brush::close() {
     cairo_close_path(cr_);
+    note('z', {});
     if (touched && open_) pass_line(at_, start_);
     at_ = start_;
 }
@@ -100,6 +119,7 @@ void Brush::arc(Vec2 c, double radius, double from, double to) {
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
         cairo_arc(cr_, c.x, c.y, radius, -from, -to);
+    note('a', {c.x, c.y, radius, from, to});
     const auto place = [&](double angle) { return c + Vec2{std::cos(angle), -std::sin(angle)} * radius; };
     if (!open_) start_ = at_ = place(from);
     if (touched) pass_line(at_, place(from)), pass_arc(c, radius, from, to);
@@ -110,12 +130,14 @@ void Brush::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
+    note('o', {c.x, c.y, radius});
     if (touched) pass_arc(c, radius, 0, 2 * std::numbers::pi);
     start_ = at_ = c + Vec2{radius, 0}, open_ = true;
 }
 
 void Brush::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    note('r', {b.x, b.y, b.w, b.h});
     pass(b);
     start_ = at_ = {b.x, b.y}, open_ = true;
 }
@@ -127,24 +149,31 @@ void Brush::fill(Color c) {
     new_path();
 }
 void Brush::fill_keeping_path(Color c) {
-    use(c);
-    cairo_fill_preserve(cr_);
+    // Cairo paints what is translucent inside faster than a stencil would.
+    const bool kept = !key_.empty() && c.a == 1;
+    const bool winding = cairo_get_fill_rule(cr_) == CAIRO_FILL_RULE_WINDING;
+    ink(c, kept ? key_ + (winding ? 'w' : 'e') : "", path_box().inset(-2), cairo_fill_preserve);
     touch_path(0, true);
 }
 void Brush::new_path() {
     cairo_new_path(cr_);
     path_.clear();
+    key_.clear();
     open_ = false;
 }
 void Brush::stroke(const Pen& pen) {
-    use(pen.color);
-    cairo_set_line_width(cr_, pen.width);
-    cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-    cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
-    cairo_stroke(cr_);
+    if (!key_.empty()) {
+        note(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
+        for (double length : pen.dash) note('d', {length});
+    }
+    ink(pen.color, key_, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+        cairo_set_line_width(cr, pen.width);
+        cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+        cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
+        cairo_stroke_preserve(cr);
+    });
     touch_path(pen.width / 2, false);  // joins are round
-    path_.clear();
-    open_ = false;
+    new_path();
 }
 
 }  // namespace beamcam::render

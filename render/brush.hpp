@@ -2,12 +2,17 @@
 // Units are the drawing's own, y down.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/color.hpp"
 #include "render/geometry.hpp"
+#include "render/stencils.hpp"
 #include "render/tiles.hpp"
 
 using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
@@ -40,6 +45,8 @@ class Brush {
 
     // Where ink went, while this is set: never too few tiles.
     Tiles* touched = nullptr;
+    // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
+    Stencils* stencils = nullptr;
 
   protected:
     Brush() = default;
@@ -50,14 +57,22 @@ class Brush {
     void touch(const Box& box);            // ink within it, blurred edges included
     void pass(const Box& box);             // the path is there
     void new_path();
+    // What else tells this path from others.
+    void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
+    // Paints the path, or the stencil called `name` that it made.
+    void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
+    bool keeps_stencils() const { return stencils && touched && !limit_ && smooth_; }
     cairo_t* cr_ = nullptr;
     const Box* limit_ = nullptr;  // nothing is painted beyond
+    bool smooth_ = true;          // edges
 
   private:
     void pass_line(Vec2 from, Vec2 to);
     void pass_arc(Vec2 centre, double radius, double from, double to);
     void touch_path(double around, bool inside);
+    Box path_box() const;
     std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
+    std::string key_;        // of the path, while stencils are kept
     Vec2 start_, at_;        // of the open part of the path
     bool open_ = false;
 };

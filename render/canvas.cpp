@@ -43,13 +43,13 @@ cairo_surface_t* surface_of(const Image& image) {
     return cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
 }
 
-// The source, its corner at (x, y), within a rectangle of whole pixels: no edge is blended.
-void blend(cairo_t* cr, const Image& source, int x, int y, const Box& within) {
-    if (within.empty()) return;
+// The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
+void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> within) {
     cairo_surface_t* surface = surface_of(source);
     cairo_set_source_surface(cr, surface, x, y);
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-    cairo_rectangle(cr, within.x, within.y, within.w, within.h);
+    for (const Box& b : within)
+        if (!b.empty()) cairo_rectangle(cr, b.x, b.y, b.w, b.h);
     cairo_fill(cr);
     cairo_surface_destroy(surface);
 }
@@ -84,11 +84,14 @@ PangoLayout* laid_out(PangoContext* context, const std::string& markup, const Te
 }
 
 // What was laid out lately is there already: most words of a film are those of the frame before.
-PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextStyle& style) {
+std::string key_of(const std::string& markup, const TextStyle& style) {
     const double numbers[] = {style.size, style.max_width, static_cast<double>(style.weight)};
     std::string key(reinterpret_cast<const char*>(numbers), sizeof numbers);
-    key += markup;
-    return fonts.handles().words.get(key, [&] { return laid_out(fonts.handles().context, markup, style); });
+    return key += markup;
+}
+PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextStyle& style) {
+    return fonts.handles().words.get(key_of(markup, style),
+                                     [&] { return laid_out(fonts.handles().context, markup, style); });
 }
 
 constexpr double kHalo = 0.30;  // width of its outline in parts of the size
@@ -126,6 +129,7 @@ void Canvas::rounded(const Box& b, double r) {
     cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
     cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
     cairo_close_path(cr_);
+    note('O', {b.x, b.y, b.w, b.h, r});
     pass(b);
 }
 
@@ -172,10 +176,22 @@ Box whole_part(const Image& source, const Box& part) {
 }  // namespace
 
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
-    const Box b = whole_part(source, part);
-    blend(cr_, source, x, y, {b.x + x, b.y + y, b.w, b.h});
+    const Box b = whole_part(source, part), there{b.x + x, b.y + y, b.w, b.h};
+    blend(cr_, source, x, y, {&there, 1});
     use({});
-    if (!b.empty()) touch({b.x + x, b.y + y, b.w, b.h});
+    if (!there.empty()) touch(there);
+}
+
+void Canvas::image_tiles(const Image& source, int x, int y, const Tiles& tiles) {
+    std::vector<Box> runs;
+    tiles.for_each_run([&](int left, int top, int right, int bottom) {
+        const int x0 = std::max(left, x), y0 = std::max(top, y);
+        const int x1 = std::min(right, x + source.width), y1 = std::min(bottom, y + source.height);
+        runs.push_back({double(x0), double(y0), double(x1 - x0), double(y1 - y0)});
+    });
+    blend(cr_, source, x, y, runs);
+    use({});
+    if (touched) touched->add(tiles);
 }
 
 void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
@@ -184,7 +200,10 @@ void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
     cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
 }
 
-void Canvas::smooth_edges(bool on) { cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE); }
+void Canvas::smooth_edges(bool on) {
+    smooth_ = on;
+    cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+}
 
 void Canvas::clip(const Box& b, const std::function<void()>& draw) {
     cairo_save(cr_);
@@ -222,6 +241,8 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     cairo_move_to(cr_, x, baseline.y - m.baseline);
     if (style.halo) {
         pango_cairo_layout_path(cr_, layout);
+        note('t', {x, baseline.y}, key_of(markup, style));
+        pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
         stroke({*style.halo, kHalo * style.size});
         cairo_move_to(cr_, x, baseline.y - m.baseline);
     }

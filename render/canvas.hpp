@@ -48,6 +48,8 @@ class Canvas : public Brush {
     // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards]. Whole
     // pixels.
     void image_part(const Image& source, int x, int y, const Box& part);
+    // The same within these tiles of the picture.
+    void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
     void smooth_edges(bool on);

@@ -86,6 +86,7 @@ struct Film::Tools {
     std::vector<int> stages;  // of that frame
     Image picture;
     int frame = -1;  // that the picture shows; < 0: none
+    Stencils stencils;
     Tiles grown;     // where `kept` changed since the picture was drawn
     Tiles moved;     // where the picture may differ from `kept` as it was then
     Tiles changed;   // where the picture may differ from the one before
@@ -261,7 +262,9 @@ const Image& Film::draw(int frame) {
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
     canvas.touched = &t.moved;
+    canvas.stencils = &t.stencils;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
+    t.stencils.next_picture();
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;

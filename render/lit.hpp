@@ -15,6 +15,7 @@
 #include "render/geometry.hpp"
 #include "render/image.hpp"
 #include "render/solid.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::render {
 
@@ -51,9 +52,13 @@ class LitRenderer {
     virtual ~LitRenderer() = default;
     // Premultiplied pixels on a transparent ground, of the size given at creation.
     virtual void draw(const LitScene& scene, Image& out) = 0;
+    // The same where `out` shows what it drew last, and only these tiles, of a picture of this size, can differ.
+    virtual void redraw(const LitScene& scene, const Tiles& where, Image& out) = 0;
     // The same of solid bodies in perspective, four samples a pixel, with soft shadows.
     virtual void draw(const SolidScene& scene, Image& out) = 0;
     virtual std::string name() const = 0;  // the driver's, for fingerprints
+
+    double read_back = 0;  // so far, of lit pictures, once they are drawn [s]
 };
 
 // Throws GlError.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <ranges>
+#include <utility>
 
 #include "render/smooth_path.hpp"
 #include "render/ticks.hpp"
@@ -56,15 +57,31 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
     return scene;
 }
 
-// What the scene can touch, shadows included: beyond it the lit picture is transparent.
-Box lit_bounds(const LitScene& scene) {
-    Bounds all;
-    for (const auto* rounds : {&scene.behind, &scene.front})
-        for (const LitRound& r : *rounds) all.add(r.centre, r.radius);
-    for (Vec2 p : scene.strip.face) all.add(p);
-    for (Vec2 p : scene.strip.back) all.add(p);
+// Tiles that a round can touch in a picture of this height.
+void add_round(Tiles& tiles, int height, Vec2 centre, double radius) {
+    constexpr double kRow = Tiles::kHeight;
+    const double from = std::max(0.0, centre.y - radius), to = std::min<double>(height, centre.y + radius);
+    for (double y = kRow * std::floor(from / kRow); y < to; y += kRow) {
+        const double off = std::clamp(centre.y, y, y + kRow) - centre.y;
+        const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
+        tiles.add({centre.x - half, y, 2 * half, kRow - 1});
+    }
+}
+
+// What the scene, whose corner is at `origin`, can touch, shadows included: beyond it the lit picture is transparent.
+Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
+    Tiles tiles(width, height);
     const double around = 26 * scene.unit + 4;
-    return {all.x0 - around, all.y0 - around, all.x1 - all.x0 + 2 * around, all.y1 - all.y0 + 2 * around};
+    for (const auto* rounds : {&scene.behind, &scene.front})
+        for (const LitRound& r : *rounds) add_round(tiles, height, origin + r.centre, r.radius + around);
+    const LitStrip& strip = scene.strip;
+    for (std::size_t i = 0; i + 1 < strip.face.size(); ++i) {
+        Bounds piece;
+        for (Vec2 p : {strip.face[i], strip.face[i + 1], strip.back[i], strip.back[i + 1]})
+            piece.add(origin + p, around);
+        tiles.add({piece.x0, piece.y0, piece.x1 - piece.x0, piece.y1 - piece.y0});
+    }
+    return tiles;
 }
 
 }  // namespace
@@ -87,6 +104,7 @@ struct MechanismPanel::Threads final : Panel::State {
     std::unique_ptr<LitRenderer> lit;  // made when first needed
     Image lit_image;
     std::optional<MechanismShape> lit_shape;  // what lit_image shows
+    Tiles lit_tiles;                          // where it does
 };
 
 MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
@@ -353,11 +371,20 @@ void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threa
     }
     const LitScene scene = lit_scene(shape, look_, palette_, {lit_box_.x, lit_box_.y});
     if (threads.lit_shape != shape) {
-        threads.lit->draw(scene, threads.lit_image);
+        const int width = static_cast<int>(lit_box_.w), height = static_cast<int>(lit_box_.h);
+        Tiles now = lit_tiles(scene, {}, width, height), changed = now;
+        if (std::exchange(threads.lit_shape, std::nullopt)) {
+            changed.add(threads.lit_tiles);
+            threads.lit->redraw(scene, changed, threads.lit_image);
+        } else {
+            threads.lit->draw(scene, threads.lit_image);
+        }
+        threads.lit_tiles = std::move(now);
         threads.lit_shape = shape;
         ++facts_.counts->mechanisms_lit;
     }
-    canvas.image_part(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y), lit_bounds(scene));
+    canvas.image_tiles(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y),
+                       lit_tiles(scene, {lit_box_.x, lit_box_.y}, canvas.image().width, canvas.image().height));
 }
 
 // Out along the face and back, from where the beam leaves the hub; `foot`: along the hub, which stays in front.

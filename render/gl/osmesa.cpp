@@ -11,19 +11,24 @@
 #include <GL/osmesa.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "render/error.hpp"
 #include "render/lit.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::render {
 namespace {
 
 constexpr const char* kRemedy = "choose the flat view: \"view\": {\"style\": \"flat\"}";
 
-// Pixels with y down become clip coordinates; OSMesa's rows run top to bottom here.
+// Pixels with y down become clip coordinates; rows run top to bottom, and colours are painted as B, G, R, so that what
+// is read back is an Image.
 constexpr const char* kRoundVertex = R"(#version 330 core
 uniform vec2 size; uniform vec2 centre; uniform float reach;
 out vec2 at;
@@ -31,7 +36,7 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     at = corner * reach;
     vec2 p = (centre + at) / size * 2.0 - 1.0;
-    gl_Position = vec4(p.x, -p.y, 0.0, 1.0);
+    gl_Position = vec4(p, 0.0, 1.0);
 })";
 
 // Shared by both lit fragment shaders. Light from the upper left, the viewer straight ahead; colours are lit linearly
@@ -87,7 +92,7 @@ void main() {
         }
     }
     vec3 normal = vec3(n.x, -n.y, sqrt(max(1.0 - dot(n, n), 0.05)));
-    color = vec4(lit(paint, normalize(normal), grain, strength) * cover, cover);
+    color = vec4(lit(paint, normalize(normal), grain, strength).bgr * cover, cover);
 })";
 
 constexpr const char* kStripVertex = R"(#version 330 core
@@ -98,7 +103,7 @@ out vec2 st; out vec2 across_dir; out vec3 paint;
 void main() {
     st = along_across; across_dir = to_back; paint = tint;
     vec2 p = (where_px + shift) / size * 2.0 - 1.0;
-    gl_Position = vec4(p.x, -p.y, 0.0, 1.0);
+    gl_Position = vec4(p, 0.0, 1.0);
 })";
 
 constexpr const char* kStripFragment = R"(
@@ -114,7 +119,7 @@ void main() {
     vec2 forward = vec2(u.y, -u.x);
     n += forward * 0.5 * end_bevel * (st.x < 0.5 * length_px ? -1.0 : 1.0);
     vec3 normal = vec3(n.x, -n.y, sqrt(max(1.0 - dot(n, n), 0.05)));
-    color = vec4(lit(paint, normalize(normal), vec3(forward.x, -forward.y, 0.0), 0.05) * cover, cover);
+    color = vec4(lit(paint, normalize(normal), vec3(forward.x, -forward.y, 0.0), 0.05).bgr * cover, cover);
 })";
 
 // ---- solid bodies --------------------------------------------------------------------------------
@@ -262,8 +267,7 @@ class OsmesaRenderer final : public LitRenderer {
             throw GlError(fmt::format(
                 "OSMesa offers no OpenGL 3.3 context; install the Debian package libosmesa6, or {}", kRemedy));
         try {
-            Image first(width, height);
-            use(first);
+            use(unused_);
             make_objects();
         } catch (...) {
             OSMesaDestroyContext(context_);
@@ -277,26 +281,11 @@ class OsmesaRenderer final : public LitRenderer {
     std::string name() const override { return name_; }
 
     void draw(const LitScene& scene, Image& out) override {
-        if (out.width != width_ || out.height != height_) out = Image(width_, height_);
-        use(out);
-        glClear(GL_COLOR_BUFFER_BIT);
-        // Shadows fall on the wall behind everything, to the lower right.
-        const Vec2 fall{7 * scene.unit, 11 * scene.unit};
-        const float soft = static_cast<float>(11 * scene.unit), opacity = static_cast<float>(scene.shadow);
-        for (const LitRound& r : scene.behind)
-            if (r.shadow) draw_round(r, fall, soft, opacity);
-        draw_strip(scene.strip, fall, soft, opacity);
-        for (const LitRound& r : scene.behind) draw_round(r, {}, 0, 1);
-        draw_strip(scene.strip, {}, 0, 1);
-        const Vec2 near = fall * 0.35;
-        for (const LitRound& r : scene.front) {
-            if (r.shadow) draw_round(r, near, 0.5F * soft, opacity);
-            draw_round(r, {}, 0, 1);
-        }
-        glFinish();
-        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+        out = Image(width_, height_);
+        draw(scene, {{0, 0, width_, height_}}, out);
     }
+
+    void redraw(const LitScene& scene, const Tiles& where, Image& out) override { draw(scene, bands(where), out); }
 
     void draw(const SolidScene& scene, Image& out) override {
         if (out.width != width_ || out.height != height_) out = Image(width_, height_);
@@ -341,6 +330,68 @@ class OsmesaRenderer final : public LitRenderer {
     }
 
   private:
+    struct Band {
+        int left, top, right, bottom;  // [px]
+    };
+    // A few rows of tiles each, as wide as they need: reading one back costs as much as some ten thousand pixels.
+    static std::vector<Band> bands(const Tiles& tiles) {
+        constexpr int kRows = 4 * Tiles::kHeight;
+        std::vector<Band> out;
+        tiles.for_each_run([&](int left, int top, int right, int bottom) {
+            if (out.empty() || out.back().top / kRows != top / kRows) out.push_back({left, top, right, bottom});
+            Band& b = out.back();
+            b = {std::min(b.left, left), b.top, std::max(b.right, right), bottom};
+        });
+        return out;
+    }
+
+    void draw(const LitScene& scene, const std::vector<Band>& where, Image& out) {
+        use(unused_);
+        if (lit_target_ == 0) make_lit_target();
+        glBindFramebuffer(GL_FRAMEBUFFER, lit_target_);
+        glViewport(0, 0, width_, height_);
+        glEnable(GL_SCISSOR_TEST);
+        for (const Band& b : where) {
+            glScissor(b.left, b.top, b.right - b.left, b.bottom - b.top);
+            glClear(GL_COLOR_BUFFER_BIT);
+        }
+        glDisable(GL_SCISSOR_TEST);
+        // Shadows fall on the wall behind everything, to the lower right.
+        const Vec2 fall{7 * scene.unit, 11 * scene.unit};
+        const float soft = static_cast<float>(11 * scene.unit), opacity = static_cast<float>(scene.shadow);
+        for (const LitRound& r : scene.behind)
+            if (r.shadow) draw_round(r, fall, soft, opacity);
+        draw_strip(scene.strip, fall, soft, opacity);
+        for (const LitRound& r : scene.behind) draw_round(r, {}, 0, 1);
+        draw_strip(scene.strip, {}, 0, 1);
+        const Vec2 near = fall * 0.35;
+        for (const LitRound& r : scene.front) {
+            if (r.shadow) draw_round(r, near, 0.5F * soft, opacity);
+            draw_round(r, {}, 0, 1);
+        }
+        glFinish();
+        const auto drawn = std::chrono::steady_clock::now();
+        glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+        for (const Band& b : where)
+            glReadPixels(b.left, b.top, b.right - b.left, b.bottom - b.top, GL_RGBA, GL_UNSIGNED_BYTE,
+                         out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
+        read_back += std::chrono::duration<double>(std::chrono::steady_clock::now() - drawn).count();
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+    }
+
+    void make_lit_target() {
+        GLuint buffer = 0;
+        glGenRenderbuffers(1, &buffer);
+        glGenFramebuffers(1, &lit_target_);
+        glBindFramebuffer(GL_FRAMEBUFFER, lit_target_);
+        glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer);
+        require_target();
+    }
+
     static void set(GLuint program, const char* what, Vec3 a) {
         glUniform3f(glGetUniformLocation(program, what), float(a.x), float(a.y), float(a.z));
     }
@@ -415,7 +466,7 @@ class OsmesaRenderer final : public LitRenderer {
 
     // Binds the context to this thread and lets it draw into the picture itself.
     void use(Image& target) {
-        if (!OSMesaMakeCurrent(context_, target.pixels.data(), GL_UNSIGNED_BYTE, width_, height_))
+        if (!OSMesaMakeCurrent(context_, target.pixels.data(), GL_UNSIGNED_BYTE, target.width, target.height))
             throw GlError(fmt::format("OSMesa cannot draw a picture of {}×{} pixels; choose a smaller size, or {}",
                                       width_, height_, kRemedy));
         OSMesaPixelStore(OSMESA_Y_UP, 0);
@@ -505,6 +556,8 @@ class OsmesaRenderer final : public LitRenderer {
     }
 
     int width_, height_;
+    Image unused_{1, 1};  // what OSMesa wants to draw into while we draw into our own memory
+    GLuint lit_target_ = 0;
     OSMesaContext context_ = nullptr;
     std::string name_;
     GLuint round_ = 0, round_shadow_ = 0, strip_ = 0, strip_shadow_ = 0, no_vertices_ = 0, strip_vertices_ = 0,

@@ -1,15 +1,19 @@
 #!/usr/bin/python3
 """What a film costs beside what its encoder alone costs.
 
-film.py BEAMCAM [--frames N] [--sizes 1280x720,...] [--presets ultrafast,...] [--styles flat,lit] [--rivals] [--repeat N] [--csv FILE]
+film.py BEAMCAM [--frames N] [--sizes 1280x720,...] [--presets ultrafast,...] [--styles flat,lit] [--rivals] [--png] [--repeat N] [--csv FILE]
 
 For every size and preset the very frames of the film are encoded alone, by the ffmpeg program with the same settings
-and the same bits, from memory; every other number is CPU seconds as a ratio to that. Runs are interleaved, medians are shown.
+and the same bits, from memory; every other number is CPU or wall seconds as a ratio to that. Drawing (of it reading back
+from OpenGL), conversion and encoding are summed over their threads and tell wall seconds: beside an encoder that has all
+cores they wait. Larger sizes take fewer frames, as many pixels. Runs are interleaved, medians are shown, and the largest
+peak. --png adds the same frames as PNG files, beside the encoder of the last preset.
 """
 import argparse
 import csv
 import os
 import platform
+import re
 import resource
 import shutil
 import statistics
@@ -18,6 +22,7 @@ import sys
 import tempfile
 import time
 
+STAGES = ("motion", "drawing", "read back", "conversion", "encoding")
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -40,14 +45,10 @@ class Cost:
 
 
 def stages(said):
-    """drawing, conversion and encoding as -v tells them [s of wall time, summed over threads]."""
-    found = {}
-    for name in ("simulation", "drawing", "conversion", "encoding"):
-        at = said.find(name + " ")
-        if at >= 0 and said.find("time:") >= 0:
-            text = said[said.find(name + " ", said.find("time:")) :].split()[1]
-            found[name] = float(text)
-    return found
+    """What -v tells of these stages [s of wall time, summed over threads]."""
+    line = re.search(r"^time: .*$", said, re.M)
+    found = {name: re.search(rf"\b{name} ([\d.]+) s", line[0]) if line else None for name in STAGES}
+    return {name: float(match[1]) for name, match in found.items() if match}
 
 
 def render(program, file, style, size, frames, preset, crf, fps=60):
@@ -55,6 +56,12 @@ def render(program, file, style, size, frames, preset, crf, fps=60):
             "--progress", "none",
             "--set", f"time.end={frames / fps}", "--set", f'outputs=[{{"type":"video","file":"{os.path.basename(file)}",'
             f'"size":[{size[0]},{size[1]}],"fps":{fps},"crf":{crf},"preset":"{preset}","view":{{"style":"{style}"}}}}]']
+
+
+def frames_of(program, folder, style, size, frames, fps=60):
+    return [program, "run", os.path.join(HERE, "film.json"), "-o", folder, "-v", "--force", "--no-cache", "--progress", "none",
+            "--set", f"time.end={frames / fps}", "--set", f'outputs=[{{"type":"frames","file":"frame-####.png",'
+            f'"size":[{size[0]},{size[1]}],"fps":{fps},"view":{{"style":"{style}"}}}}]']
 
 
 def encode(raw, file, size, preset, fps=60):
@@ -72,6 +79,7 @@ def main():
     p.add_argument("--styles", default="flat,lit")
     p.add_argument("--repeat", type=int, default=3)
     p.add_argument("--rivals", action="store_true", help="matplotlib and pycairo too, where installed")
+    p.add_argument("--png", action="store_true", help="frames as PNG files too")
     p.add_argument("--csv")
     args = p.parse_args()
     if not shutil.which("ffmpeg"):
@@ -98,6 +106,12 @@ def main():
                         for rival in rivals(args, folder, file, size, frames, preset, alone):
                             rows.append(rival)
                             show(rival, False)
+                if args.png:
+                    count = min(frames, 120)
+                    costs = [Cost(frames_of(args.program, os.path.join(folder, "png"), style, size, count))
+                             for _ in range(args.repeat)]
+                    rows.append(row(f"PNG {style}", size, count, "-", costs, alone, frames))
+                    show(rows[-1], False)
     if args.csv:
         with open(args.csv, "w", newline="") as f:
             f.write(f"# {machine()}\n")
@@ -106,16 +120,18 @@ def main():
             writer.writerows(rows)
 
 
-def row(name, size, frames, preset, film, alone):
-    cpu = statistics.median(c.cpu for c in alone)
-    wall = statistics.median(c.wall for c in alone)
+def row(name, size, frames, preset, film, alone, encoded=None):
+    """`encoded`: frames that the encoder alone encoded, where that is another number."""
+    part = frames / (encoded or frames)
+    cpu = part * statistics.median(c.cpu for c in alone)
+    wall = part * statistics.median(c.wall for c in alone)
     parts = [stages(c.said) for c in film]
-    share = {k: statistics.median(s.get(k, 0) for s in parts) for k in ("simulation", "drawing", "conversion", "encoding")}
+    share = {k: statistics.median(s.get(k, 0) for s in parts) for k in STAGES}
     return {"film": name, "size": f"{size[0]}x{size[1]}", "preset": preset, "frames": frames,
-            "encoder_cpu_s": round(cpu, 3), "encoder_wall_s": round(wall, 3),
+            "cpu_ms_a_frame": round(1000 * statistics.median(c.cpu for c in film) / frames, 2), "encoder_cpu_s": round(cpu, 3), "encoder_wall_s": round(wall, 3),
             "cpu_ratio": round(statistics.median(c.cpu for c in film) / cpu, 3),
             "wall_ratio": round(statistics.median(c.wall for c in film) / wall, 3),
-            **{k + "_s": round(v, 3) for k, v in share.items()},
+            **{k.replace(" ", "_") + "_ratio": round(v / cpu, 3) for k, v in share.items()},
             "peak_mib": round(max(c.peak for c in film))}
 
 
@@ -145,10 +161,11 @@ def machine():
 def show(entry, head):
     if head:
         print(f"# {machine()}")
-        print(f"{'film':14} {'size':>10} {'preset':>10} {'frames':>6} {'encoder':>9} {'cpu':>6} {'wall':>6} "
-              f"{'draw':>7} {'convert':>8} {'peak':>9}")
+        print(f"{'film':14} {'size':>10} {'preset':>10} {'frames':>6} {'encoder':>9} {'cpu':>6} {'wall':>6} {'cpu/frame':>9} "
+              f"{'draw':>6} {'read':>6} {'convert':>8} {'encode':>7} {'peak':>9}")
     print(f"{entry['film']:14} {entry['size']:>10} {entry['preset']:>10} {entry['frames']:6} {entry['encoder_cpu_s']:7.2f} s "
-          f"{entry['cpu_ratio']:5.2f}x {entry['wall_ratio']:5.2f}x {entry['drawing_s']:5.2f} s {entry['conversion_s']:6.2f} s "
+          f"{entry['cpu_ratio']:5.2f}x {entry['wall_ratio']:5.2f}x {entry['cpu_ms_a_frame']:6.1f} ms {entry['drawing_ratio']:5.2f}x {entry['read_back_ratio']:5.2f}x "
+          f"{entry['conversion_ratio']:7.2f}x {entry['encoding_ratio']:6.2f}x "
           f"{entry['peak_mib']:5} MiB", flush=True)
 
 

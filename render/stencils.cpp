@@ -1,0 +1,126 @@
+#include "render/stencils.hpp"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace beamcam::render {
+namespace {
+
+constexpr std::uint32_t kPairs = 0x00ff00ff;  // two channels of a pixel, with room above each
+
+// Each channel times b/255. `half`: what is added before the division; Cairo and pixman differ in that.
+std::uint32_t times(std::uint32_t pixel, std::uint32_t b, std::uint32_t half) {
+    const auto two = [&](std::uint32_t pair) {
+        const std::uint32_t t = pair * b + half * 0x00010001U;
+        return ((t + ((t >> 8) & kPairs)) >> 8) & kPairs;
+    };
+    return two(pixel & kPairs) | two(pixel >> 8 & kPairs) << 8;
+}
+
+// Channels that together exceed 255 stay there.
+std::uint32_t sum(std::uint32_t p, std::uint32_t q) {
+    const auto two = [](std::uint32_t a, std::uint32_t b) {
+        std::uint32_t t = a + b;
+        t |= 0x01000100U - ((t >> 8) & kPairs);
+        return t & kPairs;
+    };
+    return two(p & kPairs, q & kPairs) | two(p >> 8 & kPairs, q >> 8 & kPairs) << 8;
+}
+
+// Premultiplied, through 16 bits a channel as Cairo does it.
+std::uint32_t pixel_of(const Color& c) {
+    const auto channel = [](double share) {
+        return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * 65535.0 + 0.5) >> 8;
+    };
+    return channel(c.a) << 24 | channel(c.r * c.a) << 16 | channel(c.g * c.a) << 8 | channel(c.b * c.a);
+}
+
+constexpr std::uint32_t kCairoHalf = 0x7f, kPixmanHalf = 0x80;
+
+}  // namespace
+
+bool Stencils::paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
+                     const std::function<void(cairo_t*)>& ink) {
+    const auto [at, fresh] = known_.try_emplace(key);
+    Known& known = at->second;
+    known.picture = picture_;
+    if (fresh) known.first = picture_;
+    if (known.first == picture_) return false;
+    if (known.stencil.cover.empty()) known.stencil = stencil_of(box, cr, ink);
+    if (known.stencil.cover.empty()) return false;
+    paint(known.stencil, color, cr);
+    return true;
+}
+
+void Stencils::next_picture() {
+    std::erase_if(known_, [&](const auto& entry) { return entry.second.picture < picture_; });
+    ++picture_;
+}
+
+// The path as Cairo has it, moved by whole pixels: neither its numbers nor their coverage change.
+Stencils::Stencil Stencils::stencil_of(const Box& box, cairo_t* cr, const std::function<void(cairo_t*)>& ink) {
+    if (std::isnan(box.x + box.y + box.right() + box.bottom())) return {};
+    cairo_surface_t* picture = cairo_get_target(cr);
+    Stencil s;
+    const double width = cairo_image_surface_get_width(picture), height = cairo_image_surface_get_height(picture);
+    const double x0 = std::clamp(std::floor(box.x), 0.0, width), y0 = std::clamp(std::floor(box.y), 0.0, height);
+    s.x = static_cast<int>(x0);
+    s.y = static_cast<int>(y0);
+    s.width = static_cast<int>(std::clamp(std::ceil(box.right()), x0, width) - x0);
+    s.height = static_cast<int>(std::clamp(std::ceil(box.bottom()), y0, height) - y0);
+    if (s.width == 0 || s.height == 0) return {};
+    s.stride = cairo_format_stride_for_width(CAIRO_FORMAT_A8, s.width);
+    s.cover.resize(static_cast<std::size_t>(s.stride) * static_cast<std::size_t>(s.height));
+    cairo_surface_t* surface =
+        cairo_image_surface_create_for_data(s.cover.data(), CAIRO_FORMAT_A8, s.width, s.height, s.stride);
+    cairo_surface_set_device_offset(surface, -x0, -y0);
+    cairo_t* own = cairo_create(surface);
+    cairo_path_t* path = cairo_copy_path(cr);
+    cairo_append_path(own, path);
+    cairo_path_destroy(path);
+    cairo_set_line_join(own, cairo_get_line_join(cr));
+    cairo_set_fill_rule(own, cairo_get_fill_rule(cr));
+    ink(own);
+    cairo_destroy(own);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    return s;
+}
+
+void Stencils::paint(const Stencil& s, Color color, cairo_t* cr) {
+    cairo_surface_t* picture = cairo_get_target(cr);
+    cairo_surface_flush(picture);
+    unsigned char* bytes = cairo_image_surface_get_data(picture);
+    const std::ptrdiff_t stride = cairo_image_surface_get_stride(picture);
+    const std::uint32_t ink = pixel_of(color);
+    const bool opaque = ink >> 24 == 255;
+    for (int row = 0; row < s.height; ++row) {
+        const std::uint8_t* cover = s.cover.data() + std::ptrdiff_t(row) * s.stride;
+        auto* pixels = reinterpret_cast<std::uint32_t*>(bytes + (s.y + row) * stride) + s.x;
+        for (int x = 0; x < s.width; ++x) {
+            if (x + 8 <= s.width) {
+                std::uint64_t eight = 0;
+                std::memcpy(&eight, cover + x, sizeof eight);
+                if (eight == 0) {
+                    x += 7;
+                    continue;
+                }
+            }
+            const std::uint32_t part = cover[x];
+            if (part == 0) continue;
+            if (opaque) {
+                pixels[x] =
+                    part == 255 ? ink : sum(times(ink, part, kCairoHalf), times(pixels[x], 255 - part, kCairoHalf));
+            } else {
+                const std::uint32_t source = times(ink, part, kPixmanHalf);
+                pixels[x] = sum(source, times(pixels[x], 255 - (source >> 24), kPixmanHalf));
+            }
+        }
+    }
+    cairo_surface_mark_dirty(picture);
+}
+
+}  // namespace beamcam::render
