@@ -116,6 +116,7 @@ struct FrameGeometry {
 struct DrawingCounts {
     std::atomic<long> font_sets = 0, gl_contexts = 0;
     std::atomic<long> mechanisms_lit = 0;  // by OpenGL: not again while nothing of it moves
+    std::atomic<double> read_back = 0;     // from OpenGL [s]
 };
 
 // One Film a thread; `another` shares all that is prepared. Throws PictureError for an impossible size, factor or an

@@ -372,6 +372,7 @@ void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threa
     const LitScene scene = lit_scene(shape, look_, palette_, {lit_box_.x, lit_box_.y});
     if (threads.lit_shape != shape) {
         const int width = static_cast<int>(lit_box_.w), height = static_cast<int>(lit_box_.h);
+        const double before = threads.lit->read_back;
         Tiles now = lit_tiles(scene, {}, width, height), changed = now;
         if (std::exchange(threads.lit_shape, std::nullopt)) {
             changed.add(threads.lit_tiles);
@@ -381,6 +382,7 @@ void MechanismPanel::draw_lit(const MechanismShape& shape, Canvas& canvas, Threa
         }
         threads.lit_tiles = std::move(now);
         threads.lit_shape = shape;
+        facts_.counts->read_back += threads.lit->read_back - before;
         ++facts_.counts->mechanisms_lit;
     }
     canvas.image_tiles(threads.lit_image, static_cast<int>(lit_box_.x), static_cast<int>(lit_box_.y),

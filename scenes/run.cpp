@@ -59,7 +59,7 @@ std::string power_of_ten(double value) {
 
 // Where the time went, for -v.
 struct Times {
-    double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
+    double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
 };
 
 void stop_if_interrupted() {
@@ -624,6 +624,7 @@ class Runner {
         work_.font_sets += counts.font_sets;
         work_.gl_contexts += counts.gl_contexts;
         work_.mechanisms_lit += counts.mechanisms_lit;
+        times_.read_back += counts.read_back;
         finish(p, video.get(), count);
         if (!capture_)
             note(picture_work(p, thread_count(options_.threads)), static_cast<double>(count), begun, made_of(p));
@@ -729,10 +730,10 @@ void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runner
 
 void tell(const Shop& shop) {
     fmt::print(stderr,
-               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads), conversion {:.2f} s, "
+               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads; read back {:.2f} s), conversion {:.2f} s, "
                "encoding {:.2f} s, other files {:.2f} s\n",
                seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options.threads),
-               shop.times.convert, shop.times.encode, shop.times.write);
+               shop.times.read_back, shop.times.convert, shop.times.encode, shop.times.write);
     std::string text;
     for_each_count(shop.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
     fmt::print(stderr, "work:{}\n", text);
