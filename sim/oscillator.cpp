@@ -18,17 +18,17 @@ constexpr double kMostInLanes = 0.5;
 constexpr double kSeries = 2;  // radians or decays that the series below serve
 
 // The responses downwards from the series of the last two: g_j = Σ_k a_k τ^{j+2+k}/(j+2+k)!, a₀ = 1, a₁ = −2γ,
-// a_k = −2γ a_{k−1} − ω² a_{k−2}.
+// a_k = −2γ a_{k−1} − ω² a_{k−2}; carried as a_k τᵏ, which stays small where a_k alone would overflow.
 void descend(double w2, double damping, double tau, const double* power, double* r) {
     for (const int j : {kNodes - 1, kNodes - 2}) {
         double term = power[j + 2], before = 0, a = 1, total = 0;
         for (int k = 0; k < 24; ++k) {
             total += a * term;
-            const double next = -damping * a - w2 * before;
+            const double next = -(damping * tau) * a - (w2 * tau) * tau * before;
             before = a;
             a = next;
-            term *= tau / (j + 3 + k);
-            if (std::fabs(a * term) + std::fabs(before * term) < 1e-18 * std::fabs(total)) break;
+            term /= j + 3 + k;
+            if (std::fabs(a * term) + std::fabs(before * term) <= 1e-18 * std::fabs(total)) break;
         }
         r[2 + j] = total;
     }

@@ -53,6 +53,21 @@ TEST(Oscillators, AnswerPowersOfTimeExactly) {
         }
 }
 
+TEST(Oscillators, NoDampingMakesTheirAnswersOverflow) {
+    for (const double gamma : {1.0, 1e12, 1e13, 1e20, 1e30, 1e33})
+        for (const double omega : {1.0, 1e3, 1e6})
+            for (const double tau : {0.0, 1e-300, 1e-31, 1e-20, 1e-9, 1.0}) {
+                double r[kResponse];
+                respond(Oscillator{omega, gamma}, tau, r);
+                for (int j = 0; j < kResponse; ++j)
+                    ASSERT_TRUE(std::isfinite(r[j])) << "g" << j - 2 << ", γ " << gamma << ", ω " << omega << ", τ " << tau;
+                if (tau == 0) {
+                    EXPECT_EQ(r[0], 1);
+                    for (int j = 1; j < kResponse; ++j) EXPECT_EQ(r[j], 0);
+                }
+            }
+}
+
 TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
     // f = 5 + 3u − 2u³ in the step's own time, as eight nodal values; end and nodes.
     const double h = 0.003;
