@@ -86,12 +86,24 @@ bool solve(std::array<Lanes, kNodes>& a, Lanes& b) {
 // Beyond so many times the critical damping explicit steps are kept short by the decay alone, which BDF steps over. Its
 // errors add up: it is given a share of the tolerance.
 constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
+// [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
+// shorter than this share of the way to its deepest point, is handed over.
+constexpr double kSharpSlip = 1e-4;
+constexpr long kMostCrawls = 2000;
+constexpr double kCrawl = 1e-3;
+
+bool sharp_friction(System& system) {
+    const Problem& p = system.problem();
+    const auto* friction = std::get_if<CoulombFriction>(&p.contact.friction);
+    return system.has_cam() && friction && friction->coefficient > 0 && friction->slip_speed < kSharpSlip &&
+           p.contact.model == ContactModel::compliant && exponential_applies(system);
+}
 
 std::unique_ptr<Integrator> make_fallback(System& system, double rtol, double atol) {
     const Beam& beam = system.problem().beam;
     double ratio = 0.5 * beam.kelvin_voigt.value_or(0) * system.highest_frequency();
     for (const double z : beam.damping_ratio) ratio = std::max(ratio, z);
-    const bool stiff = beam.model != ModelKind::rigid && ratio > kStiffDamping;
+    const bool stiff = (beam.model != ModelKind::rigid && ratio > kStiffDamping) || sharp_friction(system);
     return stiff ? make_sundials(Method::cvode_bdf, system, kShareOfBdf * rtol, kShareOfBdf * atol)
                  : make_rk8(system, rtol, atol);
 }
@@ -116,6 +128,7 @@ class Exponential final : public Integrator {
         if (const auto* friction = std::get_if<CoulombFriction>(&system.problem().contact.friction)) {
             mu_ = friction->coefficient;
             slip_speed_ = friction->slip_speed;
+            sharp_ = sharp_friction(system);
         }
         hq_.resize(n_);
         jn_.resize(n_);
@@ -520,6 +533,8 @@ class Exponential final : public Integrator {
         const ContactState c = system_.contact(t, y, true);
         if (c.at_end) return false;
         approach_ = system_.phase().approach;
+        crawls_ = 0;
+        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, approach_);
         gap_offset_ = system_.phase().gap_offset;
         contact_->centre(c.x);
         start_touch_ = Touch<double>();
@@ -550,6 +565,7 @@ class Exponential final : public Integrator {
 
     // One step; false when the contact is not for this method (the state is then that of the start).
     bool touch_step() {
+        if (sharp_ && crawls_ > kMostCrawls) return false;
         begin();
         ExponentialSegment& s = *segment_;
         begin_contact();
@@ -869,6 +885,7 @@ class Exponential final : public Integrator {
         ++counters.steps;
         s.touching = true;
         s.t1 = s.t0 + s.h;
+        if (s.h < crawl_) ++crawls_;
         finish();
         TouchSamples& samples = s.samples;
         samples.ending = ending;
@@ -915,7 +932,9 @@ class Exponential final : public Integrator {
     std::vector<double> next_, start_, scratch_;
     // In contact.
     std::unique_ptr<ContactExpansion> contact_;
-    bool touching_ = false;
+    bool touching_ = false, sharp_ = false;
+    long crawls_ = 0;   // steps of this touch shorter than…
+    double crawl_ = 0;  // [s]
     int touch_rung_ = kFirstTouch;
     double mu_ = 0, slip_speed_ = 1, approach_ = 1, gap_offset_ = 0, force0_ = 0, carry_ = 0, centred_ = -1;
     double mobility_modes_ = 0, mobility_hub_ = 0, kick_ = 0;

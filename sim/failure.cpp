@@ -192,8 +192,9 @@ std::string cause(const Failure& failure, System& system, const Look& beam) {
             return fmt::format("the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long; {}",
                                p.solver.max_steps, failure.last_step, what_limits(p, system, beam, true));
         case Stop::too_slow:
+            if (bent(p, beam)) return tell_bent(p, beam);
             return fmt::format(
-                "at the pace so far, steps of {:.2g} s, the run would take {:.2g} steps, far more than its budget of {} "
+                "at the pace of late, steps of {:.2g} s, the run would take {:.2g} steps, far more than its budget of {} "
                 "(solver.max_steps); {}",
                 failure.last_step, failure.whole, p.solver.max_steps, what_limits(p, system, beam, false));
         case Stop::passed_cam:

@@ -9,7 +9,7 @@ namespace beamcam::sim {
 
 enum class Stop {
     steps_spent,   // solver.max_steps
-    too_slow,      // at the pace of all steps so far, far more than solver.max_steps would be needed
+    too_slow,      // at the pace of the last steps, far more than solver.max_steps would be needed
     inertia_lost,  // the model's inertia is no longer positive
     passed_cam,    // the beam was pressed over the middle of the disc
     stuck,         // events without time passing

@@ -64,8 +64,9 @@ constexpr double kLongStep = 1e3;    // [rad] of the fastest vibration; such ste
 // Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
 // events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
 constexpr int kMostFlips = 10;
-// Whoever will need a hundred times the budget of steps need not spend it first. Fewer steps than kSurePace may be those
-// of a brief phase, a touch or a transient: their pace counts only where it is hopeless by as much more, squared.
+// Whoever will need a hundred times the budget of steps need not spend it first: the pace is that of the later half of
+// the steps so far. Fewer than kSurePace may be those of a brief phase, a touch or a transient: their pace counts only
+// where it is hopeless by as much more, squared.
 constexpr long kFirstPace = 1000;
 constexpr double kSurePace = 30000, kHopeless = 100;
 constexpr double kEndless = 1e60;        // of the length: far beyond any sense, and far from overflow
@@ -203,9 +204,12 @@ class Run {
             throw StepFailure("the budget of steps is spent");
         }
         if (tried < next_pace_) return;
+        const auto lately = static_cast<double>(tried - paced_);
+        whole_ = static_cast<double>(tried) + lately * (end_ - t_) / (t_ - paced_time_);
+        const double unsure = std::max(1.0, kSurePace / lately);
         next_pace_ = 2 * tried;
-        whole_ = static_cast<double>(tried) * (end_ / t_);
-        const double unsure = std::max(1.0, kSurePace / static_cast<double>(tried));
+        paced_ = tried;
+        paced_time_ = t_;
         if (!(whole_ > kHopeless * unsure * unsure * problem_.solver.max_steps)) return;
         why_ = Stop::too_slow;
         throw StepFailure("the budget of steps cannot do");
@@ -760,7 +764,8 @@ class Run {
     double last_rebound_ = 0;  // [m/s]
     double last_step_ = 0;     // [s]
     double whole_ = 0;         // steps that the whole run would take at the pace so far, when last looked
-    long next_pace_ = kFirstPace;
+    long next_pace_ = kFirstPace, paced_ = 0;  // steps at the next such look and at the last
+    double paced_time_ = 0;                    // [s]
     Stop why_ = Stop::method;  // of a failure
     bool started_ = false;     // a state to begin with was found
     const Audience::TallySource tally_source_ = [this] { return tally(); };
