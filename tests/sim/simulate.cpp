@@ -647,12 +647,7 @@ TEST(Runs, CanBeInterrupted) {
 // The search for a touch in one step may take far longer than the step.
 TEST(Runs, CanBeInterruptedWithinAStep) {
     Problem p;
-    p.beam.modes = 16;
-    p.beam.kelvin_voigt = 1e4;
-    p.cam->speed = 100;
-    p.initial.angle = -2 * kQuarterTurn;
-    p.initial.angular_velocity = 10;
-    p.solver.rtol = 1e-11;
+    p.cam->speed = 1e6;  // its eccentricity allows no look farther ahead than microseconds
     Request request;
     request.end_time = 0.2;
     double last = -1;
