@@ -67,7 +67,7 @@ constexpr int kMostFlips = 10;
 // Whoever will need a hundred times the budget of steps need not spend it first: the pace is that of the later half of
 // the steps so far. Fewer than kSurePace may be those of a brief phase, a touch or a transient: their pace counts only
 // where it is hopeless by as much more, squared.
-constexpr long kFirstPace = 1000;
+constexpr long kFirstPace = 20000;  // chatter may take some thousands
 constexpr double kSurePace = 30000, kHopeless = 100;
 constexpr double kEndless = 1e60;        // of the length: far beyond any sense, and far from overflow
 constexpr double kBounces = 4;           // a first step in flight spans, at most
