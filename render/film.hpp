@@ -100,8 +100,6 @@ struct FilmSetup : Motion {
 std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion);
 // Channels that these panels read from Motion::chart, t first.
 std::vector<sim::Channel> chart_channels(const std::vector<PanelSpec>& panels);
-// The panels of a grid in reading order.
-std::vector<PanelSpec> panels_of(const LayoutNode& grid);
 
 // What a frame shows, for tests and for programs that compose frames.
 struct FrameGeometry {

@@ -158,6 +158,24 @@ Vec2 smallest(PanelKind kind) {
     return {};
 }
 
+const char* name(PanelKind kind) {
+    switch (kind) {
+        case PanelKind::mechanism:
+            return "mechanism";
+        case PanelKind::strip:
+            return "strip";
+        case PanelKind::phase:
+            return "phase";
+        case PanelKind::energy:
+            return "energy";
+        case PanelKind::close_up:
+            return "close-up";
+        case PanelKind::traces:
+            return "traces";
+    }
+    return "";
+}
+
 Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members) {
     Frame f = frame(width, height);
     Layout& out = f.out;
@@ -205,6 +223,21 @@ Layout layout(int width, int height, const LayoutNode& wanted) {
     // A picture too small for its grid shows what it can: the mechanism.
     if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});
     return std::move(f.out);
+}
+
+std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
+    if (grid.kind == LayoutNode::Kind::panel) return {grid.panel};
+    std::vector<PanelSpec> out;
+    for (const LayoutNode& child : grid.children)
+        for (PanelSpec& spec : panels_of(child)) out.push_back(std::move(spec));
+    return out;
+}
+
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted) {
+    std::vector<PanelSpec> out = panels_of(wanted);
+    for (const PanelSlot& slot : layout(width, height, wanted).panels)
+        if (const auto shown = std::ranges::find(out, slot.spec); shown != out.end()) out.erase(shown);
+    return out;
 }
 
 }  // namespace beamcam::render

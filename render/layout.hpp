@@ -21,6 +21,8 @@ enum class PanelKind {
     traces     // where the contact has been on the disc, and the tip in the plane
 };
 
+const char* name(PanelKind kind);  // as scenes write it
+
 struct PanelSpec {
     PanelKind kind = PanelKind::mechanism;
     std::vector<sim::Channel> channels = {};  // of a strip: at least one, all of one unit
@@ -62,6 +64,9 @@ Layout layout(int width, int height, const std::vector<PanelSpec>& side, int mem
 // The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
 // become rows.
 Layout layout(int width, int height, const LayoutNode& wanted);
+// The panels of a grid in reading order; and those which come out too small.
+std::vector<PanelSpec> panels_of(const LayoutNode& grid);
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted);
 
 // The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
 Box plot_area(const Box& box, double unit);

@@ -60,14 +60,6 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
     return out;
 }
 
-std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
-    if (grid.kind == LayoutNode::Kind::panel) return {grid.panel};
-    std::vector<PanelSpec> out;
-    for (const LayoutNode& child : grid.children)
-        for (PanelSpec& spec : panels_of(child)) out.push_back(std::move(spec));
-    return out;
-}
-
 // ---- what panels share -------------------------------------------------------------------------
 
 FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {

@@ -103,13 +103,8 @@ Json layout(const render::LayoutNode& node) {
     using Kind = render::LayoutNode::Kind;
     Json out;
     if (node.kind == Kind::panel) {
-        using render::PanelKind;
         const render::PanelSpec& p = node.panel;
-        static constexpr std::pair<PanelKind, const char*> kNames[] = {
-            {PanelKind::mechanism, "mechanism"}, {PanelKind::strip, "strip"},       {PanelKind::phase, "phase"},
-            {PanelKind::energy, "energy"},       {PanelKind::close_up, "close-up"}, {PanelKind::traces, "traces"}};
-        for (const auto& [kind, text] : kNames)
-            if (kind == p.kind) out["panel"] = text;
+        out["panel"] = render::name(p.kind);
         for (const sim::Channel& channel : p.channels) out["channels"].push_back(name(channel));
         if (p.by_collision) out["window"] = "collision";
         if (p.window) out["window"] = *p.window;

@@ -35,12 +35,9 @@ std::vector<std::string> panel_words(const PictureContext& c) {
 }
 
 std::optional<PanelSpec> panel_named(const PictureContext& c, std::string_view text) {
-    if (text == "mechanism") return PanelSpec{.kind = PanelKind::mechanism};
-    if (text == "phase") return PanelSpec{.kind = PanelKind::phase};
-    if (text == "energy") return PanelSpec{.kind = PanelKind::energy};
-    if (text == "close-up") return PanelSpec{.kind = PanelKind::close_up};
-    if (text == "traces") return PanelSpec{.kind = PanelKind::traces};
-    if (text == "strip") return PanelSpec{.kind = PanelKind::strip};
+    for (const PanelKind kind : {PanelKind::mechanism, PanelKind::strip, PanelKind::phase, PanelKind::energy,
+                                 PanelKind::close_up, PanelKind::traces})
+        if (text == render::name(kind)) return PanelSpec{.kind = kind};
     if (const auto channel = known_channel(c, text)) return PanelSpec{.kind = PanelKind::strip, .channels = {*channel}};
     return std::nullopt;
 }

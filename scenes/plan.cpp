@@ -62,6 +62,15 @@ std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& 
                             : render::standard_panels(problem, is_slow_motion(p));
 }
 
+std::string too_small(const Picture& picture) {
+    std::string out;
+    if (!picture.layout) return out;
+    for (const render::PanelSpec& panel : render::left_out(picture.size.width, picture.size.height, *picture.layout))
+        out += (out.empty() ? "" : ", ") +
+               (panel.channels.empty() ? std::string(render::name(panel.kind)) : name(panel.channels.front()));
+    return out;
+}
+
 // One collision after the other, which takes more rows than the whole time does.
 bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
     return p.kind != Pictures::Kind::still && p.picture.compare.empty() && problem.cam &&
@@ -162,6 +171,8 @@ class Planner {
         p.collisions = shows_collisions(p, scene_.problem);
         p.settled = still ? p.at.kind == Instant::Kind::time : !(p.span.looks_at_impacts() || p.collisions);
         p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
+        p.too_small = too_small(p.picture);
+        if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));
         if (p.settled) {
             const FilmTimes times = times_of(p, ends, {});
             p.first_frame = times.first;
@@ -398,6 +409,11 @@ std::string shard_file(const std::string& file, int shard, int shards) {
     return (path.parent_path() /
             fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
         .string();
+}
+
+std::string no_room(const Size& size) {
+    return fmt::format("{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them",
+                       size.width, size.height);
 }
 
 bool is_slow_motion(const Pictures& p) {

@@ -93,6 +93,7 @@ struct Pictures {
     std::string poster_file;     // empty: none
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
+    std::string too_small;  // names of the wanted panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
     std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
     // Of the one simulation, unless the picture compares motions:
@@ -153,6 +154,9 @@ Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
 // What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
 // in their order. None without a simulation.
 std::vector<sim::Request> requests_of(const Plan& plan);
+
+// Why a picture leaves out Pictures::too_small.
+std::string no_room(const Size& size);
 
 // A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
 bool is_slow_motion(const Pictures& p);

@@ -549,6 +549,8 @@ class Runner {
         const Pictures& p = plan_.pictures[index];
         if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
         stop_if_interrupted();
+        if (!p.too_small.empty() && !capture_ && !options_.quiet)
+            fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
         const auto begun = Clock::now();
         render::Film film = film_of(index);
         std::unique_ptr<output::VideoWriter> video;

@@ -133,5 +133,17 @@ TEST(Chart, DecimationBreaksTheLineWhereNothingIsDefined) {
     EXPECT_TRUE(std::isnan(points[1].x));
 }
 
+// What of a wanted grid finds no room is told, so that it can be said.
+TEST(Layout, PanelsWithoutRoomAreNamed) {
+    using Kind = LayoutNode::Kind;
+    LayoutNode side{.kind = Kind::rows};
+    for (const PanelSpec& panel : kAll) side.children.push_back({.panel = panel});
+    const LayoutNode grid{.kind = Kind::columns, .children = {{.panel = {.kind = PanelKind::mechanism}}, side}};
+    EXPECT_EQ(panels_of(grid).size(), 4u);
+    EXPECT_TRUE(left_out(1920, 1080, grid).empty());
+    EXPECT_EQ(left_out(640, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
+    EXPECT_EQ(left_out(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
+}
+
 }  // namespace
 }  // namespace beamcam::render

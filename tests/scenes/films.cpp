@@ -221,5 +221,19 @@ TEST(Posters, AreAskedForAndRefusedInWords) {
     EXPECT_THAT(clash.report(), HasSubstr("\"a.png\", which outputs.0 writes too"));
 }
 
+// ---- what finds no room ------------------------------------------------------------------------
+
+TEST(Films, PanelsThatFindNoRoomAreTold) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.1,
+        "size": [640, 300], "view": {"style": "flat"},
+        "layout": {"columns": ["mechanism", {"rows": ["theta", "contact_force", "energy"]}]}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("panels energy of a.png: 640 × 300 is too small"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("warning: a.png shows no energy: 640 × 300"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json -q --force").err, ::testing::IsEmpty());
+    // The standard arrangement is nobody's wish.
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.layout=auto").err, ::testing::Not(HasSubstr("warning")));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes
