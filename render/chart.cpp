@@ -326,7 +326,8 @@ void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<co
     canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const double at = y(readings[i].value);
-        if (std::isnan(at)) continue;
+        // An instant between the curves' rows may lie beyond their range: its number is told, a dot would lie.
+        if (!(at > plot_.y - 8 * u && at < plot_.bottom() + 8 * u)) continue;
         canvas.circle({x, std::clamp(at, plot_.y - 4 * u, plot_.bottom() + 4 * u)}, 5.5 * u);
         canvas.fill_keeping_path(i < c_.curves.size() ? c_.curves[i].color : p.contact);
         canvas.stroke({p.paper, 1.6 * u});

@@ -31,6 +31,7 @@ class CloseUpPanel final : public Panel {
         // The cam falls to the lower edge at the sides.
         half_width_ = std::min(std::sqrt(2 * radius * 1.2 * depth_), 0.9 * radius);
         shown_ = {-kBelow * depth_, kAbove * depth_};
+        if (shown_.high < 2e-6 || shown_.high > 5e-3) unit_ = prefix_for(shown_.high);
     }
 
     void draw_ground(Canvas& canvas) const override {
@@ -47,19 +48,18 @@ class CloseUpPanel final : public Panel {
         canvas.rectangle(plot_);
         canvas.fill(mix(p.paper, p.grid, 0.35));
         if (!motion().problem.cam) return;
-        const double um = 1e-6;
         const Ticks marks =
-            ticks(shown_.low / um, shown_.high / um, std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5));
+            ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5));
         const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
         for (double v : marks.values) {
-            const double y = std::round(at(0, v * um).y) + 0.5;
+            const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.move_to({plot_.x - 6 * u, y});
             canvas.line_to({plot_.x, y});
             canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
             canvas.text({plot_.x - 12 * u, y + 6 * u}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
-        const std::string how = fmt::format("heights in µm, ×{:.2g} against widths", stretch);
+        const std::string how = fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch);
         TextStyle note{.size = 16 * u, .color = p.muted};
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
         const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
@@ -200,8 +200,9 @@ class CloseUpPanel final : public Panel {
         const double u = facts_.unit;
         const bool deep = near.gap < 0;
         const double size = std::abs(near.gap);
-        const std::string amount = size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
-                                               : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
+        const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
+                                   : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
+                                                 : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
         told(canvas, {plot_.right(), box_.y + 26 * u}, deep ? "penetration" : "gap", amount, "00.0\u00A0mm",
              {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
         // Two lines in the upper right corner. The face may pass behind them: the halo is the colour of most of it.
@@ -253,6 +254,7 @@ class CloseUpPanel final : public Panel {
     Box box_, plot_;
     double depth_ = 0, half_width_ = 1;  // [m]
     Range shown_;                        // heights [m]
+    Prefix unit_{"µ", 1e-6};             // of the heights: µm unless they are far from that
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "render/color.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace beamcam::render {
 namespace {
@@ -82,5 +83,8 @@ Color series_color(const Palette& p, std::size_t i) {
 
 Color moment_color(const Palette& p, double share) { return along(p.moment, 0.5 + 0.5 * share); }
 Color force_color(const Palette& p, double share) { return along(p.force, share); }
+Color age_color(const Palette& p, double age, double half_life) {
+    return mix(p.steel, p.contact, std::pow(0.5, age / half_life));
+}
 
 }  // namespace beamcam::render

@@ -39,5 +39,7 @@ const Palette& palette(Theme theme);
 Color series_color(const Palette& palette, std::size_t index);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
+// Of a trace that fades to the metal's colour; ages >= 0 and half-lives > 0 in one unit.
+Color age_color(const Palette& palette, double age, double half_life);
 
 }  // namespace beamcam::render

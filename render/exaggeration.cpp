@@ -25,37 +25,41 @@ Vec2 turned(Vec2 v, double angle) {
     return {u.x * v.x - u.y * v.y, u.y * v.x + u.x * v.y};
 }
 
-// Where a straight beam from O touches the disc: distance from O, and angle at O between beam and ray O→B.
-struct Reach {
-    double distance, angle;
-};
-Reach straight_reach(const Problem& problem, const Pose& pose) {
+// How far from O a straight beam from O touches the disc; 0: O is in it.
+double straight_reach(const Problem& problem, const Pose& pose) {
     const double d = norm(pose.disc_centre), r = problem.cam->radius + sim::contact_offset(problem);
-    if (d <= r) return {0, std::numbers::pi / 2};
-    return {std::sqrt(d * d - r * r), std::asin(r / d)};
+    return d <= r ? 0 : std::sqrt(d * d - r * r);
 }
 
-// On which side of the beam the cam lies. Full at half the angle of contact, so a touching beam always shows ±1.
+// The centre line's direction at the point nearest the cam.
+Vec2 tangent_at_nearest(const Problem& problem, const Pose& pose) {
+    const double at = pose.nearest->x / problem.beam.length * static_cast<double>(pose.centreline.size() - 1);
+    const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(pose.centreline.size() - 2)));
+    return pose.centreline[i + 1] - pose.centreline[i];
+}
+
+// On which side of the beam the cam lies, seen where they are nearest: ±1 but where that is an end of the beam.
 double cam_side(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
-    const double phi = wrapped(std::atan2(pose.disc_centre.y, pose.disc_centre.x) - pose.theta);
-    const double full = 0.5 * straight_reach(problem, pose).angle;
-    const double a = std::abs(phi), size = smoothstep(0, full, std::min(a, std::numbers::pi - a));
-    return phi < 0 ? size : -size;
+    const Vec2 t = tangent_at_nearest(problem, pose);
+    const double length = norm(t), across = length > 0 ? dot(pose.nearest->normal, sim::perp(t)) / length : 0.0;
+    return std::copysign(smoothstep(0, 0.5, std::abs(across)), across);
 }
 
 // 1 where the point nearest the cam fixes the base line, 0 where it does not (the beam is far or turned away).
 double cam_weight(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
-    const double l = problem.beam.length, reach = straight_reach(problem, pose).distance;
+    const double l = problem.beam.length, reach = straight_reach(problem, pose);
     if (!(reach > 0)) return 0;
     const double stations_from_axis = pose.nearest->x + problem.hub.radius;
     return smoothstep(0.2 * reach, 0.6 * reach, stations_from_axis) *
            (1 - smoothstep(0.15 * l, 0.45 * l, pose.nearest->gap));
 }
 
-// Angle of the least-squares line through O. Orthogonal to rigid rotation: free vibration is seen about it.
-double mean_angle(const Pose& pose) {
+// Angle of the least-squares line through O. Orthogonal to rigid rotation: free vibration is seen about it. Of a hub
+// that is led: its own angle, since the clamp does not give way.
+double mean_angle(const Problem& problem, const Pose& pose) {
+    if (sim::is_prescribed(problem.hub.drive)) return pose.theta;
     double xy = 0, xx = 0;
     for (Vec2 p : pose.centreline) {
         const Vec2 local = turned(p, -pose.theta);
@@ -71,7 +75,7 @@ Vec2 nearest_on_line(const Problem& problem, const Pose& pose) {
 }
 
 double base_angle(const Problem& problem, const Pose& pose, double weight) {
-    const double mean = mean_angle(pose);
+    const double mean = mean_angle(problem, pose);
     if (weight == 0) return mean;
     const Vec2 p = nearest_on_line(problem, pose);
     return mean + weight * wrapped(std::atan2(p.y, p.x) - mean);
@@ -125,9 +129,7 @@ void add_normals(DrawnBeam& beam) {
 
 // Slope of the drawn base-frame deflection at the contact, relative to the true one.
 double contact_tilt(const Problem& problem, const Pose& pose, double base, double factor) {
-    const double at = pose.nearest->x / problem.beam.length * static_cast<double>(pose.centreline.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), pose.centreline.size() - 2);
-    const Vec2 t = turned(pose.centreline[i + 1] - pose.centreline[i], -base);
+    const Vec2 t = turned(tangent_at_nearest(problem, pose), -base);
     return std::atan2(factor * t.y, t.x) - std::atan2(t.y, t.x);
 }
 

@@ -3,7 +3,8 @@
 // True deflections are 1e-4 … 1e-2 of the length. With η(x) the distance of the centre line from a straight base
 // line through the hinge O, the drawn line is (ξ, N·η) in the frame of that base line:
 //   * near the cam the base is the chord O → point nearest the cam, so that a touching beam still touches there;
-//   * far from it, and without a cam, it is the least-squares line through O; the change-over is smooth.
+//   * far from it, and without a cam, it is the least-squares line through O, or the hub's own direction where the hub
+//     is led (there the clamp does not give way); the change-over is smooth.
 // The hinge stays. Since the drawn slope at the contact differs from the true one, the line is then turned about O
 // by the small angle that makes the drawn gap equal the true one (zero where the true beam penetrates): the drawn
 // beam enters the drawn cam nowhere, and the motion stays continuous through touch and release.

@@ -23,6 +23,7 @@ struct Film::Prepared {
     const MechanismPanel* mechanism = nullptr;   // the first
     Image ground;                                // all that never changes
     std::vector<Box> ground_texts;
+    std::string widest_speed;  // of all frames
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
         for (const PanelSlot& slot : facts.places.panels) {
@@ -31,6 +32,7 @@ struct Film::Prepared {
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_ground();
+        widest_speed = widest_speed_text(facts.setup->speeds);
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
@@ -158,8 +160,15 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     double right = b.right();
     if (facts.force_scale > 0) {
         const std::string top = quantity(facts.force_scale, "N"), quarter = quantity(facts.force_scale / 4, "N");
-        bar(right, "contact force, trace", [&](double s) { return force_color(palette, s); }, {"0", quarter, top},
-            {0, 0.5, 1});
+        if (facts.setup->view.trace == TraceColor::force) {
+            bar(right, "contact force, trace", [&](double s) { return force_color(palette, s); }, {"0", quarter, top},
+                {0, 0.5, 1});
+        } else {
+            const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
+            bar(right, "age of the trace",
+                [&](double s) { return age_color(palette, s * oldest, half_life); },
+                {"0", quantity(oldest / 2, "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
+        }
         right -= 300 * u;
     }
     if (facts.moment_scale > 0) {
@@ -170,6 +179,13 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
 }
 
 // ---- what moves ------------------------------------------------------------------------------
+
+// "×5" of "deflection ×5", "1/50" of "1/50 speed".
+static std::string short_of(std::string words) {
+    for (const std::string_view dispensable : {"deflection ", " speed"})
+        if (const auto at = words.find(dispensable); at != std::string::npos) words.erase(at, dispensable.size());
+    return words;
+}
 
 // The clock, and beside it how the picture differs from what an eye would see.
 void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
@@ -183,24 +199,39 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
     if (widest > b.w) return;
     canvas.text({b.x, b.y + 40 * u}, text, big);
-    double x = b.x + widest + 36 * u;
-    const auto pill = [&](const std::string& words, const std::string& widest_words, Color color) {
-        const TextStyle style{.size = 20 * u, .color = color, .weight = Weight::medium, .align = Align::centre};
-        const double room = std::max(canvas.measure(words, style).w, canvas.measure(widest_words, style).w);
-        const Box box{x, b.y + 6 * u, room + 34 * u, 36 * u};
-        x = box.right() + 14 * u;
-        if (words.empty() || box.right() > b.right()) return;
-        canvas.rounded(box, 18 * u);
-        canvas.fill(color.faded(0.14));
-        canvas.text({box.x + box.w / 2, b.y + 31 * u}, words, style);
+    struct Pill {
+        std::string words, widest;
+        Color color;
     };
+    std::vector<Pill> pills;
     if (facts.factor > 1) {
         const std::string words = fmt::format("deflection ×{}", power_text(facts.factor));
-        pill(words, words, facts.palette->motion);
+        pills.push_back({words, words, facts.palette->motion});
     }
     if (!setup.speeds.empty())
-        pill(speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed_text(setup.speeds),
-             facts.palette->contact);
+        pills.push_back(
+            {speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed, facts.palette->contact});
+    const auto style_of = [&](const Pill& p) {
+        return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = Align::centre};
+    };
+    const auto width = [&](const Pill& p) {
+        const TextStyle style = style_of(p);
+        return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 34 * u;
+    };
+    const double first = b.x + widest + 36 * u, gap = 14 * u;
+    double all = first - gap;  // the same in all frames
+    for (const Pill& p : pills) all += gap + 38 * u + canvas.measure(p.widest, style_of(p)).w;
+    if (all > b.right())
+        for (Pill& p : pills) p.words = short_of(p.words), p.widest = short_of(p.widest);
+    double x = first;
+    for (const Pill& p : pills) {
+        const Box box{x, b.y + 6 * u, width(p), 36 * u};
+        x = box.right() + gap;
+        if (p.words.empty() || box.right() > b.right()) continue;
+        canvas.rounded(box, 18 * u);
+        canvas.fill(p.color.faded(0.14));
+        canvas.text({box.x + box.w / 2, b.y + 31 * u}, p.words, style_of(p));
+    }
 }
 
 // ---- the film --------------------------------------------------------------------------------

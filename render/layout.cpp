@@ -66,11 +66,16 @@ Frame frame(int width, int height) {
         out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 34 * u;
     }
+    const bool apart = has_scales && !f.wide;  // beside the clock they would leave it too little
+    if (apart) {
+        out.scales = Box{w - margin - 600 * u, f.bottom - 56 * u, 600 * u, 56 * u};
+        f.bottom -= 64 * u;
+    }
     if (has_clock) {
         out.clock = Box{margin, f.bottom - 56 * u, w - 2 * margin, 56 * u};
         f.bottom -= 56 * u;
     }
-    if (has_scales) {
+    if (has_scales && !apart) {
         out.scales = Box{w - margin - 600 * u, out.clock->y, 600 * u, 56 * u};
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }

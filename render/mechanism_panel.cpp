@@ -349,8 +349,7 @@ void MechanismPanel::draw_solid(const Scene& s, const Trace& trace, Threads& thr
 
 // A colour for each place around the disc, none where it was never touched.
 std::vector<Color> MechanismPanel::rim_colors(const Trace& trace, double now) const {
-    constexpr double kFade = 0.3;  // of the film's time until the trace is half as strong
-    const double half_life = kFade * (facts_.span.high - facts_.span.low);
+    const double half_life = trace_half_life(facts_.span);
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (!(trace.rim()[i] > 0) || !(facts_.force_scale > 0)) continue;
@@ -358,7 +357,7 @@ std::vector<Color> MechanismPanel::rim_colors(const Trace& trace, double now) co
             out[i] = force_color(palette_, std::sqrt(std::min(1.0, double(trace.rim()[i]) / facts_.force_scale)));
         } else {
             const double age = std::max(0.0, now - trace.rim_times()[i]);
-            out[i] = mix(palette_.steel, palette_.contact, std::pow(0.5, age / half_life));
+            out[i] = age_color(palette_, age, half_life);
         }
     }
     return out;
@@ -525,8 +524,9 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
 
 // The straight line that deflection is drawn about.
 void MechanismPanel::base_line(const Scene& s) const {
-    if (look_.factor == 1) return;
     const Vec2 base = sim::unit(s.beam.base_angle);
+    // True deflection is seen against the direction of a led hub, unless the horizontal is drawn there already.
+    if (look_.factor == 1 && !(sim::is_prescribed(problem().hub.drive) && std::abs(base.y) > 0.01)) return;
     const double clear = 4 * u_ / look_.camera.scale;
     std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
     for (Vec2 p : s.beam.line) {

@@ -50,6 +50,9 @@ struct FilmFacts {
     void choose_scales();
 };
 
+// The time after which a trace coloured by its age is half as strong [s].
+inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }
+
 class Panel {
   public:
     struct State {

@@ -72,7 +72,9 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
     for (std::size_t i = 0; i < instants.size(); ++i) {
         const FilmEvent& event = span.events[i];
         if (event.text.empty()) continue;
-        const double from = map.film_time(instants[i]);
+        double from = map.film_time(instants[i]);  // one after the other where several are of one instant
+        for (std::size_t j = 0; j < i; ++j)
+            if (instants[j] == instants[i]) from += span.events[j].freeze;
         const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
                   last = static_cast<int>(std::floor((from + std::max(event.show, event.freeze)) * fps + 1e-6));
         out.callouts.push_back({first, last, event.text});

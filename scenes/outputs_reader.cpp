@@ -505,8 +505,8 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double first = std::round(span.from * fps), last = std::round(to * fps);
     if (!(last > first))
         return fmt::format(
-            "no frame lies between {:g} s and {:g} s at {:g} frames a second; \"to\" must be later than \"from\"",
-            span.from, to, fps);
+            "no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
+            to > span.from ? "let \"to\" be later, or raise \"fps\"" : "\"to\" must be later than \"from\"");
     if (last - first > kMostFrames)
         return fmt::format(
             "{:.0f} frames are more than the {:.0f} that one output can have; use \"from\" and \"to\", or fewer frames "

@@ -386,7 +386,6 @@ class Runner {
         video.crf = p.encoding.crf;
         video.preset = p.encoding.preset;
         if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
-        video.metadata = film_metadata(p);
         return video;
     }
 
@@ -557,6 +556,7 @@ class Runner {
         if (p.kind == Pictures::Kind::video && !capture_) {
             output::VideoOptions options = video_options(p);
             if (options.codec == output::Codec::gif) options.palette = palette_of(film);
+            options.metadata = film_metadata(p);
             video = std::make_unique<output::VideoWriter>(path_of(p.file), options);
             ++work_.encoders;
         }

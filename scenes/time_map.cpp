@@ -153,8 +153,8 @@ double instant_of(const Instant& instant, const sim::Result& motion) {
     const auto pick = [&](const auto& all, const char* what) {
         const auto n = static_cast<std::size_t>(std::max(instant.number, 0));
         if (n < 1 || n > all.size())
-            throw render::PictureError(fmt::format("there is no {} {}; the motion has {} until the end of the scene",
-                                                   what, instant.number, all.size()));
+            throw render::PictureError(fmt::format("there is no {} {}: the motion has {} until {:g} s", what,
+                                                   instant.number, all.size(), motion.end_time));
         return all[n - 1].t_start;
     };
     switch (instant.kind) {

@@ -92,6 +92,45 @@ TEST(Exaggeration, FreeVibrationIsMultipliedAboutTheMeanLine) {
     }
 }
 
+// The clamp of a hub that is led does not give way: w is multiplied about the hub's own direction.
+TEST(Exaggeration, DeflectionFromALedHubIsMultipliedAboutItsDirection) {
+    sim::Problem problem;
+    problem.cam.reset();
+    problem.hub.drive = sim::ConstantSpeed{1};
+    sim::Pose pose;
+    pose.theta = 0.7;
+    const Vec2 along = sim::unit(pose.theta), across = sim::perp(along);
+    for (int i = 0; i <= 100; ++i) {
+        const double x = i / 100.0;
+        pose.centreline.push_back(along * x + across * (0.01 * x * x));
+    }
+    const DrawnBeam beam = drawn_beam(problem, pose, 10, problem.beam.depth);
+    EXPECT_NEAR(beam.base_angle, 0.7, 1e-15);
+    EXPECT_NEAR(beam.root_angle, 0.7, 2e-3);
+    for (int i = 0; i <= 100; ++i) {
+        const double x = i / 100.0;
+        EXPECT_LT(norm(beam.line[static_cast<std::size_t>(i)] - (along * x + across * (0.1 * x * x))), 1e-14);
+    }
+}
+
+// A soft beam bent over the disc lies on it also when its hub points beyond the disc.
+TEST(Exaggeration, TheSideOfTheCamIsThatOfTheContact) {
+    FilmSetup film = test::synthetic_film();
+    sim::Pose pose;
+    const double radius = film.problem.cam->radius, length = film.problem.beam.length;
+    pose.disc_centre = {0.4 * length, 0};
+    pose.theta = -0.3;
+    for (int i = 0; i <= 100; ++i) {
+        const double x = length * i / 100;
+        pose.centreline.push_back({x, radius - 3 * (x - 0.4 * length) * (x - 0.4 * length) / length});
+    }
+    pose.nearest = sim::Nearest{};
+    pose.nearest->x = 0.4 * length, pose.nearest->normal = {0, 1}, pose.nearest->touching = true;
+    EXPECT_EQ(drawn_beam(film.problem, pose, 1, film.problem.beam.depth).side, 1);
+    pose.nearest->normal = {0, -1};
+    EXPECT_EQ(drawn_beam(film.problem, pose, 1, film.problem.beam.depth).side, -1);
+}
+
 TEST(Exaggeration, SectionExtendsAwayFromTheCamByItsDepth) {
     FilmSetup film = test::synthetic_film();
     const double h = film.problem.beam.depth;

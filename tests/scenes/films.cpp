@@ -221,6 +221,17 @@ TEST(Posters, AreAskedForAndRefusedInWords) {
     EXPECT_THAT(clash.report(), HasSubstr("\"a.png\", which outputs.0 writes too"));
 }
 
+// A film that ends before the scene's other pictures tells of itself as if the run had ended with it.
+TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
+    const Folder folder;
+    for (const char* at : {"\"impact:1\"", "1.2"}) {
+        folder.write("s.json", std::string(R"({"outputs": [{"type": "still", "file": "t.png", "size": [160, 90], "view": {"style": "flat"}, "at": )") +
+                                   at + R"(}, {"type": "video", "file": "f.mkv", "to": 0.3, "fps": 10, "size": [160, 90], "view": {"style": "flat"}}]})");
+        EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0) << at;
+        EXPECT_EQ(shell(folder, "$BEAMCAM hash f.mkv").out.size(), shell(folder, "$BEAMCAM hash f.mkv | head -n 3").out.size());
+    }
+}
+
 // ---- what finds no room ------------------------------------------------------------------------
 
 TEST(Films, PanelsThatFindNoRoomAreTold) {
