@@ -198,7 +198,7 @@ void Chart::draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) 
     }
 }
 
-void Chart::draw_curves(Canvas& canvas, const Palette& p, const View& view, bool past, Vec2 shift) const {
+void Chart::draw_curves(Canvas& canvas, const View& view, bool past, Vec2 shift) const {
     draw_bands(canvas, view, past, shift);
     bool first_curve = true;
     for (const Curve& curve : c_.curves) {
@@ -241,26 +241,26 @@ void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     draw_value_axis(canvas, p);
     if (!windowed()) {
         draw_time_axis(canvas, p, whole());
-        draw_curves(canvas, p, whole(), false, {});
+        draw_curves(canvas, whole(), false, {});
     }
     canvas.move_to({plot_.x, axis});
     canvas.line_to({plot_.right(), axis});
     canvas.stroke({p.muted, std::max(1.0, 1.3 * unit_), {}, Cap::butt});
 }
 
-Image Chart::past(const Fonts& fonts, const Palette& p) const {
+Image Chart::past(const Fonts& fonts) const {
     if (windowed()) return {};
     const Box box = past_box();
     Image image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(image, fonts);
-    draw_curves(canvas, p, whole(), true, {-box.x, -box.y});
+    draw_curves(canvas, whole(), true, {-box.x, -box.y});
     return image;
 }
 
-void Chart::draw_past(Canvas& canvas, const Palette& p, double t) const {
+void Chart::draw_past(Canvas& canvas, double t) const {
     const double cut = cursor_column(t) + 1;
     canvas.clip({plot_.x - 8, plot_.y - 8, cut - plot_.x + 8, plot_.h + 16},
-                [&] { draw_curves(canvas, p, whole(), true, {}); });
+                [&] { draw_curves(canvas, whole(), true, {}); });
 }
 
 namespace {
@@ -316,9 +316,9 @@ void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<co
         // Past and future meet at the cursor: each is drawn within its own part of the plot.
         const double cut = cursor_column(t) + 1;
         canvas.clip({cut, plot_.y - 8, plot_.right() - cut, plot_.h + 9},
-                    [&] { draw_curves(canvas, p, view, false, {}); });
+                    [&] { draw_curves(canvas, view, false, {}); });
         canvas.clip({plot_.x, plot_.y - 8, cut - plot_.x, plot_.h + 9},
-                    [&] { draw_curves(canvas, p, view, true, {}); });
+                    [&] { draw_curves(canvas, view, true, {}); });
     }
     const double x = cursor_column(t) + 0.5;
     canvas.move_to({x, plot_.y - 6 * u});

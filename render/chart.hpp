@@ -83,10 +83,10 @@ class Chart {
     Vec2 to_pixels(double t, double v) const;                        // of the whole film's axes
     void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
     // All that has been, to be shown up to the cursor; as large as `past_box`. Empty with a window.
-    Image past(const Fonts& fonts, const Palette& palette) const;
+    Image past(const Fonts& fonts) const;
     Box past_box() const;
     // The same drawn directly, up to the cursor at t.
-    void draw_past(Canvas& canvas, const Palette& palette, double t) const;
+    void draw_past(Canvas& canvas, double t) const;
     // What moves: with a window the curves too.
     void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
     int cursor_column(double t) const;  // the first column after the cursor
@@ -99,7 +99,7 @@ class Chart {
     View around(double t) const;
     void draw_time_axis(Canvas& canvas, const Palette& palette, const View& view) const;
     void draw_value_axis(Canvas& canvas, const Palette& palette) const;
-    void draw_curves(Canvas& canvas, const Palette& palette, const View& view, bool past, Vec2 shift) const;
+    void draw_curves(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
     void draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
     void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]

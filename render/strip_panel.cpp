@@ -106,7 +106,7 @@ class ChartPanel : public Panel {
   public:
     ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
         : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
-        past_ = chart_.past(*facts.fonts, *facts.palette);
+        past_ = chart_.past(*facts.fonts);
     }
     void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }
     Box growing() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
@@ -400,7 +400,7 @@ class CollisionPanel final : public Panel {
     Image past_of(const Chart& chart, const Canvas& ground) const {
         Image image = ground.image();
         Canvas canvas(image, ground.fonts());
-        chart.draw_past(canvas, *facts_.palette, chart.time().high);
+        chart.draw_past(canvas, chart.time().high);
         const Box at = chart.past_box();
         Image plot(static_cast<int>(at.w), static_cast<int>(at.h));
         Canvas(plot, ground.fonts()).replace_part(image, static_cast<int>(-at.x), static_cast<int>(-at.y), at);
