@@ -293,7 +293,7 @@ const Image& Film::draw(int frame) {
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
     canvas.touched = &t.moved;
-    canvas.stencils = &t.stencils;
+    if (Stencils::exact()) canvas.stencils = &t.stencils;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
     t.stencils.next_picture();
     t.changed.add(t.moved);

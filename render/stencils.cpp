@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -41,6 +42,62 @@ std::uint32_t pixel_of(const Color& c) {
 constexpr std::uint32_t kCairoHalf = 0x7f, kPixmanHalf = 0x80;
 
 }  // namespace
+
+namespace {
+
+constexpr int kProbe = 24;  // [px]
+using Probe = std::array<std::uint32_t, kProbe * kProbe>;
+
+// Opaque and translucent pixels, premultiplied.
+Probe probe_ground() {
+    Probe pixels{};
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto any = static_cast<std::uint32_t>(i * 2654435761U >> 7);
+        pixels[i] = times(any | 0xff000000U, i % 3 == 0 ? any >> 16 & 0xff : 255, kPixmanHalf);
+    }
+    return pixels;
+}
+
+template <class Draw>
+Probe probed(const Draw& draw) {
+    Probe pixels = probe_ground();
+    cairo_surface_t* surface = cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                                                   CAIRO_FORMAT_ARGB32, kProbe, kProbe, kProbe * 4);
+    cairo_t* cr = cairo_create(surface);
+    cairo_move_to(cr, 3.3, 5.9);
+    cairo_curve_to(cr, 30.1, 2.2, 7.7, 16.4, 19.6, 21.2);
+    cairo_line_to(cr, 5.1, 18.7);
+    draw(cr);
+    cairo_destroy(cr);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    return pixels;
+}
+
+}  // namespace
+
+bool Stencils::exact() {
+    static const bool all_same = [] {
+        for (const double alpha : {1.0, 0.93, 0.5, 0.14, 0.01})
+            for (const bool stroke : {false, true}) {
+                if (!stroke && alpha < 1) continue;  // these are never painted through a stencil
+                const Color color{0.84, 0.37, 0.09, alpha};
+                const auto ink = [&](cairo_t* cr) {
+                    cairo_set_line_width(cr, 2.7);
+                    stroke ? cairo_stroke_preserve(cr) : cairo_fill_preserve(cr);
+                };
+                const Probe theirs = probed([&](cairo_t* cr) {
+                    cairo_set_source_rgba(cr, color.r, color.g, color.b, color.a);
+                    ink(cr);
+                });
+                const Probe ours =
+                    probed([&](cairo_t* cr) { paint(stencil_of({0, 0, kProbe, kProbe}, cr, ink), color, cr); });
+                if (ours != theirs) return false;
+            }
+        return true;
+    }();
+    return all_same;
+}
 
 bool Stencils::paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
                      const std::function<void(cairo_t*)>& ink) {

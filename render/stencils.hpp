@@ -20,6 +20,10 @@ namespace beamcam::render {
 
 class Stencils {
   public:
+    // Whether the Cairo and pixman that run paint as these formulas say: tried once in a process, on a small picture.
+    // Where they do not, a film is drawn without stencils, so that its pixels never depend on what was drawn before.
+    static bool exact();
+
     // Paints the shape called `key` over the image surface of `cr` if it was painted in an earlier picture and in every
     // one since; false: the caller has to. The key names everything that coverage depends on. `box` holds all of it
     // [px]; `ink` paints the shape with any source.

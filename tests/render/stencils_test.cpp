@@ -52,6 +52,7 @@ Image picture(Stencils* stencils, Tiles& touched, double age) {
 }
 
 TEST(Stencils, PaintWhatCairoPaints) {
+    EXPECT_TRUE(Stencils::exact());
     Stencils stencils;
     Tiles touched(200, 150);
     for (const double age : {1.0, 0.8, 0.5, 0.01, 0.0})
