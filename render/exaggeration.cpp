@@ -206,6 +206,11 @@ double film_factor(const Problem& problem, std::size_t frames, const std::functi
         if (slope > 0) factor = std::min(factor, kTilt / slope);
         factor = factor > 1 ? round_down_125(factor) : 1.0;
     }
+    return clear_factor(problem, frames, pose_of, factor);
+}
+
+double clear_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
+                    double factor) {
     const auto clear = [&](double n) {
         for (std::size_t k = 0; k < frames; ++k)
             if (!drawn_beam(problem, pose_of(k), n, problem.beam.depth).clear) return false;

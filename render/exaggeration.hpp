@@ -55,5 +55,8 @@ double film_factor(const sim::Problem& problem, std::span<const sim::Pose> poses
 // The same for poses that are not held at once.
 double film_factor(const sim::Problem& problem, std::size_t frames,
                    const std::function<sim::Pose(std::size_t)>& pose_of, std::optional<double> wanted);
+// `factor`, or the next smaller round number that shows none of the poses in the cam.
+double clear_factor(const sim::Problem& problem, std::size_t frames,
+                    const std::function<sim::Pose(std::size_t)>& pose_of, double factor);
 
 }  // namespace beamcam::render

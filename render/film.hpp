@@ -65,6 +65,9 @@ struct Motion {
     std::string label;             // plain text; told where several motions stand beside each other
     std::vector<sim::Pose> poses;  // one a frame, true geometry, times not decreasing, at least one
     std::shared_ptr<const PoseStore> stored;  // in place of `poses`
+    // The motion over the time that the film shows, in any order: what scales and camera are chosen by, so that they do
+    // not depend on which instants the frames happen to be of. Absent: the frames.
+    std::shared_ptr<const PoseStore> survey;
     sim::Table chart;              // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
@@ -72,6 +75,8 @@ struct Motion {
     std::size_t frames() const { return stored ? stored->size() : poses.size(); }
     double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
     sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
+    std::size_t surveyed() const { return survey ? survey->size() : frames(); }
+    sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
 };
 
 // Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.

@@ -134,13 +134,18 @@ DrawnBeam MechanismPanel::beam_of(int member, int frame) const {
     const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : look_.factor;
     return drawn_beam(one.problem, facts_.pose(member, frame), factor, look_.depth);
 }
+DrawnBeam MechanismPanel::surveyed_beam(int member, std::size_t k) const {
+    const Motion& one = facts_.motion(member);
+    const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : look_.factor;
+    return drawn_beam(one.problem, one.surveyed(k), factor, look_.depth);
+}
 
-// The box of all drawn beams [m].
+// The box of all drawn beams [m]; of a still, of the one that it shows.
 Bounds MechanismPanel::beams_reach() const {
     Bounds all;
     for (int m : shown_)
-        for (int k = 0; k < facts_.frames(); ++k) {
-            const DrawnBeam b = beam_of(m, k);
+        for (std::size_t k = 0; k < (facts_.frames() == 1 ? 1 : facts_.motion(m).surveyed()); ++k) {
+            const DrawnBeam b = facts_.frames() == 1 ? beam_of(m, 0) : surveyed_beam(m, k);
             for (std::size_t i = 0; i < b.line.size(); i += (i + 5 < b.line.size() ? 4 : 1))
                 all.add(b.face(i)), all.add(b.back(i));
         }

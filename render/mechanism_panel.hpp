@@ -50,6 +50,7 @@ class MechanismPanel final : public Panel {
     std::vector<Color> rim_colors(const Trace& trace, double now) const;
 
     DrawnBeam beam_of(int member, int frame) const;
+    DrawnBeam surveyed_beam(int member, std::size_t k) const;
     const Motion& motion() const { return facts_.motion(member_); }
     const sim::Problem& problem() const { return motion().problem; }
     Vec2 px(Vec2 world) const { return look_.camera.to_pixels(world); }

@@ -114,13 +114,18 @@ void FilmFacts::choose_scales() {
         const Motion& one = motion(m);
         const bool flexible = one.problem.beam.model != sim::ModelKind::rigid;
         // A rigid beam beside flexible ones has nothing to exaggerate and does not hold them back.
-        if (flexible || members() == 1)
+        if (flexible || members() == 1) {
             factor = std::min(factor, film_factor(
-                                          one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); },
+                                          one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
                                           setup->view.exaggeration));
+            // The survey may have missed an instant at which the factor has to yield; what is drawn must not.
+            if (one.survey)
+                factor = clear_factor(
+                    one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, factor);
+        }
         double largest = 0;
-        for (std::size_t k = 0; k < one.frames(); ++k) {
-            const Pose p = one.pose(k);
+        for (std::size_t k = 0; k < one.surveyed(); ++k) {
+            const Pose p = one.surveyed(k);
             for (double value : p.moment) largest = std::max(largest, std::abs(value));
             if (p.nearest) force = std::max(force, p.nearest->force);
         }

@@ -200,9 +200,12 @@ Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel
     };
     for (const Curve& curve : curves)
         for (double v : curve.v) see(v);
-    if (channel.kind == ChannelKind::theta)
-        for (int m = 0; m < facts.members(); ++m)
-            for (int k = 0; k < facts.frames(); ++k) see(facts.pose(m, k).theta);
+    for (int m = 0; channel.kind == ChannelKind::theta && m < facts.members(); ++m) {
+        const Motion& one = facts.motion(m);
+        const bool still = facts.frames() == 1;  // it shows its past alone, which is the chart's
+        for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
+            see(still ? one.pose(0).theta : one.surveyed(k).theta);
+    }
     if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
     if (!(low <= high)) return {0, 1};
     // A constant still needs an axis: a twentieth of it either way, or of one unit.

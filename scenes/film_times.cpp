@@ -19,6 +19,16 @@ constexpr double kFinePoints = 40000;                   // more of them where ti
 constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still's instant
 constexpr int kFineSteps = 8;                           // between two frames
 constexpr double kLongestCollision = 0.1;               // [s] that a strip shows of one
+// Vibration that lasts is met at all its phases; what a collision does within milliseconds is asked for apart.
+constexpr int kSurveyed = 300;
+
+std::vector<double> surveyed(double from, double to) {
+    if (!(to > from)) return {from};
+    std::vector<double> out;
+    for (int k = 0; k < kSurveyed; ++k) out.push_back(from + (to - from) * k / kSurveyed);
+    out.push_back(to);
+    return out;
+}
 
 double chart_rate(double duration) {
     const double seconds = std::max(duration, 1e-12);
@@ -139,10 +149,11 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
         merge(out.trace, fine);
     }
     if (collisions) merge(out.chart, rows_of_collisions(motion, span.from, to));
+    out.survey = surveyed(span.from, to);
     return out;
 }
 
-FilmTimes still_times(const Instant& at, const sim::Result& motion) {
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until) {
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
@@ -150,6 +161,7 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion) {
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;
+    out.survey = surveyed(0, std::max(t, until));
     return out;
 }
 

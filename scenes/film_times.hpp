@@ -18,13 +18,16 @@ struct FilmTimes {
     std::vector<render::Callout> callouts;
     std::optional<int> poster;  // index into frames
     std::vector<double> chart, trace;  // rows [s], increasing
+    // Evenly over the time that is shown, whatever the frames: what scales are chosen by [s].
+    std::vector<double> survey;
 };
 
 // `motion` has the impacts and collisions until the span's end where the span looks at them; else it may be empty.
 // Throws render::PictureError for an impact that does not exist and for a film of too many frames.
 // `collisions`: the charts get more rows within each of the motion's.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
-FilmTimes still_times(const Instant& at, const sim::Result& motion);
+// `until`: how far the motion goes that gives the still its scales [s].
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until);
 
 // k / rate from `from`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);

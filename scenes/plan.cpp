@@ -48,11 +48,13 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     p.poster = times.poster;
     for (ComparedMotion& other : p.compared) {
         other.request.poses.front().times = times.frames;
+        other.request.poses.back().times = times.survey;
         other.request.tables.front().times = times.chart;
         if (other.request.tables.size() > 1) other.request.tables[1].times = times.trace;
     }
     if (!p.compared.empty()) return;
     request.poses[p.poses].times = std::move(times.frames);
+    request.poses[p.survey].times = std::move(times.survey);
     request.tables[p.chart].times = std::move(times.chart);
     if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
 }
@@ -77,9 +79,18 @@ bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
            std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
 }
 
+// A still of an instant is chosen by what led to it; one of an impact, which is found in the whole motion, by that.
+double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
+
 FilmTimes times_of(const Pictures& p, double end_time, const sim::Result& motion) {
-    return p.kind == Pictures::Kind::still ? still_times(p.at, motion)
+    return p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p))
                                            : film_times(p.span, end_time, motion, p.collisions);
+}
+
+sim::PoseRequest survey() {
+    sim::PoseRequest request;
+    request.contacts = 400;  // ten collisions of a flexible beam: the hardest are among them, since each takes energy
+    return request;
 }
 
 // Collects what the outputs want of the one simulation.
@@ -185,6 +196,8 @@ class Planner {
             look_until(ends, p.file);
             p.poses = request.poses.size();
             request.poses.push_back({});
+            p.survey = request.poses.size();
+            request.poses.push_back(survey());
             p.chart = add_table({}, p.chart_channels);
             if (scene_.problem.cam) p.trace = add_table({}, kTraceChannels);
         } else {
@@ -203,6 +216,7 @@ class Planner {
             motion.request.end_time = p.end_time;
             motion.request.turning_points = false;
             motion.request.poses.push_back({});
+            motion.request.poses.push_back(survey());
             motion.request.tables.push_back({{}, p.chart_channels});
             if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
             p.compared.push_back(std::move(motion));
@@ -448,7 +462,8 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
         if (span.poster) fix(*span.poster);
         sim::Request none;
         if (p.kind == Pictures::Kind::still)
-            put_times(p, none, still_times({.kind = Instant::Kind::time, .t = instant_of(p.at, first)}, all));
+            put_times(p, none, still_times({.kind = Instant::Kind::time, .t = instant_of(p.at, first)}, all,
+                                           surveyed_until(p)));
         else
             put_times(p, none, film_times(span, p.end_time, all));
     }

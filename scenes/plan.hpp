@@ -65,7 +65,7 @@ struct Variant {
 struct ComparedMotion {
     std::string label;
     sim::Problem problem;
-    sim::Request request;  // one pose request, then the tables: chart and, with a cam, trace
+    sim::Request request;  // poses: frames, survey; tables: chart and, with a cam, trace
     std::optional<Cost> cost;
 };
 
@@ -98,6 +98,7 @@ struct Pictures {
     std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
     // Of the one simulation, unless the picture compares motions:
     std::size_t poses = 0;             // index into Request::poses, whose times are the frames' instants
+    std::size_t survey = 0;            // the same of what scales are chosen by
     std::size_t chart = 0;             // index into Request::tables: what the panels show
     std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
     std::optional<Cost> cost;

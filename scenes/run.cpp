@@ -163,7 +163,7 @@ class Runner {
         if (plan_.simulation) {
             std::vector<sim::Request> requests = requests_of(plan_);
             for (const Pictures& p : plan_.pictures)
-                own_poses_.push_back(p.compared.empty() ? spooled(requests.front().poses[p.poses]) : nullptr);
+                own_poses_.push_back(p.compared.empty() ? keep_apart(requests.front(), p.poses, p.survey) : Kept{});
             own_ = shop_.motions.want(scene_.problem, std::move(requests));
         }
         ask_for_others();
@@ -225,7 +225,7 @@ class Runner {
             compared_poses_.emplace_back();
             for (const ComparedMotion& each : p.compared) {
                 sim::Request request = each.request;
-                compared_poses_.back().push_back(spooled(request.poses.front()));
+                compared_poses_.back().push_back(keep_apart(request, 0, 1));
                 others_.push_back(shop_.motions.want(each.problem, {std::move(request)},
                                                      fmt::format("{}, {}", p.file, each.label)));
             }
@@ -233,10 +233,22 @@ class Runner {
     }
 
     // Where the poses of a picture go, so that they are not held.
-    static std::shared_ptr<SpooledPoses> spooled(sim::PoseRequest& request) {
-        auto poses = std::make_shared<SpooledPoses>(request.times.size(), request.stations);
-        request.take = [poses](std::size_t row, const sim::Pose& pose) { poses->put(row, pose); };
+    struct Kept {
+        std::shared_ptr<SpooledPoses> frames;
+        std::shared_ptr<SurveyedPoses> survey;
+    };
+    static std::shared_ptr<SurveyedPoses> stored(const std::vector<sim::Pose>& held, const sim::PoseRequest& request) {
+        auto poses = std::make_shared<SurveyedPoses>(request.times.size(), request.contacts, request.stations);
+        for (std::size_t row = 0; row < held.size(); ++row) poses->put(row, held[row]);
         return poses;
+    }
+    static Kept keep_apart(sim::Request& request, std::size_t frames, std::size_t survey) {
+        sim::PoseRequest &all = request.poses[frames], &some = request.poses[survey];
+        const Kept kept{std::make_shared<SpooledPoses>(all.times.size(), all.stations),
+                        std::make_shared<SurveyedPoses>(some.times.size(), some.contacts, some.stations)};
+        all.take = [to = kept.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
+        some.take = [to = kept.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
+        return kept;
     }
 
     // The results in the order of the requests.
@@ -490,7 +502,10 @@ class Runner {
         setup.callouts = p.callouts;
         if (p.compared.empty()) {
             static_cast<render::Motion&>(setup) = motion_of(scene_.problem, result_, p.poses, p.chart, p.trace);
-            if (!own_poses_.empty()) setup.stored = own_poses_[index];
+            if (own_poses_.empty())
+                setup.survey = stored(result_.poses[p.survey], plan_.simulation->request.poses[p.survey]);
+            else
+                setup.stored = own_poses_[index].frames, setup.survey = own_poses_[index].survey;
             setup.accuracy_note = accuracy_note(p);
             setup.impacts = seen_by(p).impacts;
         } else {
@@ -523,7 +538,8 @@ class Runner {
             render::Motion motion =
                 motion_of(each.problem, result, 0, 0, traced ? std::optional<std::size_t>(1) : std::nullopt);
             motion.label = each.label;
-            motion.stored = compared_poses_[index][i];
+            motion.stored = compared_poses_[index][i].frames;
+            motion.survey = compared_poses_[index][i].survey;
             if (i == 0)
                 static_cast<render::Motion&>(setup) = std::move(motion);
             else
@@ -679,8 +695,8 @@ class Runner {
     std::vector<sim::Result> ends_;                     // as Simulation::ends
     std::vector<std::vector<sim::Result>> of_figures_;  // one for each study of each figure
     std::vector<std::vector<sim::Result>> compared_;    // one for each motion of each picture
-    std::vector<std::shared_ptr<SpooledPoses>> own_poses_;  // of each picture; none where results bring theirs
-    std::vector<std::vector<std::shared_ptr<SpooledPoses>>> compared_poses_;  // as `compared_`
+    std::vector<Kept> own_poses_;                    // of each picture; none where results bring theirs
+    std::vector<std::vector<Kept>> compared_poses_;  // as `compared_`
 };
 
 // ---- all together ------------------------------------------------------------------------------

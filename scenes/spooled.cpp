@@ -1,5 +1,6 @@
 #include "scenes/spooled.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <vector>
@@ -67,6 +68,12 @@ void SpooledPoses::put(std::size_t frame, const sim::Pose& pose) {
     for (const sim::Vec2 r : pose.centreline) record.push_back(r.x), record.push_back(r.y);
     record.insert(record.end(), pose.moment.begin(), pose.moment.end());
     spool_.write(place(frame), std::as_bytes(std::span(record)));
+}
+
+void SurveyedPoses::put(std::size_t row, const sim::Pose& pose) {
+    if (row == 0) count_ = fixed_;
+    poses_.put(row, pose);
+    count_ = std::max(count_, row + 1);
 }
 
 double SpooledPoses::time(std::size_t frame) const {

@@ -47,4 +47,21 @@ class SpooledPoses final : public render::PoseStore {
     std::size_t frames_, stations_;
 };
 
+// So many poses at fixed instants, and those in contact, as many as come up to a limit.
+class SurveyedPoses final : public render::PoseStore {
+  public:
+    SurveyedPoses(std::size_t fixed, std::size_t contacts, int stations)
+        : poses_(fixed + contacts, stations), fixed_(fixed), count_(fixed) {}
+
+    // By sim::PoseRequest; row 0 begins anew.
+    void put(std::size_t row, const sim::Pose& pose);
+    std::size_t size() const override { return count_; }
+    double time(std::size_t k) const override { return poses_.time(k); }
+    sim::Pose pose(std::size_t k) const override { return poses_.pose(k); }
+
+  private:
+    SpooledPoses poses_;
+    std::size_t fixed_, count_;
+};
+
 }  // namespace beamcam::scenes

@@ -21,6 +21,8 @@ constexpr std::size_t kMostPeaks = 4;
 constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
 constexpr double kNoHigher = 1e-9;  // … by this share
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
+constexpr int kContactSteps = 4;
 
 // Calls offer(t, f(t)) at the maxima of f between samples values[i] = f(time(i)), i = 0…count, that could
 // exceed `best`. A parabola rises above its highest sample by at most an eighth of the second difference;
@@ -287,6 +289,7 @@ Recorder::Recorder(const System& system, const Request& request, double end)
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ordered(poses.times));
+        contact_poses_.push_back(0);
         result_.poses.emplace_back(poses.take ? 0 : poses.times.size());
     }
     for (const PointRequest& points : request.points) {
@@ -356,6 +359,31 @@ void Recorder::sample(const Stretch& s) {
             result_.points[i][row] = p.r;
         });
     }
+}
+
+// In the middle of the whole step, which is the same wherever the run ends.
+void Recorder::contact_poses(const Stretch& s) {
+    if (!impact_open_ || contact_steps_ == kContactSteps) return;
+    const std::array instants{contact_steps_ == 0 ? s.from : kNan, 0.5 * (s.segment->t0 + s.segment->t1)};
+    ++contact_steps_;
+    for (std::size_t i = 0; i < request_.poses.size(); ++i) {
+        const PoseRequest& poses = request_.poses[i];
+        if (poses.times.empty()) continue;
+        const double from = poses.times[pose_cursors_[i].order.front()],
+                     to = poses.times[pose_cursors_[i].order.back()];
+        for (const double t : instants) {
+            if (!(t >= std::max(s.from, from) && t <= std::min(s.to, to)) || contact_poses_[i] == poses.contacts) continue;
+            s.segment->value(t, y_.data());
+            eye_.look(t, y_.data());
+            eye_.system().search_again();
+            if (poses.take)
+                poses.take(poses.times.size() + contact_poses_[i], eye_.pose(poses.stations));
+            else
+                result_.poses[i].push_back(eye_.pose(poses.stations));
+            ++contact_poses_[i];
+        }
+    }
+    eye_.system().search_again();
 }
 
 // For how many pieces from here on neither the hub's angle nor its rate can change sign: the frame is too far from that
@@ -498,6 +526,7 @@ void Recorder::stretch(const Stretch& s, Notes* made) {
     // Each observer starts its search of the contact afresh, so that none sees what another looked at:
     // the last bits of a foot point depend on where its iteration began.
     sample(s);
+    contact_poses(s);
     if (s.to > s.from) {
         turning_points(s);
         eye_.system().search_again();
@@ -533,6 +562,7 @@ void Recorder::stretch(const Stretch& s, Notes* made) {
 void Recorder::stretch(const Stretch& s, const Notes& known) {
     if (!(s.to > s.from)) return;
     sample(s);
+    contact_poses(s);
     eye_.system().search_again();
     extrema(s);
     eye_.system().search_again();
@@ -555,6 +585,7 @@ void Recorder::stretch(const Stretch& s, const Notes& known) {
 void Recorder::touch(double t, const double* y, const ContactState& c) {
     const double* ledger = y + eye_.system().controlled;
     impact_open_ = true;
+    contact_steps_ = 0;
     books_at_touch_lost_ = ledger[kNormalWork] + ledger[kFrictionWork];
     impulse_n_at_touch_ = ledger[kImpulseN];
     impulse_t_at_touch_ = ledger[kImpulseT];

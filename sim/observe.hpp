@@ -90,6 +90,7 @@ class Recorder {
     static int quiet_pieces(const Turn& hub, const Stretch& s, double piece);
     void turning_points(const Stretch& s);
     void contact_peaks(const Stretch& s);
+    void contact_poses(const Stretch& s);
     void extrema(const Stretch& s);
     void ledger();
     void settle(const double* y);
@@ -104,6 +105,8 @@ class Recorder {
     std::vector<double> y_;
     std::vector<long> vain_;  // peaks looked into that were no extremes, of each channel's maximum and minimum
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
+    std::vector<std::size_t> contact_poses_;  // of each pose request: how many there are
+    int contact_steps_ = 0;                   // of the open impact, looked into for poses
     double end_ = 0, start_total_ = 0, largest_elastic_ = 0;
     bool impact_open_ = false;
     double books_at_touch_lost_ = 0, impulse_n_at_touch_ = 0, impulse_t_at_touch_ = 0;

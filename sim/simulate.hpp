@@ -78,6 +78,9 @@ struct PoseRequest {
     // Takes each pose, by the row of its time, as soon as it is known: then Result::poses keeps none. A row may be told
     // again, and not all are told when the run fails.
     std::function<void(std::size_t row, const Pose& pose)> take{};
+    // Also so many poses in contact, between the first and the last of the times: at each touch and within the steps that
+    // follow it. Their rows go on from those of the times, and begin anew when those do.
+    std::size_t contacts = 0;
 };
 // The path of a material point of the centre line.
 struct PointRequest {
@@ -97,7 +100,7 @@ struct Request {
 struct Result {
     double end_time = 0;                    // reached [s]
     std::vector<Table> tables;              // one per TableRequest
-    std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times
+    std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times, then those in contact
     std::vector<std::vector<Vec2>> points;  // one per PointRequest [m]
     std::vector<Impact> impacts;
     std::vector<Collision> collisions;

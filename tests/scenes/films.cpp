@@ -232,6 +232,36 @@ TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
     }
 }
 
+// ---- what scales are chosen by ---------------------------------------------------------------
+
+TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
+    const auto surveyed = [](const std::string& output) {
+        const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [)" + output + "]}");
+        const Plan made = plan(*reading.scene);
+        return made.simulation->request.poses.at(made.pictures.front().survey).times;
+    };
+    const auto thirty = surveyed(R"({"type": "video", "fps": 30, "from": 0.2, "to": 0.4})"),
+               sixty = surveyed(R"({"type": "video", "fps": 60, "from": 0.2, "to": 0.4})");
+    EXPECT_EQ(thirty, sixty);
+    EXPECT_EQ(thirty.front(), 0.2);
+    EXPECT_EQ(thirty.back(), 0.4);
+    EXPECT_EQ(surveyed(R"({"type": "still", "at": 0.3})").back(), 0.3);
+}
+
+// A picture of an impact has the factor of the film: "deflection ×5", not what the beam's bend in free fall would bear.
+TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
+        {"type": "video", "fps": 30}]})");
+    Plan made = plan(*reading.scene);
+    settle(made, *reading.scene, [](const sim::Problem& problem, double until) {
+        sim::Request request;
+        request.end_time = until;
+        return sim::simulate(problem, request);
+    });
+    const auto& poses = made.simulation->request.poses;
+    EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
+}
+
 // ---- what finds no room ------------------------------------------------------------------------
 
 TEST(Films, PanelsThatFindNoRoomAreTold) {

@@ -87,6 +87,17 @@ TEST(SpooledPoses, OtherStationsHaveNoPlace) {
     EXPECT_NO_THROW(poses.put(1, pose));
 }
 
+TEST(SpooledPoses, ASurveyBegunAnewForgetsItsContacts) {
+    SurveyedPoses poses(1, 2, 5);
+    sim::Pose pose;
+    pose.centreline.resize(5), pose.moment.resize(5);
+    for (std::size_t row : {0, 1, 2}) poses.put(row, pose);
+    EXPECT_EQ(poses.size(), 3U);
+    EXPECT_THROW(poses.put(3, pose), std::invalid_argument);
+    poses.put(0, pose);
+    EXPECT_EQ(poses.size(), 1U);
+}
+
 TEST(SpooledPoses, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
     const sim::Problem problem;
     const Both both = run(problem, 150, 0.6);

@@ -592,6 +592,30 @@ TEST_P(EveryMethod, AShorterRunIsAPrefixOfALongerOne) {
     EXPECT_EQ(simulate(p, request).tables[0].values[0], early);
 }
 
+TEST_P(EveryMethod, PosesInContactAreTheSameWhereverTheRunEnds) {
+    Problem p;
+    p.solver.method = GetParam();
+    PoseRequest wanted;
+    wanted.times = {0.27, 0.281};
+    wanted.stations = 5;
+    wanted.contacts = 12;
+    Request request;
+    request.poses = {wanted};
+    const std::vector<Pose> early = simulate(p, request).poses[0];
+    request.end_time = 0.8;
+    const std::vector<Pose> late = simulate(p, request).poses[0];
+    ASSERT_GT(early.size(), 5U);
+    ASSERT_LE(early.size(), 14U);
+    ASSERT_EQ(early.size(), late.size());
+    for (std::size_t k = 0; k < early.size(); ++k) {
+        EXPECT_EQ(early[k].t, late[k].t);
+        EXPECT_EQ(early[k].theta, late[k].theta);
+        EXPECT_EQ(early[k].nearest->force, late[k].nearest->force);
+        EXPECT_EQ(early[k].nearest->touching, k >= 2 || early[k].nearest->force > 0);
+        EXPECT_TRUE(early[k].t >= 0.27 && early[k].t <= 0.281);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, EveryMethod, ::testing::Values(Method::automatic, Method::cvode_adams, Method::cvode_bdf),
                          [](const auto& method) { return label(name(method.param)); });
 
