@@ -19,10 +19,10 @@ struct BitWord {
 
 class BitWriter {
   public:
-    // The word of each token.
-    void put(std::span<const std::uint16_t> tokens, std::span<const BitWord> words) {
+    // The word of each token, `bits` in all.
+    void put(std::span<const std::uint16_t> tokens, std::span<const BitWord> words, std::size_t bits) {
         static_assert(std::endian::native == std::endian::little, "words are stored whole, lowest byte first");
-        bytes_.resize(size_ + (tokens.size() + 1) * sizeof begun_);
+        bytes_.resize(size_ + bits / 8 + 2 * sizeof begun_);
         char* to = bytes_.data() + size_;
         std::uint64_t begun = begun_;  // copies: for all that compilers know, `to` points to the members
         unsigned count = begun_count_;
@@ -43,7 +43,7 @@ class BitWriter {
     void put(std::uint64_t bits, unsigned count) {
         const std::uint16_t token = 0;
         const BitWord word{bits, count};
-        put({&token, 1}, {&word, 1});
+        put({&token, 1}, {&word, 1}, count);
     }
 
     // Fills the byte begun with zeros.

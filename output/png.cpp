@@ -4,6 +4,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -26,6 +27,8 @@ constexpr std::uint8_t kFilterUp = 2;  // each byte less the one above it
 using Pixels = std::span<const std::uint32_t>;
 constexpr std::size_t kLongestChunk = 0x7fffffff;
 constexpr std::size_t kStretch = 32;  // pixels that are compared with those above at once
+static_assert(render::Tiles::kWidth % kStretch == 0, "a stretch lies in one tile");
+constexpr std::size_t kGap = 8;       // pixels as above that are not worth an interruption
 constexpr double kMetresPerInch = 0.0254;
 
 void put_u32(std::string& out, std::uint32_t value) {
@@ -73,15 +76,41 @@ std::string international_text(const std::string& keyword, const std::string& te
     return data + text;
 }
 
-// The bytes of pixels less those of the pixels above: of opaque ones R, G, B, and one byte behind the last pixel is
-// spoilt.
-void rgb_less_above(Pixels now, Pixels above, std::uint8_t* out) {
-    constexpr std::uint32_t kHigh = 0x80808080;  // the bits that must not borrow from the next byte
-    for (std::size_t x = 0; x < now.size(); ++x, out += 3) {
-        const std::uint32_t less = ((now[x] | kHigh) - (above[x] & ~kHigh)) ^ ((now[x] ^ ~above[x]) & kHigh);
-        const std::uint32_t bytes = (less >> 16 & 0xff) | (less & 0xff00) | (less & 0xff) << 16;
+// Two pixels, the first in the lower half.
+std::uint64_t two_pixels(const std::uint32_t* from) {
+    std::uint64_t both;
+    std::memcpy(&both, from, sizeof both);
+    return both;
+}
+
+// Each byte less the other's, modulo 256.
+std::uint64_t less(std::uint64_t now, std::uint64_t above) {
+    constexpr std::uint64_t kHigh = 0x8080808080808080;  // the bits that must not borrow from the next byte
+    return ((now | kHigh) - (above & ~kHigh)) ^ ((now ^ ~above) & kHigh);
+}
+
+// R, G, B from the lowest byte upwards.
+std::uint64_t rgb(std::uint64_t pixel) { return __builtin_bswap32(static_cast<std::uint32_t>(pixel)) >> 8; }
+
+// The bytes of pixels less those of the pixels above: of opaque ones R, G, B, with room for 8 bytes behind. False if
+// some are not opaque.
+bool rgb_less_above(Pixels now, Pixels above, std::uint8_t* out) {
+    static_assert(std::endian::native == std::endian::little, "pixels are taken two at once, in memory order");
+    constexpr std::uint64_t kOpaque = 0xff000000'ff000000;
+    std::uint64_t all = kOpaque;
+    std::size_t x = 0;
+    for (; x + 2 <= now.size(); x += 2, out += 6) {
+        const std::uint64_t both = two_pixels(&now[x]), difference = less(both, two_pixels(&above[x]));
+        const std::uint64_t bytes = rgb(difference) | rgb(difference >> 32) << 24;
         std::memcpy(out, &bytes, sizeof bytes);
+        all &= both;
     }
+    if (x < now.size()) {
+        const std::uint64_t bytes = rgb(less(now[x], above[x]));
+        std::memcpy(out, &bytes, sizeof bytes);
+        all &= now[x] | kOpaque << 32;
+    }
+    return (all & kOpaque) == kOpaque;
 }
 
 // The same of any pixels: R, G, B, A.
@@ -92,34 +121,48 @@ void rgba_less_above(Pixels now, Pixels above, std::uint8_t* out) {
     for (std::size_t i = 0; i < 4 * now.size(); ++i) out[i] = static_cast<std::uint8_t>(out[i] - other[i]);
 }
 
+// Where the next pixel is that is not as above; the width if there is none.
+std::size_t next_other(Pixels now, Pixels above, std::span<const std::uint8_t> others, std::size_t x) {
+    while (x < now.size()) {
+        const auto stretch = std::find(others.begin() + static_cast<std::ptrdiff_t>(x / kStretch), others.end(), 1);
+        const auto from = static_cast<std::size_t>(stretch - others.begin()) * kStretch;
+        x = std::max(x, from);
+        for (const std::size_t end = std::min(from + kStretch, now.size()); x < end; ++x)
+            if (now[x] != above[x]) return x;
+    }
+    return now.size();
+}
+
+// Where it ends: a few pixels that are as above belong to it.
+std::size_t end_of_others(Pixels now, Pixels above, std::size_t x) {
+    std::size_t same = 0;
+    for (; x < now.size() && same < kGap; ++x) same = now[x] == above[x] ? same + 1 : 0;
+    return x - same;
+}
+
 // Tells `rows` every row behind its filter byte, each byte less the one above it; above the first row stand zeros. What
 // is as above is not computed. False, early, if pixels said to be `opaque` are not: those as above are like them.
 template <class Rows>
-bool put_filtered(const render::Image& image, bool opaque, Rows& rows) {
+bool put_filtered(const render::Image& image, const PngSequence::Others& others, bool opaque, Rows& rows) {
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t pixel = opaque ? 3 : 4;  // [byte]
     const std::vector<std::uint32_t> nothing(width, opaque ? 0xff000000 : 0);
-    std::vector<std::uint8_t> less(pixel * width + 1);
+    std::vector<std::uint8_t> difference(pixel * width + 8);
     Pixels above = nothing;
     for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
         const Pixels now(image.pixels.data() + y * width, width);
-        const auto end_of = [&](std::size_t x, bool same) {
-            while (x < width) {
-                const std::size_t next = std::min(x + kStretch, width);
-                if (std::equal(now.data() + x, now.data() + next, above.data() + x) != same) break;
-                x = next;
-            }
-            return x;
-        };
         rows.bytes({&kFilterUp, 1});
         for (std::size_t x = 0; x < width;) {
-            const std::size_t from = end_of(x, true);
+            const std::size_t from = next_other(now, above, others.row(y), x);
             rows.zeros(pixel * (from - x));
-            x = end_of(from, false);
+            x = end_of_others(now, above, from);
             const Pixels here = now.subspan(from, x - from), there = above.subspan(from, x - from);
-            if (opaque && !is_opaque(here)) return false;
-            (opaque ? rgb_less_above : rgba_less_above)(here, there, less.data());
-            rows.bytes({less.data(), pixel * here.size()});
+            if (opaque) {
+                if (!rgb_less_above(here, there, difference.data())) return false;
+            } else {
+                rgba_less_above(here, there, difference.data());
+            }
+            rows.bytes({difference.data(), pixel * here.size()});
         }
         above = now;
     }
@@ -152,21 +195,17 @@ struct Compressed {
 };
 
 template <class Deflate>
-Compressed compressed(const render::Image& image) {
+Compressed compressed(const render::Image& image, const PngSequence::Others& others) {
     Deflate rgb(3);
-    if (put_filtered(image, true, rgb)) return {true, std::move(rgb).finish()};
+    if (put_filtered(image, others, true, rgb)) return {true, std::move(rgb).finish()};
     Deflate rgba(4);
-    put_filtered(image, false, rgba);
+    put_filtered(image, others, false, rgba);
     return {false, std::move(rgba).finish()};
 }
 
-}  // namespace
-
-std::string encode_png(const render::Image& image, const PngOptions& options) {
-    if (image.width <= 0 || image.height <= 0) throw std::logic_error("encode_png: an empty image");
-    const auto [opaque, data] =
-        options.compression == PngCompression::small ? compressed<WholeDeflate>(image) : compressed<RunDeflate>(image);
-
+std::string png_file(const render::Image& image, const PngSequence::Others& others, const PngOptions& options) {
+    const auto [opaque, data] = options.compression == PngCompression::small ? compressed<WholeDeflate>(image, others)
+                                                                             : compressed<RunDeflate>(image, others);
     std::string file = "\x89PNG\r\n\x1a\n";
     put_chunk(file, "IHDR", header(image, opaque));
     put_chunk(file, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
@@ -175,6 +214,51 @@ std::string encode_png(const render::Image& image, const PngOptions& options) {
     put_chunk(file, "IDAT", data);
     put_chunk(file, "IEND", {});
     return file;
+}
+
+}  // namespace
+
+// ---- what pictures of a sequence share ---------------------------------------------------------
+
+PngSequence::Others::Others(int width, int height)
+    : columns_((static_cast<std::size_t>(width) + kStretch - 1) / kStretch),
+      stretches_(columns_ * static_cast<std::size_t>(height), 1) {}
+
+std::span<const std::uint8_t> PngSequence::Others::row(std::size_t y) const {
+    return {stretches_.data() + y * columns_, columns_};
+}
+
+// The row below a tile is compared with the tile's last.
+void PngSequence::Others::compare(const render::Image& image, const render::Tiles& changed) {
+    const auto width = static_cast<std::size_t>(image.width);
+    changed.for_each_run([&](int left, int top, int right, int bottom) {
+        const auto end = static_cast<std::size_t>(right);
+        for (int row = std::max(top, 1); row <= std::min(bottom, image.height - 1); ++row) {
+            const auto y = static_cast<std::size_t>(row);
+            const std::uint32_t *now = image.pixels.data() + y * width, *above = now - width;
+            for (auto x = static_cast<std::size_t>(left); x < end; x += kStretch)
+                stretches_[y * columns_ + x / kStretch] =
+                    std::memcmp(now + x, above + x, std::min(kStretch, end - x) * sizeof *now) != 0;
+        }
+    });
+}
+
+PngSequence::PngSequence(PngOptions options) : options_(std::move(options)) {}
+
+const std::string& PngSequence::encode(const render::Image& image, const render::Tiles& changed) {
+    if (image.width <= 0 || image.height <= 0) throw std::logic_error("encode_png: an empty image");
+    if (file_.empty())
+        others_ = Others(image.width, image.height);
+    else if (!changed.any())
+        return file_;
+    others_.compare(image, changed);
+    return file_ = png_file(image, others_, options_);
+}
+
+std::string encode_png(const render::Image& image, const PngOptions& options) {
+    render::Tiles all(image.width, image.height);
+    all.add_all();
+    return PngSequence(options).encode(image, all);
 }
 
 void write_png(const std::filesystem::path& file, const render::Image& image, const PngOptions& options,

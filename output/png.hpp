@@ -2,13 +2,18 @@
 // One filter ("up") and two ways to compress; with either the same picture gives the same bytes.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "output/atomic_file.hpp"
 #include "render/image.hpp"
+#include "render/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -25,6 +30,35 @@ struct PngOptions {
 
 // The file's bytes. Throws UnsupportedOption for impossible options, std::logic_error for an empty image.
 std::string encode_png(const render::Image& image, const PngOptions& options = {});
+
+// Pictures of one size and with the same options, one after the other: only what changed is looked at for repetition.
+// The bytes are those of encode_png.
+class PngSequence {
+  public:
+    explicit PngSequence(PngOptions options);
+
+    // `changed`: where the picture may differ from the one before; all of the first. The file's bytes stay until the
+    // next is encoded. Throws as encode_png.
+    const std::string& encode(const render::Image& image, const render::Tiles& changed);
+
+    // The stretches of a row in which a pixel may differ from the one above it.
+    class Others {
+      public:
+        Others() = default;
+        Others(int width, int height);
+        void compare(const render::Image& image, const render::Tiles& changed);
+        std::span<const std::uint8_t> row(std::size_t y) const;  // 0 or 1 for each stretch
+
+      private:
+        std::size_t columns_ = 0;
+        std::vector<std::uint8_t> stretches_;
+    };
+
+  private:
+    PngOptions options_;
+    Others others_;
+    std::string file_;
+};
 
 // Throws IoError as well. Frames of a sequence need not be synced one by one.
 void write_png(const std::filesystem::path& file, const render::Image& image, const PngOptions& options = {},

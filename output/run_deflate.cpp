@@ -19,7 +19,8 @@ namespace {
 // Tokens: the 256 literals, then runs of 3 … 258 equal bytes, then those of equal pixels.
 constexpr std::size_t kLiterals = 256, kLengths = 256, kTokens = kLiterals + 2 * kLengths;
 constexpr std::size_t kShortestRun = 3, kLongestRun = 258;  // 3.2.5
-constexpr std::size_t kBlock = 32768;  // [token]: fits the cache, and headers are below a percent of it
+constexpr std::size_t kBlock = 65536;  // [token]: fits the cache, and headers are below a percent of it
+constexpr std::size_t kLongestPixel = 4;  // [byte]
 constexpr std::size_t kEndOfBlock = 256, kSymbols = 286;
 constexpr int kLongestWord = 15, kLongestPieceWord = 7;  // [bit]
 constexpr std::uint32_t kAdlerModulus = 65521;           // RFC 1950, section 9
@@ -42,6 +43,11 @@ std::size_t equal_bytes(const std::uint8_t* a, const std::uint8_t* b, std::size_
     }
     while (i < size && a[i] == b[i]) ++i;
     return i;
+}
+
+// Whether at least the shortest run's bytes are equal.
+bool begins_run(const std::uint8_t* a, const std::uint8_t* b, std::size_t size) {
+    return size >= kShortestRun && a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
 // A run's length as symbol and further bits (3.2.5).
@@ -145,7 +151,7 @@ void put_header(BitWriter& out, bool last, std::vector<std::uint8_t> lengths,
 }  // namespace
 
 RunDeflate::RunDeflate(std::size_t pixel) : pixel_(pixel), tokens_(kBlock) {
-    if (pixel < 2 || pixel > 4) throw std::logic_error("RunDeflate: a pixel has 2 to 4 bytes");
+    if (pixel < 2 || pixel > kLongestPixel) throw std::logic_error("RunDeflate: a pixel has 2 to 4 bytes");
     out_.put(0x0178, 16);  // RFC 1950: deflate, a window of 32 KiB, the fastest level
 }
 
@@ -183,14 +189,16 @@ void RunDeflate::put_bytes(std::span<const std::uint8_t> data) {
     for (std::size_t i = 0; i < data.size();) {
         const std::uint8_t* now = data.data() + i;
         const std::size_t rest = data.size() - i;
-        if (const std::size_t run = i < pixel_ ? 0 : equal_bytes(now - pixel_, now, rest); run >= kShortestRun) {
-            i += put_run(run, kPixelDistance);
-        } else if (const std::size_t same = equal_bytes(now, now + 1, rest - 1); same >= kShortestRun) {
+        if (held_ + kLongestPixel > kBlock) end_block(false);
+        if (i >= pixel_ && begins_run(now - pixel_, now, rest)) {
+            i += put_run(equal_bytes(now - pixel_, now, rest), kPixelDistance);
+        } else if (begins_run(now, now + 1, rest - 1)) {
             put(*now);
-            i += 1 + put_run(same, kByteDistance);
+            i += 1 + put_run(equal_bytes(now, now + 1, rest - 1), kByteDistance);
         } else {
             const std::size_t literals = std::min(pixel_, rest);
-            for (std::size_t k = 0; k < literals; ++k) put(now[k]);
+            for (std::size_t k = 0; k < literals; ++k) tokens_[held_ + k] = now[k];
+            held_ += literals;
             i += literals;
         }
     }
@@ -204,8 +212,8 @@ void RunDeflate::put_zeros() {
 }
 
 void RunDeflate::put(std::size_t token) {
-    tokens_[held_++] = static_cast<std::uint16_t>(token);
     if (held_ == kBlock) end_block(false);
+    tokens_[held_++] = static_cast<std::uint16_t>(token);
 }
 
 // Puts as much of a run as whole tokens can hold, and returns that length: one or two bytes may be left.
@@ -231,7 +239,10 @@ void RunDeflate::end_block(bool last) {
     const HuffmanCode code = huffman_code(weights, kLongestWord);
 
     put_header(out_, last, code.lengths, distance_lengths(pixel_));
-    out_.put(tokens, token_words(code));
+    const std::vector<BitWord> words = token_words(code);
+    std::size_t bits = 0;
+    for (std::size_t token = 0; token < kTokens; ++token) bits += std::size_t{counts[token]} * words[token].count;
+    out_.put(tokens, words, bits);
     out_.put(code.words[kEndOfBlock], code.lengths[kEndOfBlock]);
     held_ = 0;
 }

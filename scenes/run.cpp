@@ -585,7 +585,7 @@ class Runner {
         const std::map<std::string, std::string> meta =
             video && !poster ? std::map<std::string, std::string>() : metadata(p);
 
-        auto put = [&](long k, const render::Image& image) {
+        auto put = [&](long k, const render::Image& image, const render::Tiles& changed, output::PngSequence& frames) {
             if (capture_) {
                 capture_->picture(p, k, image);
                 const std::lock_guard lock(mutex);
@@ -599,8 +599,7 @@ class Runner {
             if (p.kind == Pictures::Kind::still)
                 output::write_png(file, image, {std::nullopt, meta});
             else
-                output::write_png(file, image, {std::nullopt, meta, output::PngCompression::quick},
-                                  output::Durability::buffered);
+                output::write_file(file, frames.encode(image, changed), output::Durability::buffered);
             const std::lock_guard lock(mutex);
             times_.write += seconds_since(start);
             if (p.kind == Pictures::Kind::frames) record(file, inputs_of(p));
@@ -609,7 +608,9 @@ class Runner {
         auto make_worker = [&]() -> Worker {
             auto own = std::make_shared<render::Film>(film.another());
             auto input = video ? std::make_shared<output::VideoInput>(*video) : nullptr;
-            return [&, own, input](long k) {
+            auto frames = std::make_shared<output::PngSequence>(
+                output::PngOptions{std::nullopt, meta, output::PngCompression::quick});
+            return [&, own, input, frames](long k) {
                 stop_if_interrupted();
                 if (video && repeats(p, k, *own)) {
                     gate.pass(k, [&] {
@@ -627,7 +628,7 @@ class Runner {
                     times_.draw += spent;
                     ++work_.frames_drawn;
                 }
-                if (!video) return put(k, image);
+                if (!video) return put(k, image, own->changed(), *frames);
                 if (poster && p.draw[static_cast<std::size_t>(k)] == *p.poster)
                     output::write_png(path_of(p.poster_file), image, {std::nullopt, meta});
                 input->convert(image, own->changed());

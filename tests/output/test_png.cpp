@@ -86,6 +86,39 @@ TEST(Png, DecodesToTheSamePixelsWhereverOneIsNotOpaque) {
         }
 }
 
+// However a picture came about, its bytes are those of the picture alone: tiles that changed and rows below them, none,
+// all, and more tiles told than changed.
+TEST(Png, SequencesGiveTheBytesOfEachPictureAlone) {
+    for (auto [width, height] : {std::pair{200, 70}, {33, 17}, {1, 1}, {64, 32}})
+        for (bool opaque : {true, false})
+            for (PngCompression compression : kCompressions) {
+                const PngOptions options{{}, {{"Title", "one of many"}}, compression};
+                PngSequence sequence(options);
+                render::Image image = pattern(width, height, opaque);
+                for (std::size_t i = 0; i < image.pixels.size(); ++i)
+                    if (i / 3 % 5 != 0) image.pixels[i] = 0xfff4f1eaU;
+                render::Tiles changed(width, height);
+                changed.add_all();
+                EXPECT_EQ(sequence.encode(image, changed), encode_png(image, options));
+                std::uint32_t state = 7;
+                const auto any = [&](int below) {
+                    return static_cast<int>((state = state * 1664525U + 1013904223U) >> 8) % below;
+                };
+                for (int round = 0; round < 60; ++round) {
+                    changed.clear();
+                    for (int spot = any(4); spot > 0; --spot) {
+                        const int x = any(width), y = any(height), right = std::min(width, x + 1 + any(40)),
+                                  bottom = std::min(height, y + 1 + any(20));
+                        const std::uint32_t ink = any(2) ? 0xfff4f1eaU : 0xff000000U | static_cast<std::uint32_t>(any(1 << 24));
+                        for (int row = y; row < bottom; ++row)
+                            std::fill_n(image.pixels.begin() + row * width + x, right - x, ink);
+                        changed.add({double(x), double(y), right - x - 0.5, bottom - y - 0.5});
+                    }
+                    ASSERT_EQ(sequence.encode(image, changed), encode_png(image, options)) << width << ' ' << round;
+                }
+            }
+}
+
 TEST(Png, DrawingsAreSmallInSequencesToo) {
     render::Image image(1280, 720);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {  // a slanted bar with soft edges

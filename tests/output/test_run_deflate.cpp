@@ -70,11 +70,11 @@ TEST(RunDeflate, InflatesToTheSameForEveryLengthOfRuns) {
             }
 }
 
-// Blocks have 32768 tokens; these data are literals alone.
+// Blocks have 65536 tokens; these data are literals alone.
 TEST(RunDeflate, InflatesToTheSameWhereverBlocksEnd) {
     Bytes data(3 * 65536 + 5);
     for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i * 37 + i / 256);
-    for (std::size_t size : {32767, 32768, 32769, 65535, 65536, 65537, 196608, 196613})
+    for (std::size_t size : {65531, 65532, 65533, 65534, 65535, 65536, 65537, 131071, 131072, 131073, 196608, 196613})
         expect_same({data.begin(), data.begin() + static_cast<std::ptrdiff_t>(size)}, 3, std::to_string(size));
 }
 
