@@ -26,9 +26,8 @@ constexpr int kCompressionLevel = 6;   // of libdeflate; higher ones take twice 
 constexpr std::uint8_t kFilterUp = 2;  // each byte less the one above it
 using Pixels = std::span<const std::uint32_t>;
 constexpr std::size_t kLongestChunk = 0x7fffffff;
-constexpr std::size_t kStretch = 32;  // pixels that are compared with those above at once
+constexpr std::size_t kStretch = 8;    // pixels that are compared with those above at once
 static_assert(render::Tiles::kWidth % kStretch == 0, "a stretch lies in one tile");
-constexpr std::size_t kGap = 8;       // pixels as above that are not worth an interruption
 constexpr double kMetresPerInch = 0.0254;
 
 void put_u32(std::string& out, std::uint32_t value) {
@@ -121,23 +120,26 @@ void rgba_less_above(Pixels now, Pixels above, std::uint8_t* out) {
     for (std::size_t i = 0; i < 4 * now.size(); ++i) out[i] = static_cast<std::uint8_t>(out[i] - other[i]);
 }
 
-// Where the next pixel is that is not as above; the width if there is none.
-std::size_t next_other(Pixels now, Pixels above, std::span<const std::uint8_t> others, std::size_t x) {
-    while (x < now.size()) {
-        const auto stretch = std::find(others.begin() + static_cast<std::ptrdiff_t>(x / kStretch), others.end(), 1);
-        const auto from = static_cast<std::size_t>(stretch - others.begin()) * kStretch;
-        x = std::max(x, from);
-        for (const std::size_t end = std::min(from + kStretch, now.size()); x < end; ++x)
-            if (now[x] != above[x]) return x;
-    }
-    return now.size();
+// Without a way out in between, which compilers turn into wide words.
+bool stretch_differs(const std::uint32_t* now, const std::uint32_t* above) {
+    std::uint32_t others = 0;
+    for (std::size_t i = 0; i < kStretch; ++i) others |= now[i] ^ above[i];
+    return others != 0;
 }
 
-// Where it ends: a few pixels that are as above belong to it.
-std::size_t end_of_others(Pixels now, Pixels above, std::size_t x) {
-    std::size_t same = 0;
-    for (; x < now.size() && same < kGap; ++x) same = now[x] == above[x] ? same + 1 : 0;
-    return x - same;
+// Pixels from … to, none from the width on.
+struct Stretch {
+    std::size_t from, to;
+};
+
+// From `x` on, the next that may not be as above, neighbouring stretches together.
+Stretch next_others(std::span<const std::uint8_t> others, std::size_t x, std::size_t width) {
+    const auto find = [&](std::size_t at, int value) {
+        const void* found = std::memchr(others.data() + at, value, others.size() - at);
+        return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - others.data()) : others.size();
+    };
+    const std::size_t first = find(x / kStretch, 1);
+    return {std::min(first * kStretch, width), std::min(find(first, 0) * kStretch, width)};
 }
 
 // Tells `rows` every row behind its filter byte, each byte less the one above it; above the first row stand zeros. What
@@ -153,10 +155,10 @@ bool put_filtered(const render::Image& image, const PngSequence::Others& others,
         const Pixels now(image.pixels.data() + y * width, width);
         rows.bytes({&kFilterUp, 1});
         for (std::size_t x = 0; x < width;) {
-            const std::size_t from = next_other(now, above, others.row(y), x);
+            const auto [from, to] = next_others(others.row(y), x, width);
             rows.zeros(pixel * (from - x));
-            x = end_of_others(now, above, from);
-            const Pixels here = now.subspan(from, x - from), there = above.subspan(from, x - from);
+            const Pixels here = now.subspan(from, to - from), there = above.subspan(from, to - from);
+            x = to;
             if (opaque) {
                 if (!rgb_less_above(here, there, difference.data())) return false;
             } else {
@@ -238,7 +240,8 @@ void PngSequence::Others::compare(const render::Image& image, const render::Tile
             const std::uint32_t *now = image.pixels.data() + y * width, *above = now - width;
             for (auto x = static_cast<std::size_t>(left); x < end; x += kStretch)
                 stretches_[y * columns_ + x / kStretch] =
-                    std::memcmp(now + x, above + x, std::min(kStretch, end - x) * sizeof *now) != 0;
+                    x + kStretch <= end ? stretch_differs(now + x, above + x)
+                                        : !std::equal(now + x, now + end, above + x);
         }
     });
 }

@@ -151,8 +151,7 @@ void Brush::fill(Color c) {
 void Brush::fill_keeping_path(Color c) {
     // Cairo paints what is translucent inside faster than a stencil would.
     const bool kept = !key_.empty() && c.a == 1;
-    const bool winding = cairo_get_fill_rule(cr_) == CAIRO_FILL_RULE_WINDING;
-    ink(c, kept ? key_ + (winding ? 'w' : 'e') : "", path_box().inset(-2), cairo_fill_preserve);
+    ink(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
     touch_path(0, true);
 }
 void Brush::new_path() {

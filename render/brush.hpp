@@ -61,10 +61,9 @@ class Brush {
     void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
     // Paints the path, or the stencil called `name` that it made.
     void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
-    bool keeps_stencils() const { return stencils && touched && !limit_ && smooth_; }
+    bool keeps_stencils() const { return stencils && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     const Box* limit_ = nullptr;  // nothing is painted beyond
-    bool smooth_ = true;          // edges
 
   private:
     void pass_line(Vec2 from, Vec2 to);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "render/error.hpp"
@@ -133,11 +134,6 @@ void Canvas::rounded(const Box& b, double r) {
     pass(b);
 }
 
-void Canvas::fill_even_odd(Color c) {
-    cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_EVEN_ODD);
-    fill(c);
-    cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
-}
 void Canvas::paint(Color c) {
     use(c);
     cairo_paint(cr_);
@@ -200,9 +196,13 @@ void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
     cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
 }
 
-void Canvas::smooth_edges(bool on) {
-    smooth_ = on;
-    cairo_set_antialias(cr_, on ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+void Canvas::paint_pixels(const std::function<void(const PixelView&, Tiles*)>& paint) {
+    if (limit_) throw std::logic_error("Canvas::paint_pixels: clips are not kept to");
+    cairo_surface_t* surface = cairo_get_target(cr_);
+    cairo_surface_flush(surface);
+    auto* pixels = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface));
+    paint({pixels, image_.width, image_.height, image_.width}, touched);
+    cairo_surface_mark_dirty(surface);
 }
 
 void Canvas::clip(const Box& b, const std::function<void()>& draw) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/area.hpp"
 #include "render/brush.hpp"
 #include "render/color.hpp"
 #include "render/fonts.hpp"
@@ -41,7 +42,6 @@ class Canvas : public Brush {
     ~Canvas();
 
     void rounded(const Box& box, double radius);
-    void fill_even_odd(Color color);
     void paint(Color color);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
 
@@ -52,7 +52,8 @@ class Canvas : public Brush {
     void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
-    void smooth_edges(bool on);
+    // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
+    void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
     // What `draw` draws shows within the box only.
     void clip(const Box& box, const std::function<void()>& draw);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/area.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -22,16 +24,27 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     return disc;
 }
 
+// A line of this width inside a circle, or about it by half.
+Area ring(Vec2 centre, double outside, double width) {
+    Area area;
+    area.add_circle(centre, outside);
+    area.cut_circle(centre, outside - width);
+    return area;
+}
+
+// The filling ends under the middle of the lines, so that nothing of it shows at their edges.
 void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
-    canvas.circle(disc.centre, disc.radius);
-    canvas.circle(disc.axis, disc.bore);
-    canvas.fill_even_odd(p.steel);
-    canvas.circle(disc.centre, disc.radius - unit);
-    canvas.stroke({p.steel_edge, 2 * unit});
-    canvas.circle(disc.axis, disc.bore);
-    canvas.stroke({p.steel_edge, 1.6 * unit});
-    canvas.circle(disc.mark, disc.mark_radius);
-    canvas.fill(p.steel_edge);
+    const double rim = 2 * unit, bore = 1.6 * unit;
+    Area body, mark;
+    body.add_circle(disc.centre, disc.radius - rim / 2);
+    body.cut_circle(disc.axis, disc.bore);
+    mark.add_circle(disc.mark, disc.mark_radius);
+    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+        body.paint(picture, p.steel, touched);
+        ring(disc.centre, disc.radius, rim).paint(picture, p.steel_edge, touched);
+        ring(disc.axis, disc.bore + bore / 2, bore).paint(picture, p.steel_edge, touched);
+        mark.paint(picture, p.steel_edge, touched);
+    });
 }
 
 // Into how many parts the colour between two stations is divided: steps of two levels of 255 are no bands to the eye.
@@ -40,38 +53,59 @@ int color_steps(const Color& a, const Color& b) {
     return std::clamp(static_cast<int>(std::ceil(most * 255 / 2)), 1, 64);
 }
 
-// Each piece reaches on into the next station's, so that no seam shows; the outline covers the hard edges.
-void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
+// The section's two edges, root to tip.
+struct Edges {
+    std::vector<Vec2> face, back;  // [px]
+};
+
+// Moved inwards, the ends along the beam, by no more than half way to the next station.
+Edges inset(const MechanismShape& s, double by) {
+    Edges inner{s.face, s.back};
     const std::size_t n = s.face.size();
-    canvas.smooth_edges(false);
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        const int steps = color_steps(s.colors[i], s.colors[i + 1]);
-        const bool last = i + 2 == n;
-        for (int k = 0; k < steps; ++k) {
-            const double from = double(k) / steps;
-            const Vec2 face = s.face[i] * (1 - from) + s.face[i + 1] * from,
-                       back = s.back[i] * (1 - from) + s.back[i + 1] * from;
-            canvas.move_to(face);
-            canvas.line_to(s.face[i + 1]);
-            if (!last) canvas.line_to(s.face[i + 1] + (s.face[i + 2] - s.face[i + 1]) * 0.5);
-            if (!last) canvas.line_to(s.back[i + 1] + (s.back[i + 2] - s.back[i + 1]) * 0.5);
-            canvas.line_to(s.back[i + 1]);
-            canvas.line_to(back);
-            canvas.close();
-            canvas.fill(mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps));
-        }
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 across = s.back[i] - s.face[i], in = across * (by / norm(across));
+        inner.face[i] = inner.face[i] + in;
+        inner.back[i] = inner.back[i] - in;
     }
-    canvas.smooth_edges(true);
-    // Drawn inside the section, so that the face's outer edge is the true one.
-    const auto inner = [&](std::size_t i, bool face) {
-        const Vec2 across = s.back[i] - s.face[i];
-        const Vec2 in = across * (unit / norm(across));
-        return face ? s.face[i] + in : s.back[i] - in;
+    const auto shorten = [&](std::vector<Vec2>& edge, std::size_t end, std::size_t next) {
+        const Vec2 along = edge[next] - edge[end];
+        const double length = norm(along);
+        if (length > 0) edge[end] = edge[end] + along * std::min(by / length, 0.5);
     };
-    for (std::size_t i = 0; i < n; ++i) i == 0 ? canvas.move_to(inner(i, true)) : canvas.line_to(inner(i, true));
-    for (std::size_t i = n; i-- > 0;) canvas.line_to(inner(i, false));
-    canvas.close();
-    canvas.stroke({p.steel_edge, 2 * unit});
+    for (std::vector<Vec2>* edge : {&inner.face, &inner.back}) {
+        shorten(*edge, 0, 1);
+        shorten(*edge, n - 1, n - 2);
+    }
+    return inner;
+}
+
+std::vector<Vec2> around(const Edges& edges) {
+    std::vector<Vec2> corners = edges.face;
+    corners.insert(corners.end(), edges.back.rbegin(), edges.back.rend());
+    return corners;
+}
+
+// The colours end hard, one beside the other, and under the middle of the outline, which lies inside the section: its
+// outer edge is the true one.
+void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
+    const Edges middle = inset(s, unit);
+    Area outline;
+    outline.add(around({s.face, s.back}));
+    outline.cut(around(inset(s, 2 * unit)));
+    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+        for (std::size_t i = 0; i + 1 < s.face.size(); ++i) {
+            const int steps = color_steps(s.colors[i], s.colors[i + 1]);
+            const auto at = [&](const std::vector<Vec2>& edge, int k) {
+                const double way = double(k) / steps;
+                return edge[i] * (1 - way) + edge[i + 1] * way;
+            };
+            for (int k = 0; k < steps; ++k)
+                paint_quadrilateral({at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1),
+                                     at(middle.back, k)},
+                                    picture, mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps), touched);
+        }
+        outline.paint(picture, p.steel_edge, touched);
+    });
 }
 
 void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {

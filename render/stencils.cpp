@@ -7,42 +7,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "render/blend.hpp"
+
 namespace beamcam::render {
-namespace {
-
-constexpr std::uint32_t kPairs = 0x00ff00ff;  // two channels of a pixel, with room above each
-
-// Each channel times b/255. `half`: what is added before the division; Cairo and pixman differ in that.
-std::uint32_t times(std::uint32_t pixel, std::uint32_t b, std::uint32_t half) {
-    const auto two = [&](std::uint32_t pair) {
-        const std::uint32_t t = pair * b + half * 0x00010001U;
-        return ((t + ((t >> 8) & kPairs)) >> 8) & kPairs;
-    };
-    return two(pixel & kPairs) | two(pixel >> 8 & kPairs) << 8;
-}
-
-// Channels that together exceed 255 stay there.
-std::uint32_t sum(std::uint32_t p, std::uint32_t q) {
-    const auto two = [](std::uint32_t a, std::uint32_t b) {
-        std::uint32_t t = a + b;
-        t |= 0x01000100U - ((t >> 8) & kPairs);
-        return t & kPairs;
-    };
-    return two(p & kPairs, q & kPairs) | two(p >> 8 & kPairs, q >> 8 & kPairs) << 8;
-}
-
-// Premultiplied, through 16 bits a channel as Cairo does it.
-std::uint32_t pixel_of(const Color& c) {
-    const auto channel = [](double share) {
-        return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * 65535.0 + 0.5) >> 8;
-    };
-    return channel(c.a) << 24 | channel(c.r * c.a) << 16 | channel(c.g * c.a) << 8 | channel(c.b * c.a);
-}
-
-constexpr std::uint32_t kCairoHalf = 0x7f, kPixmanHalf = 0x80;
-
-}  // namespace
-
 namespace {
 
 constexpr int kProbe = 24;  // [px]
@@ -139,7 +106,6 @@ Stencils::Stencil Stencils::stencil_of(const Box& box, cairo_t* cr, const std::f
     cairo_append_path(own, path);
     cairo_path_destroy(path);
     cairo_set_line_join(own, cairo_get_line_join(cr));
-    cairo_set_fill_rule(own, cairo_get_fill_rule(cr));
     ink(own);
     cairo_destroy(own);
     cairo_surface_finish(surface);
@@ -169,8 +135,7 @@ void Stencils::paint(const Stencil& s, Color color, cairo_t* cr) {
             const std::uint32_t part = cover[x];
             if (part == 0) continue;
             if (opaque) {
-                pixels[x] =
-                    part == 255 ? ink : sum(times(ink, part, kCairoHalf), times(pixels[x], 255 - part, kCairoHalf));
+                pixels[x] = over(ink, part, pixels[x]);
             } else {
                 const std::uint32_t source = times(ink, part, kPixmanHalf);
                 pixels[x] = sum(source, times(pixels[x], 255 - (source >> 24), kPixmanHalf));

@@ -69,6 +69,24 @@ TEST(Png, DecodesToTheSamePixelsWhateverTheyAre) {
             EXPECT_EQ(decoded(encode_png(image, {{}, {}, compression})).rgba, rgba_bytes(image)) << image.width;
 }
 
+// Rows in which what is as above and what is not change places at every distance.
+TEST(Png, DecodesToTheSamePixelsWhereverTheyDifferFromThoseAbove) {
+    std::uint32_t state = 3;
+    const auto any = [&](std::uint32_t below) { return ((state = state * 1664525U + 1013904223U) >> 8) % below; };
+    for (int width : {1, 7, 8, 9, 63, 64, 65, 333}) {
+        render::Image image(width, 120);
+        std::fill(image.pixels.begin(), image.pixels.end(), 0xfff4f1eaU);
+        for (int y = 1; y < image.height; ++y) {
+            const auto row = image.pixels.begin() + std::ptrdiff_t(y) * width;
+            std::copy_n(row - width, width, row);
+            for (int x = static_cast<int>(any(40)); x < width; x += 1 + static_cast<int>(any(1U << y % 7)))
+                row[x] = 0xff000000U | any(1U << 24);
+        }
+        for (PngCompression compression : kCompressions)
+            EXPECT_TRUE(decoded(encode_png(image, {{}, {}, compression})).rgba == rgba_bytes(image)) << width;
+    }
+}
+
 // Wherever the first pixel stands that is not opaque, and whatever is as above: all that was told till then is told
 // anew.
 TEST(Png, DecodesToTheSamePixelsWhereverOneIsNotOpaque) {

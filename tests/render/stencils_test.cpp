@@ -33,7 +33,7 @@ void draw_shapes(Canvas& canvas, double age) {
         canvas.stroke({color, 5, {9, 4}, Cap::butt});
         canvas.circle({120, 80}, 30);
         canvas.circle({123, 81}, 11.5);
-        canvas.fill_even_odd(color);
+        canvas.fill(color);
         canvas.rounded({100.5, 100.5, 60, 30}, 9);
         canvas.fill(color);
         canvas.arrow({20, 140}, {70, 101}, {color, 3}, 14);
@@ -81,9 +81,7 @@ TEST(Stencils, TellShapesApart) {
             line({150, 20}, {ink, 3.5, {4, 2}});
             line({20, 120}, {ink, 3, {}, Cap::butt});
             line({20, 120}, {ink, 4, {}, Cap::round});
-            canvas.smooth_edges(false);
             line({70, 120}, {ink, 4});
-            canvas.smooth_edges(true);
             line({70, 120}, {ink.faded(0.5), 4});
             canvas.clip({80, 60, 30, 30}, [&] { line({150, 120}, {ink, 8}); });
             return image;
