@@ -40,7 +40,9 @@ class CloseUpPanel final : public Panel {
         const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
             plain{.size = 21 * u, .weight = Weight::medium};
         const double room = plot_.w - canvas.measure("penetration 000\u00A0µm", plain).w - 16 * u;
-        for (const char* heading : {"Contact close-up", "Contact"}) {  // the reading stands beside it
+        const std::string whose = of_motion(canvas, facts_, member_);
+        for (const std::string& heading : {"Contact close-up" + whose, "Contact" + whose, std::string("Contact")}) {
+            // The reading stands beside it.
             if (canvas.measure(heading, bold).w > room) continue;
             draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, heading);
             break;

@@ -76,9 +76,14 @@ const Palette& palette(Theme theme) {
 }
 
 Color series_color(const Palette& p, std::size_t i) {
-    // Okabe and Ito's palette without its vermilion; told apart with every common colour deficiency.
-    static constexpr std::array kOthers{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5)};
-    return i == 0 ? p.motion : kOthers[(i - 1) % kOthers.size()];
+    // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it under
+    // every common colour deficiency: eight in all with the palette's own.
+    static constexpr std::array kOnLight{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x882255),
+                                         rgb(0x332288), rgb(0x56B4E9), rgb(0x603018)};
+    static constexpr std::array kOnDark{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5),
+                                        rgb(0xF0F0D8), rgb(0xD81848), rgb(0xA800F0)};
+    const auto& others = p.paper.g < 0.5 ? kOnDark : kOnLight;
+    return i == 0 ? p.motion : others[(i - 1) % others.size()];
 }
 
 Color moment_color(const Palette& p, double share) { return along(p.moment, 0.5 + 0.5 * share); }

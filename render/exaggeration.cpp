@@ -190,6 +190,7 @@ double film_factor(const Problem& problem, std::span<const Pose> poses, std::opt
 double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
                    std::optional<double> wanted) {
     constexpr double kShare = 0.10, kTilt = 0.25;  // of the length; [rad]
+    if (problem.beam.model == sim::ModelKind::rigid) return 1;
     double factor = wanted.value_or(1e6);
     if (!wanted) {
         double deflection = 0, slope = 0;

@@ -121,16 +121,25 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
         canvas.text({b->x, b->y + 38 * u}, title, style);
     }
     if (const auto& b = places.parameters) {
-        const TextStyle style{.size = 21 * u, .color = facts.palette->muted};
-        double x = b->x;
         std::vector<const sim::Problem*> problems;
         for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
-        for (const std::string& piece : common_pieces(problems)) {  // whole pieces, as many as fit
-            const double w = canvas.measure(piece, style).w;
-            if (x + w > b->right()) break;
-            canvas.text({x, b->y + 24 * u}, piece, style);
-            x += w + 26 * u;
+        const std::vector<std::string> pieces = common_pieces(problems);
+        // Whole pieces, as many as fit; closer and smaller where more of them do.
+        TextStyle best;
+        std::vector<double> lefts;
+        for (const auto& [size, gap] : {std::pair{21, 26}, {21, 16}, {19, 16}, {17, 14}}) {
+            const TextStyle style{.size = size * u, .color = facts.palette->muted};
+            std::vector<double> these;
+            double x = b->x;
+            for (const std::string& piece : pieces) {
+                const double w = canvas.measure(piece, style).w;
+                if (x + w > b->right()) break;
+                these.push_back(x);
+                x += w + gap * u;
+            }
+            if (these.size() > lefts.size()) best = style, lefts = std::move(these);
         }
+        for (std::size_t i = 0; i < lefts.size(); ++i) canvas.text({lefts[i], b->y + 24 * u}, pieces[i], best);
     }
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(setup.accuracy_note),
@@ -204,7 +213,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         Color color;
     };
     std::vector<Pill> pills;
-    if (facts.factor > 1) {
+    if (facts.factor > 1 && mechanism) {
         const std::string words = fmt::format("deflection ×{}", power_text(facts.factor));
         pills.push_back({words, words, facts.palette->motion});
     }
@@ -246,6 +255,13 @@ Film& Film::operator=(Film&&) noexcept = default;
 Film Film::another() const { return Film(prepared_); }
 int Film::frames() const { return prepared_->facts.frames(); }
 double Film::exaggeration() const { return prepared_->facts.factor; }
+bool Film::yields() const {
+    const FilmFacts& facts = prepared_->facts;
+    bool flexible = false;
+    for (int m = 0; m < facts.members(); ++m)
+        flexible = flexible || facts.motion(m).problem.beam.model != sim::ModelKind::rigid;
+    return flexible && facts.factor < facts.setup->view.exaggeration.value_or(1);
+}
 const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
 
 std::vector<int> Film::Prepared::stages(int frame) const {

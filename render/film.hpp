@@ -144,6 +144,7 @@ class Film {
     void draw(int frame, Image& out);   // a copy; `out` is resized as needed
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
+    bool yields() const;  // less than wanted, since the beam would enter the cam
     const DrawingCounts& counts() const;
 
   private:

@@ -15,7 +15,7 @@ std::string equation(const char* symbol, const std::string& value) { return math
 
 std::string contact_piece(const sim::Problem& problem) {
     if (problem.contact.model == sim::ContactModel::restitution)
-        return equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+        return "impulses, " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
                                             fmt::format("\u00A0N\u2009m<sup>−{:.3g}</sup>", problem.contact.exponent));
     if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";

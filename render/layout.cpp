@@ -53,7 +53,7 @@ Frame frame(int width, int height) {
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
     const bool has_title = w >= 320 * u && h >= 300 * u, has_parameters = w >= 560 * u && h >= 480 * u;
-    const bool has_clock = w >= 230 * u && h >= 190 * u, has_scales = w >= 1150 * u && h >= 600 * u;
+    const bool has_clock = w >= 230 * u && h >= 190 * u, has_scales = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u;
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
         f.top += 54 * u;

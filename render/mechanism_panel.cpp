@@ -84,6 +84,32 @@ Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
     return tiles;
 }
 
+// Markup of the lines that plain words fill, broken where they say so or grow too wide; six at most.
+std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const TextStyle& style) {
+    constexpr std::size_t kMost = 6;
+    TextStyle natural = style;
+    natural.max_width = 0;
+    std::vector<std::string> lines;
+    std::string line;
+    const auto markup = [&](const std::string& plain) { return escape(canvas.drawable(plain)); };
+    const auto end_line = [&] {
+        lines.push_back(markup(line));
+        line.clear();
+    };
+    for (std::size_t at = 0; at < words.size() && lines.size() < kMost;) {
+        const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
+        const std::string word = words.substr(at, end - at), longer = line.empty() ? word : line + " " + word;
+        // The last line takes what is left; it is cut.
+        const bool fits = lines.size() + 1 == kMost || canvas.measure(markup(longer), natural).w <= style.max_width;
+        if (!fits && !line.empty()) end_line();
+        line += line.empty() ? word : " " + word;
+        if (end < words.size() && words[end] == '\n') end_line();
+        at = end + 1;
+    }
+    if (!line.empty() && lines.size() < kMost) end_line();
+    return lines;
+}
+
 }  // namespace
 
 // ---- prepared once for a film ----------------------------------------------------------------
@@ -140,7 +166,7 @@ DrawnBeam MechanismPanel::surveyed_beam(int member, std::size_t k) const {
     return drawn_beam(one.problem, one.surveyed(k), factor, look_.depth);
 }
 
-// The box of all drawn beams [m]; of a still, of the one that it shows.
+// The box of all drawn beams [m]; of a still, of the one that it shows, with the tip's path if that is wanted.
 Bounds MechanismPanel::beams_reach() const {
     Bounds all;
     for (int m : shown_)
@@ -149,6 +175,10 @@ Bounds MechanismPanel::beams_reach() const {
             for (std::size_t i = 0; i < b.line.size(); i += (i + 5 < b.line.size() ? 4 : 1))
                 all.add(b.face(i)), all.add(b.back(i));
         }
+    if (facts_.frames() == 1 && facts_.setup->view.tip_path)
+        for (std::size_t k = 0; k < motion().surveyed(); ++k)
+            if (const DrawnBeam b = surveyed_beam(member_, k); motion().surveyed(k).t <= facts_.at(member_, 0))
+                all.add(b.line.back());
     return all;
 }
 
@@ -194,15 +224,29 @@ void MechanismPanel::note_extent() {
     lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
 }
 
-// A piece of the path is there when the frame at its end is.
+// Through the motion's survey and the frames. A piece of the path is there when the instant at its end is.
 void MechanismPanel::note_path() {
+    struct Tip {
+        double t;
+        Vec2 at;
+    };
+    std::vector<Tip> tips;
+    const double now = facts_.at(member_, facts_.frames() - 1);
+    for (int k = 0; k < facts_.frames(); ++k) tips.push_back({facts_.at(member_, k), tips_[static_cast<std::size_t>(k)]});
+    for (std::size_t k = 0; motion().survey && k < motion().surveyed(); ++k)
+        if (const DrawnBeam b = surveyed_beam(member_, k); motion().survey->time(k) <= now)
+            tips.push_back({motion().survey->time(k), px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5)});
+    std::ranges::stable_sort(tips, {}, &Tip::t);
+    const auto again = std::ranges::unique(tips, {}, &Tip::t);
+    tips.erase(again.begin(), again.end());
+    std::vector<Vec2> all, inside;
     std::vector<double> times;
-    std::vector<Vec2> inside;
-    for (std::size_t k = 0; k < tips_.size(); ++k) {
-        std::vector<Vec2> piece{tips_[k]};
-        if (k > 0) piece = smooth_piece(tips_, k - 1, kArcStep * u_), piece.erase(piece.begin());
+    for (const Tip& tip : tips) all.push_back(tip.at);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        std::vector<Vec2> piece{all[k]};
+        if (k > 0) piece = smooth_piece(all, k - 1, kArcStep * u_), piece.erase(piece.begin());
         for (Vec2 p : piece) {
-            times.push_back(facts_.at(member_, static_cast<int>(k)));
+            times.push_back(tips[k].t);
             inside.push_back(p - Vec2{box_.x, box_.y});
         }
     }
@@ -316,6 +360,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     const Perspective view = view_of(frame);
     const Scene s{canvas, frame, pose, drawn, shape, *this, style == Style::solid ? &view : nullptr};
     trail(s);
+    if (ghosts_) ghost_bodies(s);
     switch (style) {
         case Style::solid:
             draw_solid(s, threads.trace, threads);
@@ -441,12 +486,19 @@ void MechanismPanel::ghosts(const Scene& s) const {
             s.arc(px(pose.disc_centre), cam->radius * look_.camera.scale, 0, 2 * kPi);
             s.canvas.stroke({color.faded(0.8), 2 * u_, {8 * u_, 6 * u_}, Cap::butt});
         }
-        const Outline outline = ghost_outline(s, other);
+        s.canvas.polyline(ghost_outline(s, other).edge);
+        s.canvas.stroke({color, 2.2 * u_});
+    }
+}
+
+// Under the first motion's beam, whose colours mean something.
+void MechanismPanel::ghost_bodies(const Scene& s) const {
+    for (int m : shown_) {
+        if (m == member_) continue;
+        const Outline outline = ghost_outline(s, beam_of(m, s.frame));
         s.canvas.polyline(outline.edge);
         for (const Vec2& p : outline.foot) s.canvas.line_to(p);
-        s.canvas.fill(color.faded(0.16));
-        s.canvas.polyline(outline.edge);
-        s.canvas.stroke({color, 2.2 * u_});
+        s.canvas.fill(facts_.member_color(m).faded(0.16));
     }
 }
 
@@ -519,12 +571,19 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {palette_.muted, 2.6 * u_}, head);
     }
-    // Beside the arrow; where the panel ends there, below it.
+    const Box at = speed_box(s, s.canvas.measure(label, style).w);
+    s.canvas.text({at.x, at.bottom()}, label, style);
+}
+
+// Room for the cam's speed, so wide: beside the arrow; where the panel ends there, below it. Its bottom is the baseline.
+Box MechanismPanel::speed_box(const Scene& s, double w) const {
+    const sim::Cam& cam = *problem().cam;
+    const Vec2 axis = px(s.pose.cam_centre);
+    const double radius = (cam.radius + cam.eccentricity) * look_.camera.scale + 20 * u_;
     Vec2 at = s.on(axis + down(-0.26 * kPi) * (radius + 16 * u_)) + Vec2{8 * u_, 12 * u_};
-    const double w = s.canvas.measure(label, style).w;
     if (at.x + w > box_.right()) at = {box_.right() - w, s.on(axis + down(-0.5 * kPi) * (radius + 26 * u_)).y + 8 * u_};
     at.y = std::min(at.y, box_.bottom() - 34 * u_);
-    s.canvas.text(at, label, style);
+    return {at.x, at.y - 22 * u_, w, 22 * u_};
 }
 
 // The straight line that deflection is drawn about.
@@ -675,23 +734,37 @@ void MechanismPanel::callout(const Scene& s) const {
         const Callout& c = *last;
         const TextStyle style{
             .size = 22 * u_, .color = palette_.ink, .weight = Weight::medium, .max_width = 0.45 * box_.w};
-        const Box size = s.canvas.measure(escape(s.canvas.drawable(c.text)), style);
+        const std::vector<std::string> lines = wrapped(s.canvas, c.text, style);
+        const double line = 29 * u_;
+        double widest = 0;
+        for (const std::string& words : lines) widest = std::max(widest, s.canvas.measure(words, style).w);
         const Vec2 foot =
             s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tips_[static_cast<std::size_t>(s.frame)]);
         // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
         const double swept =
             problem().cam ? (problem().cam->radius + problem().cam->eccentricity) * look_.camera.scale : 0;
         const Vec2 from = problem().cam ? s.px(s.pose.cam_centre) : foot;
-        Box plate{from.x + swept + 60 * u_, from.y + 26 * u_, size.w + 32 * u_, 46 * u_};
-        plate.x = std::clamp(plate.x, box_.x, std::max(box_.x, box_.right() - plate.w));
-        plate.y = std::clamp(plate.y, box_.y, std::max(box_.y, box_.bottom() - plate.h - 40 * u_));
+        Box plate{from.x + swept + 60 * u_, from.y + 26 * u_, widest + 32 * u_,
+                  17 * u_ + line * static_cast<double>(lines.size())};
+        const auto keep_inside = [&] {
+            plate.x = std::clamp(plate.x, box_.x, std::max(box_.x, box_.right() - plate.w));
+            plate.y = std::clamp(plate.y, box_.y, std::max(box_.y, box_.bottom() - plate.h - 40 * u_));
+        };
+        keep_inside();
+        if (problem().cam && !small_) {
+            const Box words = speed_box(s, 150 * u_);
+            if (plate.overlaps(words)) plate.y = words.bottom() + 12 * u_;  // below the cam's speed, else above it
+            keep_inside();
+            if (plate.overlaps(words)) plate.y = std::max(box_.y, words.y - 12 * u_ - plate.h);
+        }
         s.canvas.move_to({plate.x + 10 * u_, plate.y + 10 * u_});
         s.canvas.line_to(foot);
         s.canvas.stroke({palette_.ink, 1.6 * u_});
         s.canvas.rounded(plate, 8 * u_);
         s.canvas.fill_keeping_path(palette_.paper);
         s.canvas.stroke({palette_.ink, 1.6 * u_});
-        s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_}, escape(s.canvas.drawable(c.text)), style);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            s.canvas.text({plate.x + 16 * u_, plate.y + 31 * u_ + line * static_cast<double>(i)}, lines[i], style);
     }
 }
 

@@ -65,6 +65,7 @@ class MechanismPanel final : public Panel {
     void label(Canvas& canvas) const;
 
     void ghosts(const Scene& s) const;
+    void ghost_bodies(const Scene& s) const;
     struct Outline {
         std::vector<Vec2> edge, foot;  // [px]
     };
@@ -73,6 +74,7 @@ class MechanismPanel final : public Panel {
     void trail(const Scene& s) const;
     void angle_arc(const Scene& s) const;
     void turning_arrow(const Scene& s) const;
+    Box speed_box(const Scene& s, double w) const;
     void base_line(const Scene& s) const;
     void disc_marks(const Scene& s, const Trace& trace) const;
     void disc_letters(const Scene& s, Color ink) const;

@@ -20,12 +20,28 @@ using sim::ChannelKind;
 using sim::Pose;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// Contact is an impulse, and nothing is pressed after it: the force is zero but for instants.
+bool has_force(const Motion& motion) {
+    if (!motion.problem.cam || motion.problem.contact.model != sim::ContactModel::restitution) return true;
+    const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
+    return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
+}
+
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
-    std::vector<PanelSpec> specs = standard_panels(setup.problem, setup.slow_motion);
+    const Motion* shown = &setup;  // one with a cam, if there is one
+    bool force = has_force(setup);
+    for (const Motion& other : setup.others) {
+        if (!shown->problem.cam) shown = &other;
+        force = force || has_force(other);
+    }
+    std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion);
+    const bool impulsive = shown->problem.contact.model == sim::ContactModel::restitution;
     // What the film has no data for is no panel.
     std::erase_if(specs, [&](const PanelSpec& s) {
-        return s.kind == PanelKind::strip && s.channels.front().kind == ChannelKind::tip_deflection &&
-               !column(setup.chart, s.channels.front());
+        if (s.kind != PanelKind::strip) return false;
+        const ChannelKind kind = s.channels.front().kind;
+        return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
+               (kind == ChannelKind::contact_force && (!force || (s.by_collision && impulsive)));
     });
     return specs;
 }
@@ -156,6 +172,10 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
     if (times[i] == t || i + 1 == times.size()) return times[i] == t ? values[i] : kNan;
     const double share = (t - times[i]) / (times[i + 1] - times[i]);
     return values[i] * (1 - share) + values[i + 1] * share;
+}
+
+std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member) {
+    return facts.members() > 1 ? ", " + escape(canvas.drawable(facts.motion(member).label)) : std::string();
 }
 
 void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup) {

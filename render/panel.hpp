@@ -95,6 +95,8 @@ std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot
 const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
 // Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
+// Of a panel of one motion among several: ", " and its label, as markup.
+std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member);
 void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup);
 // Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
 void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,

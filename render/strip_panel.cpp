@@ -50,7 +50,7 @@ Name name_of(Channel channel) {
             return {"Modal coordinate ", "q"};
         case ChannelKind::energy_kinetic:
             return {"Kinetic energy ", "T"};
-        case ChannelKind::energy_potential:
+        case ChannelKind::energy_potential:  // above its least value
             return {"Potential energy ", "V"};
         case ChannelKind::energy_elastic:
             return {"Bending energy ", "U"};
@@ -94,6 +94,32 @@ std::string colored(const std::string& markup, Color color) {
 std::string unit_text(Channel channel, const sim::Problem& problem) {
     const std::string unit = sim::unit(channel, problem);
     return unit == "m/s^2" ? "m/s²" : unit;
+}
+
+// Energies have one colour in strips and in the ledger; nothing for other channels.
+std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
+    switch (kind) {
+        case ChannelKind::energy_potential:
+            return mix(p.paper, p.motion, 0.45);
+        case ChannelKind::energy_kinetic:
+            return p.motion;
+        case ChannelKind::energy_elastic:
+            return series_color(p, 1);
+        case ChannelKind::energy_contact:
+            return p.contact;
+        case ChannelKind::loss_structural:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+            return mix(p.paper, p.muted, 0.55);
+        default:
+            return {};
+    }
+}
+
+// Only differences of potential energy mean anything: its least value is the zero.
+double zero_of(const sim::Table& table, Channel channel) {
+    const auto* v = channel.kind == ChannelKind::energy_potential ? column(table, channel) : nullptr;
+    return v && !v->empty() ? *std::ranges::min_element(*v) : 0;
 }
 
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
@@ -190,6 +216,7 @@ Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
     const Motion& one = facts.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
     if (t && v) curve.t = *t, curve.v = *v;
+    for (double& value : curve.v) value -= zero_of(one.chart, channel);
     return curve;
 }
 
@@ -226,7 +253,13 @@ double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
     if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
     const sim::Table& table = facts.motion(member).chart;
     const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
-    return t && v ? value_at(*t, *v, pose.t) : kNan;
+    return t && v ? value_at(*t, *v, pose.t) - zero_of(table, channel) : kNan;
+}
+
+// What curves of several channels, or motions, are told apart by.
+Color curve_color(const FilmFacts& facts, Channel channel, std::size_t i, int member) {
+    if (facts.members() > 1) return facts.member_color(member);
+    return energy_color(*facts.palette, channel.kind).value_or(series_color(*facts.palette, i));
 }
 
 class StripPanel final : public ChartPanel {
@@ -245,16 +278,16 @@ class StripPanel final : public ChartPanel {
         c.unit = unit_text(first, problem);
         for (std::size_t i = 0; i < spec.channels.size(); ++i) {
             std::string symbol = symbol_of(spec.channels[i]);
-            if (!single && facts.members() == 1) symbol = colored(symbol, series_color(p, i));
+            if (!single && facts.members() == 1) symbol = colored(symbol, curve_color(facts, spec.channels[i], i, 0));
             c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
             for (int m = 0; m < facts.members(); ++m) {
                 Curve curve = first.kind == ChannelKind::contact_x ? Curve{} : curve_of(facts, m, spec.channels[i]);
                 const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
                 const bool alone = single && facts.members() == 1;
-                curve.color = alone && contact ? p.contact : series_color(p, facts.members() > 1 ? m : i);
+                curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
                 curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
                 if (facts.members() > 1)
-                    curve.label = escape(facts.motion(m).label);
+                    curve.label = escape(facts.motion(m).label) + ":";  // "ω = 0: 12"
                 else if (!single)
                     curve.label = symbol_of(spec.channels[i]);
                 // Colour alone does not tell curves apart for everybody.
@@ -469,11 +502,13 @@ class EnergyPanel final : public ChartPanel {
     static std::vector<Part> parts(const FilmFacts& facts) {
         const Palette& p = *facts.palette;
         using K = ChannelKind;
-        return {{"potential", {K::energy_potential}, mix(p.paper, p.motion, 0.30)},
-                {"kinetic", {K::energy_kinetic}, p.motion},
-                {"bending", {K::energy_elastic}, series_color(p, 1)},
-                {"contact", {K::energy_contact}, p.contact},
-                {"lost", {K::loss_structural, K::loss_contact, K::loss_friction}, mix(p.paper, p.muted, 0.55)}};
+        const auto part = [&](const char* label, std::vector<K> channels) {
+            const Color color = *energy_color(p, channels.front());
+            return Part{label, std::move(channels), color};
+        };
+        return {part("potential", {K::energy_potential}), part("kinetic", {K::energy_kinetic}),
+                part("bending", {K::energy_elastic}), part("contact", {K::energy_contact}),
+                part("lost", {K::loss_structural, K::loss_contact, K::loss_friction})};
     }
 
     static ChartContent content(const FilmFacts& facts, const PanelSlot& slot) {
@@ -494,8 +529,7 @@ class EnergyPanel final : public ChartPanel {
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
-                // Only differences of potential energy mean anything: its least value is the zero.
-                const double zero = kind == ChannelKind::energy_potential ? *std::ranges::min_element(*v) : 0;
+                const double zero = zero_of(table, {kind, 0});
                 for (std::size_t i = 0; i < base.size(); ++i) band.high[i] += std::max((*v)[i] - zero, 0.0);
             }
             base = band.high;

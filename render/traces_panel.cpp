@@ -36,7 +36,7 @@ class TracesPanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, box_, "Contact trace on disc and beam");
+        draw_heading(canvas, facts_, box_, "Contact trace on disc and beam" + of_motion(canvas, facts_, member_));
         canvas.circle(centre_, radius_);
         canvas.fill_keeping_path(mix(p.paper, p.steel, 0.5));
         canvas.stroke({p.steel_edge, 1.6 * u});

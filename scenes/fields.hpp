@@ -35,6 +35,7 @@ class Findings {
         messages_.push_back({place, std::move(text), true});
         failed_.insert(path);
     }
+    void warning(const Place& place, std::string text) { messages_.push_back({place, std::move(text), false}); }
     // Did this key, or one inside it, fail to be read?
     bool failed(const std::string& path) const {
         auto it = failed_.lower_bound(path);

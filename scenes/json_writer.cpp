@@ -135,8 +135,9 @@ Json film(const char* type, const Film& film) {
     const render::Orbit& orbit = film.view.orbit;
     Json view = {{"style", view_name(film.view)},
                  {"trace", film.view.trace == render::TraceColor::force ? "force" : "age"},
-                 {"tip_path", film.view.tip_path ? "whole" : "recent"},
-                 {"camera", {{"yaw", orbit.yaw}, {"pitch", orbit.pitch}, {"swing", orbit.swing}}}};
+                 {"tip_path", film.view.tip_path ? "whole" : "recent"}};
+    if (film.view.style == render::Style::solid)
+        view["camera"] = {{"yaw", orbit.yaw}, {"pitch", orbit.pitch}, {"swing", orbit.swing}};
     if (film.view.exaggeration) view["exaggeration"] = *film.view.exaggeration;
     Json out = {{"type", type},
                 {"file", film.file},
@@ -178,7 +179,7 @@ Json output_json(const Output& any) {
             if (v.span.poster) out["poster"] = instant(*v.span.poster);
             out["codec"] = output::name(v.encoding.codec);
             if (v.encoding.crf) out["crf"] = *v.encoding.crf;
-            out["preset"] = v.encoding.preset;
+            if (v.encoding.codec == output::Codec::h264) out["preset"] = v.encoding.preset;
             return out;
         }
         Json operator()(const FramesOutput& f) const {

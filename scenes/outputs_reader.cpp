@@ -92,6 +92,9 @@ void read_orbit(Findings& findings, Fields& v, render::View& view) {
     angle("pitch", view.orbit.pitch);
     angle("swing", view.orbit.swing);
     f.finish();
+    if (view.style != render::Style::solid)
+        findings.warning(node->place, fmt::format("{} moves in the solid view alone; \"style\": \"solid\" shows that",
+                                                  v.path("camera")));
 }
 
 void read_view(Findings& findings, Fields& f, render::View& view) {
@@ -162,11 +165,19 @@ void read_span(const OutputContext& context, Fields& f, FrameSpan& span) {
     read_pace(context.pictures(), f, span);
     if (!fine || !f.node() || context.findings.failed("time")) return;
     if (std::string problem = problem_with_span(span, context.scene.end_time); !problem.empty())
-        context.findings.error(f.node()->place, f.path("to"), fmt::format("{}: {}", f.what(), problem));
+        return context.findings.error(f.node()->place, f.path("to"), fmt::format("{}: {}", f.what(), problem));
+    const double end = span.to.value_or(context.scene.end_time);
+    for (std::size_t i = 0; i < span.events.size(); ++i)
+        if (const Instant& at = span.events[i].at;  // a warning, so that films can be shortened
+            at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
+            context.findings.warning(
+                f.node()->place,
+                fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: it is not shown",
+                            f.path(fmt::format("events.{}.at", i)), at.t, span.from, end));
 }
 
 // What the codec, the container and the picture ask of each other.
-void judge_format(Fields& f, const VideoOutput& video, bool crf_given) {
+void judge_format(Fields& f, const VideoOutput& video) {
     if (!f.node()) return;
     const std::string ending = std::filesystem::path(video.file).extension().string();
     const auto place = [&](const char* key) -> const Node& {
@@ -182,7 +193,10 @@ void judge_format(Fields& f, const VideoOutput& video, bool crf_given) {
     if (std::string problem = output::rate_problem(codec, video.span.fps.value()); !problem.empty())
         f.fail(place("fps"), "fps", fmt::format("{}: {}", f.path("fps"), problem));
     const auto quality = output::quality_scale(codec);
-    if (crf_given && !quality)
+    if (f.has("preset") && codec != output::Codec::h264)
+        f.fail(place("preset"), "preset",
+               fmt::format("{}: {} has no presets, H.264 alone has; remove it", f.path("preset"), title(codec)));
+    if (f.has("crf") && !quality)
         f.fail(place("crf"), "crf",
                fmt::format("{}: {} has no crf, it keeps what its format can; remove it", f.path("crf"), title(codec)));
     else if (quality && video.encoding.crf.value_or(0) > quality->worst)
@@ -239,7 +253,7 @@ VideoOutput read_video(const OutputContext& context, Fields& f) {
         if (read_at(f, *poster, "poster", at)) video.span.poster = at;
     }
     read_span(context, f, video.span);
-    judge_format(f, video, f.has("crf"));
+    judge_format(f, video);
     return video;
 }
 

@@ -160,6 +160,52 @@ LayoutNode read_node(const PictureContext& c, Fields& parent, const Node& node, 
     return out;
 }
 
+bool is_of_contact(sim::ChannelKind kind) {
+    switch (kind) {
+        case sim::ChannelKind::contact_force:
+        case sim::ChannelKind::friction_force:
+        case sim::ChannelKind::gap:
+        case sim::ChannelKind::contact_x:
+        case sim::ChannelKind::contact_s:
+        case sim::ChannelKind::cam_angle:
+        case sim::ChannelKind::energy_contact:
+        case sim::ChannelKind::loss_contact:
+        case sim::ChannelKind::loss_friction:
+        case sim::ChannelKind::work_cam:
+        case sim::ChannelKind::separation:
+        case sim::ChannelKind::separation_paper:
+            return true;
+        case sim::ChannelKind::t:
+        case sim::ChannelKind::theta:
+        case sim::ChannelKind::theta_dot:
+        case sim::ChannelKind::tip_deflection:
+        case sim::ChannelKind::tip_rate:
+        case sim::ChannelKind::q:
+        case sim::ChannelKind::energy_kinetic:
+        case sim::ChannelKind::energy_potential:
+        case sim::ChannelKind::energy_elastic:
+        case sim::ChannelKind::loss_structural:
+        case sim::ChannelKind::work_drive:
+        case sim::ChannelKind::energy_residual:
+            return false;
+    }
+    return false;
+}
+
+// What the panel shows of a contact that the picture's motions do not have; empty: nothing.
+std::string without_cam(const PictureContext& c, const Picture& picture, const PanelSpec& panel) {
+    const auto has_cam = [&](std::size_t motion) {
+        return (picture.compare.empty() ? c.scene.problem : picture.compare[motion].problem).cam.has_value();
+    };
+    bool any = false;
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, picture.compare.size()); ++i) any = any || has_cam(i);
+    if (panel.kind == PanelKind::close_up || panel.kind == PanelKind::traces)
+        return has_cam(static_cast<std::size_t>(panel.member)) ? "" : render::name(panel.kind);
+    for (const sim::Channel& channel : panel.channels)
+        if (is_of_contact(channel.kind) && !any) return name(channel);
+    return {};
+}
+
 void read_layout(const PictureContext& c, Fields& f, Picture& picture) {
     const Node* node = f.take("layout");
     if (!node) return;
@@ -178,6 +224,19 @@ void read_layout(const PictureContext& c, Fields& f, Picture& picture) {
             return f.fail(*node, "layout",
                           fmt::format("{}: \"motion\": {} is not there; the picture shows {}", f.path("layout"),
                                       panel.member + 1, motions));
+    for (const PanelSpec& panel : panels)
+        if (panel.by_collision && !picture.compare.empty())
+            f.fail(*node, "layout",
+                   fmt::format("{}: \"window\": \"collision\" is of one motion's collisions, and the picture compares {}; give a "
+                               "time such as \"50 ms\"",
+                               f.path("layout"), picture.compare.size()));
+    if (c.findings.failed("cam")) return;
+    for (const PanelSpec& panel : panels)
+        if (const std::string what = without_cam(c, picture, panel); !what.empty())
+            f.fail(*node, "layout",
+                   fmt::format("{}: \"{}\" is of the contact, and there is no cam; remove the panel, or give the scene a "
+                               "\"cam\"",
+                               f.path("layout"), what));
 }
 
 // ---- compare -----------------------------------------------------------------------------------
@@ -284,6 +343,10 @@ void read_compare(const PictureContext& c, Fields& f, Picture& picture) {
     f.choice<Comparison>("comparison", {{"panels", Comparison::panels}, {"ghosts", Comparison::ghosts}},
                          picture.comparison);
     const Node* node = f.take("compare");
+    if (!node && picture.comparison == Comparison::ghosts && f.node())
+        c.findings.warning(f.node()->place,
+                           fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
+                                       f.path("comparison")));
     if (!node) return;
     if (node->kind != Node::Kind::array || node->items.size() < 2 || node->items.size() > kMostCompared)
         return f.fail(*node, "compare",

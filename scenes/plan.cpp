@@ -60,8 +60,11 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
 }
 
 std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& problem) {
-    return p.picture.layout ? render::panels_of(*p.picture.layout)
-                            : render::standard_panels(problem, is_slow_motion(p));
+    if (p.picture.layout) return render::panels_of(*p.picture.layout);
+    const sim::Problem* shown = p.picture.compare.empty() ? &problem : &p.picture.compare.front().problem;
+    for (const Compared& each : p.picture.compare)
+        if (!shown->cam) shown = &each.problem;
+    return render::standard_panels(*shown, is_slow_motion(p));
 }
 
 std::string too_small(const Picture& picture) {

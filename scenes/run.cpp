@@ -568,6 +568,9 @@ class Runner {
             fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
         const auto begun = Clock::now();
         render::Film film = film_of(index);
+        if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields() && !capture_ && !options_.quiet)
+            fmt::print(stderr, "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam\n",
+                       p.file, film.exaggeration(), *wanted);
         std::unique_ptr<output::VideoWriter> video;
         if (p.kind == Pictures::Kind::video && !capture_) {
             output::VideoOptions options = video_options(p);

@@ -262,6 +262,59 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
 }
 
+// ---- what can come to nothing ----------------------------------------------------------------
+
+TEST(Films, TellOfWhatTheyWillNotShow) {
+    const auto told = [](const std::string& output, const std::string& physics = {}) {
+        const Reading reading = testing::read("{" + physics + "\"time\": {\"end\": 1}, \"outputs\": [" + output + "]}");
+        return std::pair{reading.scene.has_value(), reading.report()};
+    };
+    const auto late = told(R"({"type": "video", "to": 0.3, "events": [{"at": 0.5, "text": "late"}]})");
+    EXPECT_TRUE(late.first);
+    EXPECT_THAT(late.second, HasSubstr("outputs.0.events.0.at = 0.5 s is no instant of a film from 0 s to 0.3 s"));
+    const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
+    EXPECT_TRUE(alone.first);
+    EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
+    const auto flat = told(R"({"type": "still", "at": 0.1, "view": {"style": "flat", "camera": {"yaw": 0.5}}})");
+    EXPECT_TRUE(flat.first);
+    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera moves in the solid view alone"));
+    const std::string two = R"("compare": [{"label": "a"}, {"label": "b", "set": {"cam": null}}])";
+    const auto collisions = told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
+    EXPECT_FALSE(collisions.first);
+    EXPECT_THAT(collisions.second, HasSubstr("is of one motion's collisions, and the picture compares 2"));
+    EXPECT_TRUE(told(R"({"type": "video", "layout": {"rows": ["mechanism", "contact_force"]}, )" + two + "}").first);
+    EXPECT_FALSE(told(R"({"type": "video", "layout": {"rows": ["mechanism", {"panel": "close-up", "motion": 2}]}, )" + two + "}").first);
+}
+
+TEST(Films, AFirstMotionWithoutACamHidesNoContactOfTheOthers) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": 0.5,
+        "compare": [{"label": "free", "set": {"cam": null}}, {"label": "cam"}]}]})");
+    const Plan made = plan(*reading.scene);
+    EXPECT_THAT(made.pictures.front().chart_channels, ::testing::Contains(sim::Channel{sim::ChannelKind::contact_force, 0}));
+}
+
+TEST(Films, AFactorThatYieldsIsTold) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7, "size": [160, 90],
+        "view": {"style": "flat", "exaggeration": 1e6}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("instead of ×1e+06, which would draw the beam into the cam"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.view.exaggeration=2").err,
+                ::testing::Not(HasSubstr("warning")));
+}
+
+// One frame has all of the path that led to it.
+TEST(Films, AStillHasThePathOfTheTip) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null, "time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7,
+        "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}},
+        {"type": "still", "file": "b.png", "at": 0, "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.file=c.png --set outputs.0.view.tip_path=recent "
+                            "--set outputs.1.file=d.png").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png c.png").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff b.png d.png").code, 0);
+}
+
 // ---- what finds no room ------------------------------------------------------------------------
 
 TEST(Films, PanelsThatFindNoRoomAreTold) {
