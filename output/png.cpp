@@ -26,7 +26,7 @@ constexpr int kCompressionLevel = 6;   // of libdeflate; higher ones take twice 
 constexpr std::uint8_t kFilterUp = 2;  // each byte less the one above it
 using Pixels = std::span<const std::uint32_t>;
 constexpr std::size_t kLongestChunk = 0x7fffffff;
-constexpr std::size_t kStretch = 8;    // pixels that are compared with those above at once
+constexpr std::size_t kStretch = 8;  // pixels that are compared with those above at once
 static_assert(render::Tiles::kWidth % kStretch == 0, "a stretch lies in one tile");
 constexpr double kMetresPerInch = 0.0254;
 
@@ -136,7 +136,8 @@ struct Stretch {
 Stretch next_others(std::span<const std::uint8_t> others, std::size_t x, std::size_t width) {
     const auto find = [&](std::size_t at, int value) {
         const void* found = std::memchr(others.data() + at, value, others.size() - at);
-        return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - others.data()) : others.size();
+        return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - others.data())
+                     : others.size();
     };
     const std::size_t first = find(x / kStretch, 1);
     return {std::min(first * kStretch, width), std::min(find(first, 0) * kStretch, width)};
@@ -239,9 +240,9 @@ void PngSequence::Others::compare(const render::Image& image, const render::Tile
             const auto y = static_cast<std::size_t>(row);
             const std::uint32_t *now = image.pixels.data() + y * width, *above = now - width;
             for (auto x = static_cast<std::size_t>(left); x < end; x += kStretch)
-                stretches_[y * columns_ + x / kStretch] =
-                    x + kStretch <= end ? stretch_differs(now + x, above + x)
-                                        : !std::equal(now + x, now + end, above + x);
+                stretches_[y * columns_ + x / kStretch] = x + kStretch <= end
+                                                              ? stretch_differs(now + x, above + x)
+                                                              : !std::equal(now + x, now + end, above + x);
         }
     });
 }

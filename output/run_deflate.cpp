@@ -19,7 +19,7 @@ namespace {
 // Tokens: the 256 literals, then runs of 3 … 258 equal bytes, then those of equal pixels.
 constexpr std::size_t kLiterals = 256, kLengths = 256, kTokens = kLiterals + 2 * kLengths;
 constexpr std::size_t kShortestRun = 3, kLongestRun = 258;  // 3.2.5
-constexpr std::size_t kBlock = 65536;  // [token]: fits the cache, and headers are below a percent of it
+constexpr std::size_t kBlock = 65536;     // [token]: fits the cache, and headers are below a percent of it
 constexpr std::size_t kLongestPixel = 4;  // [byte]
 constexpr std::size_t kEndOfBlock = 256, kSymbols = 286;
 constexpr int kLongestWord = 15, kLongestPieceWord = 7;  // [bit]

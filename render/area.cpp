@@ -12,6 +12,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kFlatness = 0.02;  // of a circle's polygon [px]
+constexpr float kHalf = 0.5F;       // before truncation: rounds
 constexpr int kBand = 32;           // rows whose sums are held at once
 
 // The corners lie as far outside as the sides' middles lie inside.
@@ -65,7 +66,7 @@ class Sums {
         for (int x = reach.first, end = std::min(reach.end, width_); x < end;) {
             covered += sums[x];
             sums[x] = 0;
-            const int part = static_cast<int>(std::min(std::abs(covered), 1.0F) * 255 + 0.5F);
+            const int part = static_cast<int>(std::min(std::abs(covered), 1.0F) * 255 + kHalf);
             int next = x + 1;
             if (zeros(sums + next)) {  // nothing begins or ends there
                 do next += kEight;
@@ -128,8 +129,8 @@ class Sums {
         const auto head = static_cast<float>(first + 1 - left), tail = static_cast<float>(right - last);
         float before = 0;
         for (int x = first; x < last; ++x) {
-            const float upto = x == first ? 0.5F * step * head * head
-                                          : step * (head + static_cast<float>(x - first) - 0.5F);
+            const float upto =
+                x == first ? 0.5F * step * head * head : step * (head + static_cast<float>(x - first) - 0.5F);
             sums[x] += height * (upto - before);
             before = upto;
         }

@@ -1,7 +1,7 @@
 // Areas between closed contours, painted by exact coverage: each pixel gets as much of the colour as the area covers of
 // it. The signed areas that the edges cut off are summed row by row (as in font-rs, R. Levien 2016, and libart before
-// it). Cairo, which samples a pixel in 15 × 17 places, and FreeType, which walks through all contours anew for every few
-// hundred pixels of edge, take several times as long for the beam and the disc, whose edges are elsewhere in every
+// it). Cairo, which samples a pixel in 15 × 17 places, and FreeType, which walks through all contours anew for every
+// few hundred pixels of edge, take several times as long for the beam and the disc, whose edges are elsewhere in every
 // frame.
 #pragma once
 

@@ -39,8 +39,9 @@ inline std::uint32_t over(std::uint32_t ink, std::uint32_t part, std::uint32_t b
 
 // Premultiplied, through 16 bits a channel as Cairo does it.
 inline std::uint32_t pixel_of(const Color& c) {
+    constexpr double kHalf = 0.5;  // before truncation: rounds
     const auto channel = [](double share) {
-        return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * 65535.0 + 0.5) >> 8;
+        return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * 65535.0 + kHalf) >> 8;
     };
     return channel(c.a) << 24 | channel(c.r * c.a) << 16 | channel(c.g * c.a) << 8 | channel(c.b * c.a);
 }

@@ -100,9 +100,9 @@ void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palet
                 return edge[i] * (1 - way) + edge[i + 1] * way;
             };
             for (int k = 0; k < steps; ++k)
-                paint_quadrilateral({at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1),
-                                     at(middle.back, k)},
-                                    picture, mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps), touched);
+                paint_quadrilateral(
+                    {at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1), at(middle.back, k)}, picture,
+                    mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps), touched);
         }
         outline.paint(picture, p.steel_edge, touched);
     });
@@ -141,7 +141,9 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, const Palette& p
     canvas.fill_keeping_path(mix(p.paper, p.steel, 0.35));
     canvas.stroke({p.steel_edge, 2 * u});
     const double wide = half + 12 * u;
-    for (double x = -wide + 10 * u; x <= wide; x += 11 * u) {
+    const int lines = 1 + static_cast<int>((2 * wide - 10 * u) / (11 * u));
+    for (int i = 0; i < lines; ++i) {
+        const double x = (10 + 11 * i) * u - wide;
         canvas.move_to({o.x + x, o.y + foot});
         canvas.line_to({o.x + x - 10 * u, o.y + foot + 12 * u});
     }

@@ -127,7 +127,8 @@ TEST(Png, SequencesGiveTheBytesOfEachPictureAlone) {
                     for (int spot = any(4); spot > 0; --spot) {
                         const int x = any(width), y = any(height), right = std::min(width, x + 1 + any(40)),
                                   bottom = std::min(height, y + 1 + any(20));
-                        const std::uint32_t ink = any(2) ? 0xfff4f1eaU : 0xff000000U | static_cast<std::uint32_t>(any(1 << 24));
+                        const std::uint32_t ink =
+                            any(2) ? 0xfff4f1eaU : 0xff000000U | static_cast<std::uint32_t>(any(1 << 24));
                         for (int row = y; row < bottom; ++row)
                             std::fill_n(image.pixels.begin() + row * width + x, right - x, ink);
                         changed.add({double(x), double(y), right - x - 0.5, bottom - y - 0.5});

@@ -1,10 +1,11 @@
+#include "render/area.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "render/area.hpp"
 #include "render/image.hpp"
 
 namespace beamcam::render {
