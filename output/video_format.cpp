@@ -106,7 +106,7 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
         return std::string(title(codec)) +
                (codec == Codec::gif ? " has no half-transparent pixels, and every edge needs them"
                                     : " cannot be transparent") +
-               "; name a .webm (vp9), .mov (prores), .mkv (ffv1), .apng or .webp file, or write \"frames\"";
+               "; name a .webm (vp9), .mov (prores), .mkv (ffv1), .apng or .webp file, or write frames (NAME-####.png)";
     return {};
 }
 
@@ -123,7 +123,7 @@ std::string size_problem(Codec codec, int width, int height) {
                std::to_string(kLargestWebpSide) + ", or choose another codec";
     if (8 * (std::int64_t{width} + 128) * (std::int64_t{height} + 128) > kLargestPicture)
         return "a film of " + size + " pixels is not possible, because FFmpeg takes no picture larger than "
-               "16250x16250; choose a smaller size, or write \"frames\"";
+               "16250x16250; choose a smaller size, or write frames (NAME-####.png)";
     if (needs_even_sides(codec) && (width % 2 != 0 || height % 2 != 0))
         return "a film of " + size + " pixels is not possible, because " + title(codec) +
                " (yuv420p) stores colour for pairs of rows and columns; use " + std::to_string(width + width % 2) +
