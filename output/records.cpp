@@ -280,8 +280,8 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
         };
         const Json making = entry.value("making", Json());
         files[item.key()] = {digest.get<std::string>(), size.get<std::uintmax_t>(),
-                       Origin{word("inputs"), word("version"), word("scene")}, word("stamp"),
-                       making.is_number_integer() ? making.get<std::int64_t>() : 0};
+                             Origin{word("inputs"), word("version"), word("scene")}, word("stamp"),
+                             making.is_number_integer() ? making.get<std::int64_t>() : 0};
     }
     return files;
 }

@@ -45,7 +45,9 @@ std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double u
     return pairs;
 }
 
-bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (std::isnan(x) && std::isnan(y)); }
+bool same_bits(double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (std::isnan(x) && std::isnan(y));
+}
 
 ColumnDifference compare(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
                          const std::vector<Pair>& rows) {

@@ -296,7 +296,8 @@ struct VideoWriter::Impl {
         if (opened == beamcam_video_failed)  // what no rule of ours knew
             throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
                                     std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                    " pixels here (" + error.text + "); choose a smaller size, or write frames (NAME-####.png)");
+                                    " pixels here (" + error.text +
+                                    "); choose a smaller size, or write frames (NAME-####.png)");
         check(opened, error);
     }
 

@@ -42,11 +42,11 @@ const Home* home(std::string_view ending) {
     return at == kHomes.end() ? nullptr : &*at;
 }
 
-constexpr int kSmallestSide = 16, kLargestSide = 16384;              // x264's
-constexpr int kSmallestAv1Side = 64;                           // SVT-AV1's
-constexpr int kLargestWebpSide = 16383;                        // its fields have 14 bits
+constexpr int kSmallestSide = 16, kLargestSide = 16384;                // x264's
+constexpr int kSmallestAv1Side = 64;                                   // SVT-AV1's
+constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
-constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;  // [Hz]
+constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;    // [Hz]
 
 std::string plain(double value) {
     std::string text = std::to_string(value);
@@ -122,7 +122,8 @@ std::string size_problem(Codec codec, int width, int height) {
         return "an animated WebP of " + size + " pixels is not possible; both sides must be at most " +
                std::to_string(kLargestWebpSide) + ", or choose another codec";
     if (8 * (std::int64_t{width} + 128) * (std::int64_t{height} + 128) > kLargestPicture)
-        return "a film of " + size + " pixels is not possible, because FFmpeg takes no picture larger than "
+        return "a film of " + size +
+               " pixels is not possible, because FFmpeg takes no picture larger than "
                "16250x16250; choose a smaller size, or write frames (NAME-####.png)";
     if (needs_even_sides(codec) && (width % 2 != 0 || height % 2 != 0))
         return "a film of " + size + " pixels is not possible, because " + title(codec) +

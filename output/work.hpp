@@ -9,7 +9,7 @@ struct Work {
     long trajectories_from_cache = 0, trajectories_kept = 0;
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
-    long mechanisms_lit = 0;  // drawn by OpenGL; a frame whose mechanism stands still takes the last one's
+    long mechanisms_lit = 0;   // drawn by OpenGL; a frame whose mechanism stands still takes the last one's
     long frames_repeated = 0;  // of films: equal to the frame before and neither drawn nor converted again
     long frames_encoded = 0;
     long frames_left = 0;  // of sequences, there already

@@ -317,8 +317,7 @@ void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<co
         const double cut = cursor_column(t) + 1;
         canvas.clip({cut, plot_.y - 8, plot_.right() - cut, plot_.h + 9},
                     [&] { draw_curves(canvas, view, false, {}); });
-        canvas.clip({plot_.x, plot_.y - 8, cut - plot_.x, plot_.h + 9},
-                    [&] { draw_curves(canvas, view, true, {}); });
+        canvas.clip({plot_.x, plot_.y - 8, cut - plot_.x, plot_.h + 9}, [&] { draw_curves(canvas, view, true, {}); });
     }
     const double x = cursor_column(t) + 0.5;
     canvas.move_to({x, plot_.y - 6 * u});

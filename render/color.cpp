@@ -76,8 +76,8 @@ const Palette& palette(Theme theme) {
 }
 
 Color series_color(const Palette& p, std::size_t i) {
-    // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it under
-    // every common colour deficiency: eight in all with the palette's own.
+    // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it
+    // under every common colour deficiency: eight in all with the palette's own.
     static constexpr std::array kOnLight{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x882255),
                                          rgb(0x332288), rgb(0x56B4E9), rgb(0x603018)};
     static constexpr std::array kOnDark{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5),

@@ -184,7 +184,8 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
 }
 
 double film_factor(const Problem& problem, std::span<const Pose> poses, std::optional<double> wanted) {
-    return film_factor(problem, poses.size(), [&](std::size_t k) { return poses[k]; }, wanted);
+    return film_factor(
+        problem, poses.size(), [&](std::size_t k) { return poses[k]; }, wanted);
 }
 
 double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,

@@ -16,7 +16,9 @@ Vec2 beyond(std::span<const Vec2> points, std::size_t i, int way, Vec2 neighbour
 }
 
 // Between a at t0 and b at t1, or beyond.
-Vec2 blend(Vec2 a, Vec2 b, double t0, double t1, double t) { return a * ((t1 - t) / (t1 - t0)) + b * ((t - t0) / (t1 - t0)); }
+Vec2 blend(Vec2 a, Vec2 b, double t0, double t1, double t) {
+    return a * ((t1 - t) / (t1 - t0)) + b * ((t - t0) / (t1 - t0));
+}
 
 }  // namespace
 

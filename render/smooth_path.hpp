@@ -12,7 +12,8 @@
 
 namespace beamcam::render {
 
-// The piece from points[i] to points[i + 1], both ends included, in steps of about `step` pixels; i + 1 < points.size().
+// The piece from points[i] to points[i + 1], both ends included, in steps of about `step` pixels; i + 1 <
+// points.size().
 std::vector<Vec2> smooth_piece(std::span<const Vec2> points, std::size_t i, double step);
 
 }  // namespace beamcam::render

@@ -57,8 +57,9 @@ bool Stencils::exact() {
                     cairo_set_source_rgba(cr, color.r, color.g, color.b, color.a);
                     ink(cr);
                 });
-                const Probe ours =
-                    probed([&](cairo_t* cr) { paint(stencil_of({0, 0, kProbe, kProbe}, cr, ink), color, cr); });
+                const Probe ours = probed([&](cairo_t* cr) {
+                    paint(stencil_of({0, 0, kProbe, kProbe}, cr, ink), color, cr);
+                });
                 if (ours != theirs) return false;
             }
         return true;

@@ -193,7 +193,7 @@ Json output_json(const Output& any) {
             return out;
         }
         Json operator()(const FigureOutput& f) const {
-            Json out = {{"type", "figure"},  {"file", f.file}, {"figure", f.figure},
+            Json out = {{"type", "figure"},   {"file", f.file}, {"figure", f.figure},
                         {"column", f.column}, {"dpi", f.dpi},   {"lang", f.lang == Lang::zh ? "zh" : "en"}};
             if (f.width) out["width"] = *f.width;
             return out;
@@ -228,7 +228,10 @@ std::string to_json(const Scene& scene) {
     out["gravity"] = p.gravity;
     out["initial"] = {
         {"angle", p.initial.angle}, {"angular_velocity", p.initial.angular_velocity}, {"shape", name(p.initial.shape)}};
-    out["solver"] = {{"method", name(p.solver.method)}, {"rtol", p.solver.rtol}, {"atol", p.solver.atol}, {"max_steps", p.solver.max_steps}};
+    out["solver"] = {{"method", name(p.solver.method)},
+                     {"rtol", p.solver.rtol},
+                     {"atol", p.solver.atol},
+                     {"max_steps", p.solver.max_steps}};
     out["time"] = {{"end", scene.end_time}};
     if (!scene.outputs.empty()) {
         out["outputs"] = Json::array();
@@ -247,13 +250,13 @@ void put_cost(Json& stage, const std::optional<Cost>& cost, const char* amount) 
 
 Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
     Json stage = {{"stage", "simulate"},
-            {"model", name(problem.beam.model)},
-            {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
-            {"until", simulation.request.end_time},
-            {"because", simulation.until_because},
-            {"horizon", simulation.horizon},
-            {"from_cache", simulation.from_cache},
-            {"keep", simulation.keep}};
+                  {"model", name(problem.beam.model)},
+                  {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
+                  {"until", simulation.request.end_time},
+                  {"because", simulation.until_because},
+                  {"horizon", simulation.horizon},
+                  {"from_cache", simulation.from_cache},
+                  {"keep", simulation.keep}};
     put_cost(stage, simulation.cost, "steps");
     return stage;
 }

@@ -59,8 +59,8 @@ class Motions {
         const std::string& key;
         const sim::Problem& problem;
         std::span<const sim::Request> requests;
-        double until = 0;      // the latest that they look at [s]
-        bool keep = false;     // on disk
+        double until = 0;       // the latest that they look at [s]
+        bool keep = false;      // on disk
         bool remember = false;  // for this call
     };
 
@@ -77,10 +77,10 @@ class Motions {
     Progress& progress_;
     Options options_;
     std::deque<Wish> wishes_;
-    std::size_t fulfilled_ = 0;                         // so many of the first
+    std::size_t fulfilled_ = 0;  // so many of the first
     // Trajectories of `find`, by motion.
     std::map<std::string, std::shared_ptr<const sim::NumberSource>> known_;
-    std::mutex mutex_;                                  // of the counts
+    std::mutex mutex_;  // of the counts
     sim::Effort effort_;
     long from_cache_ = 0, kept_ = 0;
 };

@@ -318,8 +318,8 @@ void read_time(Findings& findings, const Node* node, double& end_time) {
                    fmt::format("time.end = {} s must be positive; write how many seconds to simulate", end_time));
         else if (end_time > kLatestEnd)
             f.fail(*end, "end",
-                   fmt::format("time.end = {:g} s is beyond {:g} s, where steps are lost in the digits of time", end_time,
-                               kLatestEnd));
+                   fmt::format("time.end = {:g} s is beyond {:g} s, where steps are lost in the digits of time",
+                               end_time, kLatestEnd));
     }
     f.finish();
 }

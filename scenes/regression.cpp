@@ -359,10 +359,10 @@ class Group {
         const sim::Result& run = results.front();
         if (job.test->asks_for_motion())
             job.test->judge_motion(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
-        Capture capture{std::move(results), [&](const Pictures&, long frame, const render::Image& image) {
-                            job.test->judge_picture(frame, image);
-                        },
-                        [&](const render::Image& image) { job.test->judge_picture(0, image); }};
+        Capture capture{
+            std::move(results),
+            [&](const Pictures&, long frame, const render::Image& image) { job.test->judge_picture(frame, image); },
+            [&](const render::Image& image) { job.test->judge_picture(0, image); }};
         RunOptions run_options = options.run;
         run_options.no_cache = true;  // what is tested is what this program does now
         try {

@@ -45,7 +45,7 @@ const char* type_name(const Output& output) {
 bool FrameSpan::looks_at_impacts() const {
     return speed.around || (poster && poster->kind != Instant::Kind::time) ||
            std::any_of(events.begin(), events.end(),
-                                       [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
+                       [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
 }
 
 VideoOutput default_film(const Scene& scene) {

@@ -90,7 +90,7 @@ struct Picture {
 // time or with events, k / fps is the film's own time.
 struct FrameSpan {
     FrameRate fps;
-    double from = 0;           // [s] of the motion, >= 0
+    double from = 0;                // [s] of the motion, >= 0
     std::optional<double> to = {};  // [s], > from; absent: the end of the scene
     Speed speed = {};
     std::vector<FilmEvent> events = {};
@@ -133,14 +133,14 @@ struct FigureOutput {
     std::string column = "elsevier";  // a journal's, see render/figure/style.hpp
     std::optional<double> width;      // [m]; absent: the column's
     Lang lang = Lang::en;
-    double dpi = 300;                      // of .png
+    double dpi = 300;                     // of .png
     std::string data_file, caption_file;  // beside it; only the command line asks for them
 };
-using Output = std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput,
-                            SummaryOutput>;
+using Output =
+    std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
 
 const std::string& file_of(const Output& output);
-std::string poster_file(const VideoOutput& video);           // "fall.png" beside "fall.mp4"
+std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
 std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
 // Files of both that may collide (files.hpp).
 std::optional<std::pair<std::string, std::string>> shared_file(const Output& a, const Output& b);

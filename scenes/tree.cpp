@@ -104,7 +104,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         const std::string_view what = error.what();
         if (what.find("number overflow") != std::string_view::npos) {
             skip_separators_and_brackets();
-            return fail(at_, fmt::format("number {} is too large for a double; the largest is 1.8e308", shortened(word_at(at_))));
+            return fail(at_, fmt::format("number {} is too large for a double; the largest is 1.8e308",
+                                         shortened(word_at(at_))));
         }
         return syntax_error(position, what);
     }
@@ -277,7 +278,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
     bool bad_word(std::size_t at, std::string_view word) {
         if (word == "NaN" || word == "nan" || word.ends_with("Infinity") || word.ends_with("inf"))
-            return fail(at, fmt::format("{} is not a number that a scene can have; write a finite one", shortened(word)));
+            return fail(at,
+                        fmt::format("{} is not a number that a scene can have; write a finite one", shortened(word)));
         if (word[0] == '+' || word[0] == '.' || word[0] == '-' || (word[0] >= '0' && word[0] <= '9'))
             return fail(at, fmt::format("{} is not how JSON writes a number; write for example 0.5, -3 or 1e-8, and "
                                         "\"12 mm\" with a unit in quotes",

@@ -12,12 +12,12 @@ namespace beamcam::sim {
 namespace {
 
 // Beyond these a modal model's small deflections are the likelier cause than anything that they lead to.
-constexpr double kLargestSlope = 0.5;  // [rad], between the ends of the beam
-constexpr double kLargestSag = 0.2;    // of the length, of the clamped beam under its weight
-constexpr double kFastSpin = 0.5;      // of the first bending frequency: what turning does to the stiffness matters
-constexpr double kRunaway = 1e3;       // of that frequency: nothing but a vanished inertia lets a hub turn so fast
+constexpr double kLargestSlope = 0.5;   // [rad], between the ends of the beam
+constexpr double kLargestSag = 0.2;     // of the length, of the clamped beam under its weight
+constexpr double kFastSpin = 0.5;       // of the first bending frequency: what turning does to the stiffness matters
+constexpr double kRunaway = 1e3;        // of that frequency: nothing but a vanished inertia lets a hub turn so fast
 constexpr double kSlowApproach = 1e-5;  // [m/s]: a hundredth of the usual floor
-constexpr double kSharpTouch = 0.1;    // of the time to the deepest point: what a step in a touch may span
+constexpr double kSharpTouch = 0.1;     // of the time to the deepest point: what a step in a touch may span
 
 // What the beam looks like, and how its contact point answers, at the last good instant.
 struct Look {
@@ -168,10 +168,10 @@ std::string what_limits(const Problem& p, System& system, const Look& beam, bool
                         coulomb->slip_speed));
     if (p.contact.model == ContactModel::compliant && beam.approach > 0 && beam.approach < kSlowApproach &&
         damping_factor(p.contact.damping, p.contact.restitution) > 0)
-        needs.push_back(fmt::format(
-            "the dissipation of this touch is divided by its approach speed of {:.2g} m/s (larger "
-            "contact.approach_floor.value: longer steps)",
-            beam.approach));
+        needs.push_back(
+            fmt::format("the dissipation of this touch is divided by its approach speed of {:.2g} m/s (larger "
+                        "contact.approach_floor.value: longer steps)",
+                        beam.approach));
     // The model's own decay, 2ζω or ηω².
     double ratio = 0.5 * p.beam.kelvin_voigt.value_or(0) * fastest;
     for (const double z : p.beam.damping_ratio) ratio = std::max(ratio, z);
@@ -194,7 +194,8 @@ std::string cause(const Failure& failure, System& system, const Look& beam) {
         case Stop::too_slow:
             if (bent(p, beam)) return tell_bent(p, beam);
             return fmt::format(
-                "at the pace of late, steps of {:.2g} s, the run would take {:.2g} steps, far more than its budget of {} "
+                "at the pace of late, steps of {:.2g} s, the run would take {:.2g} steps, far more than its budget of "
+                "{} "
                 "(solver.max_steps); {}",
                 failure.last_step, failure.whole, p.solver.max_steps, what_limits(p, system, beam, false));
         case Stop::passed_cam:

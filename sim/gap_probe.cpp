@@ -39,8 +39,8 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
         hub = motion.angle;
         rate = motion.rate;
     }
-    const Frame<double> frame{std::sin(hub), std::cos(hub), rate, pose.disc.x, pose.disc.y, pose.velocity.x,
-                              pose.velocity.y};
+    const Frame<double> frame{std::sin(hub), std::cos(hub),   rate,           pose.disc.x,
+                              pose.disc.y,   pose.velocity.x, pose.velocity.y};
     if (search || x_ < 0) {
         system_.place(t, y);
         if (!system_.nearly_straight()) return false;

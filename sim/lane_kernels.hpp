@@ -21,7 +21,8 @@ struct LaneKernels {
     void (*respond)(const OscillatorLanes& group, double tau, const Lanes& decay, Lanes* r);
     // out[j] = Σ_l factor[j][l] x[l], j and l from 0 to 7.
     void (*combine)(const Lanes* factors, const Lanes* x, Lanes* out);
-    // q, q̇ of a group from its values (a, b) some time ago, its responses since and the derivatives of its forcing then.
+    // q, q̇ of a group from its values (a, b) some time ago, its responses since and the derivatives of its forcing
+    // then.
     void (*evolve)(const OscillatorLanes& group, const Lanes* r, const Lanes* derivatives, const Lanes& a,
                    const Lanes& b, Lanes& q, Lanes& v);
     const char* name;

@@ -372,7 +372,8 @@ void Recorder::contact_poses(const Stretch& s) {
         const double from = poses.times[pose_cursors_[i].order.front()],
                      to = poses.times[pose_cursors_[i].order.back()];
         for (const double t : instants) {
-            if (!(t >= std::max(s.from, from) && t <= std::min(s.to, to)) || contact_poses_[i] == poses.contacts) continue;
+            if (!(t >= std::max(s.from, from) && t <= std::min(s.to, to)) || contact_poses_[i] == poses.contacts)
+                continue;
             s.segment->value(t, y_.data());
             eye_.look(t, y_.data());
             eye_.system().search_again();

@@ -36,8 +36,8 @@ struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, t
     double speed = 0;     // Ω [rad/s]
     double duration = 1;  // T [s], > 0
 };
-struct AngleTable {  // natural cubic spline through the points (C²), outside them straight on at the end speeds
-    std::vector<double> t;      // [s], strictly increasing, at least two
+struct AngleTable {         // natural cubic spline through the points (C²), outside them straight on at the end speeds
+    std::vector<double> t;  // [s], strictly increasing, at least two
     std::vector<double> theta;  // [rad]
 };
 using Drive = std::variant<FreeDrive, ConstantTorque, HarmonicTorque, TorqueTable, ConstantSpeed, SpinUp, AngleTable>;
@@ -146,8 +146,8 @@ struct Initial {
 enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
 struct Solver {
     Method method = Method::automatic;
-    double rtol = 1e-8;   // 1e-13…1e-2
-    double atol = 1e-11;  // > 0
+    double rtol = 1e-8;           // 1e-13…1e-2
+    double atol = 1e-11;          // > 0
     int max_steps = 100'000'000;  // steps that a run may try, 1…2e9
 };
 

@@ -93,9 +93,7 @@ class QuadratureModel : public Model {
         }
     }
 
-    double frequency(int i) const override {
-        return frequencies_[static_cast<std::size_t>(i)];
-    }
+    double frequency(int i) const override { return frequencies_[static_cast<std::size_t>(i)]; }
 
     Energies energies() const override {
         Energies e;
@@ -132,7 +130,8 @@ class QuadratureModel : public Model {
         const double zero[kMaxSize] = {};
         set(zero, zero);
         assemble(f);
-        // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell little.
+        // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
+        // little.
         const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
             bending_, inertia_.bottomRightCorner(modes_, modes_), Eigen::EigenvaluesOnly);
         frequencies_.resize(static_cast<std::size_t>(modes_));

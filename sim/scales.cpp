@@ -34,23 +34,27 @@ class Scales {
         const Part* worst = parts.begin();
         for (const Part& part : parts)
             if (decades(part.value) > decades(worst->value)) worst = &part;
-        list.push_back({worst->path, fmt::format("{:g} makes {} {} than {:g} {}, which the equations cannot be computed with",
-                                                 worst->value, what, value < 1 ? "smaller" : "larger",
-                                                 value < 1 ? range.low : range.high, unit),
-                        true});
+        list.push_back(
+            {worst->path,
+             fmt::format("{:g} makes {} {} than {:g} {}, which the equations cannot be computed with", worst->value,
+                         what, value < 1 ? "smaller" : "larger", value < 1 ? range.low : range.high, unit),
+             true});
     }
     void slower_than_light(const char* path, const char* what, double rate, double arm) {
         const double speed = std::fabs(rate) * arm;
         if (speed <= kLight) return;
-        list.push_back({path, fmt::format("{:g} rad/s would move {} at {:.3g} m/s, faster than light ({:.3g} m/s)", rate, what,
-                                          speed, kLight),
+        list.push_back({path,
+                        fmt::format("{:g} rad/s would move {} at {:.3g} m/s, faster than light ({:.3g} m/s)", rate,
+                                    what, speed, kLight),
                         true});
     }
     void resolved(const char* path, double size, double length, double most, const char* what) {
         if (std::fabs(size) <= most * length) return;
-        list.push_back({path, fmt::format("{:g} m is more than {:g} times the beam's length of {:g} m: {} would be lost in rounding",
-                                          size, most, length, what),
-                        true});
+        list.push_back(
+            {path,
+             fmt::format("{:g} m is more than {:g} times the beam's length of {:g} m: {} would be lost in rounding",
+                         size, most, length, what),
+             true});
     }
     std::vector<Finding> list;
 
@@ -73,7 +77,8 @@ double fastest(const Drive& drive) {
 void judge_beam(Scales& out, const Problem& p) {
     const Beam& b = p.beam;
     const double mass = b.density * b.area * b.length;
-    out.within(kInertias, "the beam's mass", mass, "kg", {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
+    out.within(kInertias, "the beam's mass", mass, "kg",
+               {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
     out.within(kInertias, "the beam's moment of inertia", mass * b.length * b.length / 3, "kg m^2",
                {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
     if (b.model == ModelKind::rigid) return;

@@ -1,5 +1,6 @@
-// Whether the scales that follow from a problem's numbers (mass, inertia, frequency, speeds, depth of a touch) leave its
-// equations within the range and the resolution of double arithmetic. Each number may be sane, and what they make not.
+// Whether the scales that follow from a problem's numbers (mass, inertia, frequency, speeds, depth of a touch) leave
+// its equations within the range and the resolution of double arithmetic. Each number may be sane, and what they make
+// not.
 #pragma once
 
 #include <vector>

@@ -766,8 +766,8 @@ class Run {
     double whole_ = 0;         // steps that the whole run would take at the pace so far, when last looked
     long next_pace_ = kFirstPace, paced_ = 0;  // steps at the next such look and at the last
     double paced_time_ = 0;                    // [s]
-    Stop why_ = Stop::method;  // of a failure
-    bool started_ = false;     // a state to begin with was found
+    Stop why_ = Stop::method;                  // of a failure
+    bool started_ = false;                     // a state to begin with was found
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 

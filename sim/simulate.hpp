@@ -78,8 +78,8 @@ struct PoseRequest {
     // Takes each pose, by the row of its time, as soon as it is known: then Result::poses keeps none. A row may be told
     // again, and not all are told when the run fails.
     std::function<void(std::size_t row, const Pose& pose)> take{};
-    // Also so many poses in contact, between the first and the last of the times: at each touch and within the steps that
-    // follow it. Their rows go on from those of the times, and begin anew when those do.
+    // Also so many poses in contact, between the first and the last of the times: at each touch and within the steps
+    // that follow it. Their rows go on from those of the times, and begin anew when those do.
     std::size_t contacts = 0;
 };
 // The path of a material point of the centre line.

@@ -29,8 +29,8 @@ void put(std::vector<double>& out, const Tally& t) {
 
 void put(std::vector<double>& out, const Notes& n) {
     const std::optional<double> peak = n.force_peak;
-    for (double value : {double(n.turning_points), double(peak.has_value()), peak.value_or(0), n.penetration_peak, n.energy_scale,
-                         n.energy_residual_max, n.largest_elastic})
+    for (double value : {double(n.turning_points), double(peak.has_value()), peak.value_or(0), n.penetration_peak,
+                         n.energy_scale, n.energy_residual_max, n.largest_elastic})
         out.push_back(value);
     out.push_back(static_cast<double>(n.apexes.size()));
     for (const Apex& a : n.apexes) out.push_back(a.t), out.push_back(a.theta);
@@ -166,7 +166,8 @@ class Feed {
             window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(used_));
             used_ = 0;
             const std::size_t known = window_.size();
-            const std::uint64_t more = std::min<std::uint64_t>(std::max(kWindow, count) - known, source_.size() - read_);
+            const std::uint64_t more =
+                std::min<std::uint64_t>(std::max(kWindow, count) - known, source_.size() - read_);
             window_.resize(known + static_cast<std::size_t>(more));
             source_.read(read_, std::span(window_).subspan(known));
             read_ += more;

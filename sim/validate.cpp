@@ -42,7 +42,8 @@ class Findings {
   private:
     void sane(const char* path, double value) {
         if (!(std::fabs(value) <= kLargest))
-            refuse(path, fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers", kLargest, value));
+            refuse(path, fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers",
+                                     kLargest, value));
     }
 };
 
@@ -216,8 +217,9 @@ void check_geometry(Findings& out, const Problem& p) {
     }
     const bool rigid = p.beam.model == ModelKind::rigid || p.beam.modes == 0;
     if (rigid && is_prescribed(p.hub.drive) && p.contact.model == ContactModel::restitution) {
-        out.refuse("contact.model", "nothing gives way to an impulse when a rigid beam meets the cam at a prescribed angle; use "
-                                    "\"compliant\" contact, a flexible beam, or a torque instead of the angle");
+        out.refuse("contact.model",
+                   "nothing gives way to an impulse when a rigid beam meets the cam at a prescribed angle; use "
+                   "\"compliant\" contact, a flexible beam, or a torque instead of the angle");
         return;
     }
     if (p.initial.shape == InitialShape::resting) return;

@@ -11,10 +11,10 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kAir = 0.04;            // beyond the data, of the range
-constexpr double kSameRelative = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
+constexpr double kAir = 0.04;                   // beyond the data, of the range
+constexpr double kSameRelative = 1e-12;         // a range smaller than this part of its numbers is rounding, not data
 constexpr double kLargest = 4, kSmallest = -2;  // powers of ten within which numbers need no common factor
-constexpr double kOffsetFrom = 2e-4;     // a range smaller than this part of its numbers gets a common offset
+constexpr double kOffsetFrom = 2e-4;            // a range smaller than this part of its numbers gets a common offset
 
 // 10ⁿ for |n| <= 300.
 double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }

@@ -18,10 +18,10 @@ struct Axis {
     std::string label = {};  // markup, "$θ$ / rad"
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};  // limits at the start and the end of the axis; may be reversed
-    bool tight = false;              // the data's own range, without air
-    bool with_zero = false;          // the range shown includes zero (linear)
-    bool numbered = true;            // labels at the ticks
-    bool counts = false;             // whole numbers: no ticks between them (linear)
+    bool tight = false;                        // the data's own range, without air
+    bool with_zero = false;                    // the range shown includes zero (linear)
+    bool numbered = true;                      // labels at the ticks
+    bool counts = false;                       // whole numbers: no ticks between them (linear)
 };
 
 // Least and greatest finite value; for a logarithmic axis of the positive ones.
@@ -54,8 +54,8 @@ class AxisMap {
     void logarithmic(const Axis& axis, int most);
 
     bool log_ = false, reversed_ = false;
-    double low_ = 0, high_ = 1;                   // of the data shown, low < high
-    double unit_ = 1, offset_ = 0, scale_ = 1;    // place uses (v/unit − offset)·scale, which has an ordinary size
+    double low_ = 0, high_ = 1;                 // of the data shown, low < high
+    double unit_ = 1, offset_ = 0, scale_ = 1;  // place uses (v/unit − offset)·scale, which has an ordinary size
     double scaled_low_ = 0, scaled_high_ = 1;
     std::vector<Tick> ticks_;
     std::string common_;

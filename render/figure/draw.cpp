@@ -14,9 +14,9 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kWide = 125;        // [mm]: from here on two panels stand side by side
+constexpr double kWide = 125;                      // [mm]: from here on two panels stand side by side
 constexpr double kNarrowest = 20, kWidest = 2000;  // [mm]
-constexpr double kEdge = 1.5;        // free at the page's edge [pt]
+constexpr double kEdge = 1.5;                      // free at the page's edge [pt]
 
 struct Grid {
     std::size_t rows = 1, columns = 1;
@@ -120,9 +120,10 @@ class Layout {
         const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
         const double least = 2 * page_.style.letters;
         if (p.w < least || p.h < least)
-            throw PictureError(fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
-                                           "its labels; make it wider",
-                                           figure_.name, page_.width, page_.height));
+            throw PictureError(
+                fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
+                            "its labels; make it wider",
+                            figure_.name, page_.width, page_.height));
         return p;
     }
 
@@ -176,8 +177,10 @@ void add_panel(std::string& out, const Panel& panel, const std::string& name) {
         rows(cell_text(b.label) + " (high)", panel.y, b.x, b.high, {});
     }
     for (const Mark& m : panel.marks)
-        rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x}, {m.y}, {});
-    for (const Span& s : panel.spans) rows(s.label.empty() ? "stretch" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
+        rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x},
+             {m.y}, {});
+    for (const Span& s : panel.spans)
+        rows(s.label.empty() ? "stretch" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
     for (const Inset& inset : panel.insets) add_panel(out, inset.panel.front(), name + " inset");
     for (const Shape& s : panel.shapes) {
         if (s.kind == Shape::Kind::label) continue;
@@ -232,9 +235,11 @@ bool needs_chinese(const Figure& figure) {
         for (const Mark& m : p.marks) all += m.label;
         for (const Shape& s : p.shapes) all += s.markup;
         if (needs_cjk(all)) return true;
-        return std::any_of(p.insets.begin(), p.insets.end(), [&](const Inset& i) { return self(self, i.panel.front()); });
+        return std::any_of(p.insets.begin(), p.insets.end(),
+                           [&](const Inset& i) { return self(self, i.panel.front()); });
     };
-    return std::any_of(figure.panels.begin(), figure.panels.end(), [&](const Panel& p) { return of_panel(of_panel, p); });
+    return std::any_of(figure.panels.begin(), figure.panels.end(),
+                       [&](const Panel& p) { return of_panel(of_panel, p); });
 }
 
 }  // namespace beamcam::render::figure

@@ -17,14 +17,14 @@ namespace beamcam::render::figure {
 struct Series {
     std::string label = {};  // markup; empty: not explained
     std::vector<double> x, y;
-    int look = 0;                // colour, dash and marker, see `look`
-    bool line = true;            // through the points; NaN breaks it
-    bool every_point = false;    // a marker at each point
-    bool some_markers = false;   // a few markers along a line, to tell it in grey print
-    bool solid = false;          // no dash although the look has one
-    bool faded = false;          // lighter and thinner: not to be relied on
-    bool right = false;          // belongs to the right axis
-    double weight = 1;           // of the line
+    int look = 0;               // colour, dash and marker, see `look`
+    bool line = true;           // through the points; NaN breaks it
+    bool every_point = false;   // a marker at each point
+    bool some_markers = false;  // a few markers along a line, to tell it in grey print
+    bool solid = false;         // no dash although the look has one
+    bool faded = false;         // lighter and thinner: not to be relied on
+    bool right = false;         // belongs to the right axis
+    double weight = 1;          // of the line
     bool no_direct_label = false;
     std::optional<Color> color;  // instead of the look's
     std::vector<double> value;   // colours the curve by the panel's colour bar; same length as x
@@ -64,19 +64,19 @@ struct ColorBar {
 struct Shape {
     enum class Kind { line, area, circle, disc, arc, arrow, turn, label };
     Kind kind = Kind::line;
-    std::vector<Vec2> points = {};    // line, area; arrow and turn: from, to; label: where
-    Vec2 centre = {};                 // circle, disc, arc, turn
-    double radius = 0;           // [data]
-    double radius_points = 0;    // instead: on paper [pt]
-    double from = 0, to = 0;     // arc, turn: counter-clockwise [rad]; a turn has an arrow head at `to`
+    std::vector<Vec2> points = {};  // line, area; arrow and turn: from, to; label: where
+    Vec2 centre = {};               // circle, disc, arc, turn
+    double radius = 0;              // [data]
+    double radius_points = 0;       // instead: on paper [pt]
+    double from = 0, to = 0;        // arc, turn: counter-clockwise [rad]; a turn has an arrow head at `to`
     Color color = {};
-    double width = 0;            // of the line [pt]; 0: the style's
-    std::vector<double> dash = {};    // in widths
-    std::string markup = {};          // label
-    Vec2 shift = {};                  // of the label, in sizes of its letters, y up
+    double width = 0;               // of the line [pt]; 0: the style's
+    std::vector<double> dash = {};  // in widths
+    std::string markup = {};        // label
+    Vec2 shift = {};                // of the label, in sizes of its letters, y up
     Across across = Across::centre;
     Up up = Up::middle;
-    bool small = false;          // label
+    bool small = false;  // label
 };
 
 enum class Legend { direct, box, none };  // labels at the curves where they have room, else a box; a box; nothing
@@ -114,11 +114,11 @@ struct Figure {
     std::string name;   // "free-fall"
     std::string title;  // plain words, for the file's properties
     std::vector<Panel> panels;
-    bool stack = false;       // panels above each other however wide the page; else side by side where there is room
-    bool share_x = false;     // stacked panels have one x axis: numbers and label below the last
-    double aspect = 0.66;     // height by width of one column
-    std::string caption;      // markup
-    std::string accuracy;     // markup: how far the numbers can be trusted; ends the caption
+    bool stack = false;    // panels above each other however wide the page; else side by side where there is room
+    bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
+    double aspect = 0.66;  // height by width of one column
+    std::string caption;   // markup
+    std::string accuracy;  // markup: how far the numbers can be trusted; ends the caption
 };
 
 struct Page {

@@ -14,7 +14,8 @@ Occupancy::Occupancy(const Box& area, double cell)
 
 void Occupancy::add(int i, int j, double weight) {
     if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return;
-    float& cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
+    float& cell =
+        cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
     cell = std::max(cell, static_cast<float>(weight));
     summed_ = false;
 }
@@ -47,8 +48,8 @@ void Occupancy::sum() const {
     sums_.assign(width * (static_cast<std::size_t>(rows_) + 1), 0);
     for (std::size_t j = 0; j < static_cast<std::size_t>(rows_); ++j)
         for (std::size_t i = 0; i < static_cast<std::size_t>(columns_); ++i)
-            sums_[(j + 1) * width + i + 1] = sums_[j * width + i + 1] + sums_[(j + 1) * width + i] - sums_[j * width + i] +
-                                             cells_[j * static_cast<std::size_t>(columns_) + i];
+            sums_[(j + 1) * width + i + 1] = sums_[j * width + i + 1] + sums_[(j + 1) * width + i] -
+                                             sums_[j * width + i] + cells_[j * static_cast<std::size_t>(columns_) + i];
     summed_ = true;
 }
 
@@ -63,7 +64,8 @@ double Occupancy::cost(const Box& box) const {
     };
     const std::size_t width = static_cast<std::size_t>(columns_) + 1;
     const std::size_t i0 = column(box.x), i1 = column(box.right()) + 1, j0 = row(box.y), j1 = row(box.bottom()) + 1;
-    return std::max(0.0, sums_[j1 * width + i1] - sums_[j0 * width + i1] - sums_[j1 * width + i0] + sums_[j0 * width + i0]);
+    return std::max(0.0,
+                    sums_[j1 * width + i1] - sums_[j0 * width + i1] - sums_[j1 * width + i0] + sums_[j0 * width + i0]);
 }
 
 Place best_place(const Occupancy& taken, double width, double height, double margin) {

@@ -15,8 +15,7 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
         for (const Vec2 p : s.points) all.add(p);
         if (s.kind == Shape::Kind::circle || s.kind == Shape::Kind::disc) all.add(s.centre, s.radius);
         if (s.kind == Shape::Kind::arc || s.kind == Shape::Kind::turn)
-            for (int k = 0; k <= 24; ++k)
-                all.add(s.centre + s.radius * sim::unit(s.from + (s.to - s.from) * k / 24));
+            for (int k = 0; k <= 24; ++k) all.add(s.centre + s.radius * sim::unit(s.from + (s.to - s.from) * k / 24));
     }
     return all;
 }

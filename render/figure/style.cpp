@@ -7,7 +7,8 @@
 namespace beamcam::render::figure {
 namespace {
 
-// Author guidelines: IEEE 3.5 and 7.16 in; Elsevier 90, 140, 190 mm; Nature 89 and 183 mm; APS 3⅜ and 7 in (86, 178 mm).
+// Author guidelines: IEEE 3.5 and 7.16 in; Elsevier 90, 140, 190 mm; Nature 89 and 183 mm; APS 3⅜ and 7 in (86, 178
+// mm).
 constexpr std::array kColumns{Column{"ieee", 88.9, 8, 1.0, 0, "IEEE, one column"},
                               Column{"ieee-double", 181.9, 8, 1.0, 0, "IEEE, both columns"},
                               Column{"elsevier", 90, 8, 1.0, 0, "Elsevier, one column"},

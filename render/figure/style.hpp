@@ -14,10 +14,10 @@ namespace beamcam::render::figure {
 // A column of a journal, or a slide.
 struct Column {
     const char* name;
-    double width;          // [mm]
-    double letters;        // size of text [pt]
-    double line;           // width of curves [pt]
-    double height = 0;     // [mm]; 0: what suits the figure
+    double width;       // [mm]
+    double letters;     // size of text [pt]
+    double line;        // width of curves [pt]
+    double height = 0;  // [mm]; 0: what suits the figure
     const char* whose = "";
 };
 std::span<const Column> columns();
@@ -26,13 +26,13 @@ std::vector<std::string> column_names();
 
 // Sizes that follow from the column [pt].
 struct Style {
-    double letters = 8;        // axis titles, legends, notes
-    double numbers = 7.5;      // at the ticks
-    double line = 1.0;         // curves
-    double frame = 0.6;        // axes
+    double letters = 8;    // axis titles, legends, notes
+    double numbers = 7.5;  // at the ticks
+    double line = 1.0;     // curves
+    double frame = 0.6;    // axes
     double tick = 3, minor_tick = 1.7;
-    double gap = 3;            // between neighbours
-    double marker = 2.0;       // radius
+    double gap = 3;       // between neighbours
+    double marker = 2.0;  // radius
 };
 Style style_of(const Column& column);
 

@@ -13,25 +13,33 @@ namespace {
 using Pair = std::pair<std::string_view, std::string_view>;
 
 // Greek of mechanics, and signs, as LaTeX writes them in mathematics.
-constexpr std::array kLatexMath{Pair{"α", "\\alpha"},  Pair{"β", "\\beta"},     Pair{"γ", "\\gamma"},
-                                Pair{"δ", "\\delta"},  Pair{"ε", "\\epsilon"},  Pair{"ζ", "\\zeta"},
-                                Pair{"η", "\\eta"},    Pair{"θ", "\\theta"},    Pair{"κ", "\\kappa"},
-                                Pair{"λ", "\\lambda"}, Pair{"μ", "\\mu"},       Pair{"ν", "\\nu"},
-                                Pair{"ξ", "\\xi"},     Pair{"π", "\\pi"},       Pair{"ρ", "\\rho"},
-                                Pair{"σ", "\\sigma"},  Pair{"τ", "\\tau"},      Pair{"φ", "\\varphi"},
-                                Pair{"χ", "\\chi"},    Pair{"ψ", "\\psi"},      Pair{"ω", "\\omega"},
-                                Pair{"Θ", "\\Theta"},  Pair{"Δ", "\\Delta"},    Pair{"Σ", "\\Sigma"},
-                                Pair{"Ω", "\\Omega"},  Pair{"×", "\\times "},   Pair{"·", "\\cdot "},
-                                Pair{"−", "-"},        Pair{"≥", "\\ge "},      Pair{"≤", "\\le "},
-                                Pair{"≈", "\\approx "}, Pair{"√", "\\surd "},   Pair{"∞", "\\infty "},
-                                Pair{"°", "^{\\circ}"}, Pair{"±", "\\pm "},     Pair{"′", "'"},
-                                Pair{"→", "\\to "},    Pair{"²", "^{2}"},       Pair{"³", "^{3}"}};
-constexpr std::array kLatexText{Pair{"–", "--"},     Pair{"—", "---"},   Pair{"\u00A0", "~"}, Pair{"\u2009", "\\,"},
-                                Pair{"“", "``"},     Pair{"”", "''"},    Pair{"%", "\\%"},    Pair{"&", "\\&"},
-                                Pair{"#", "\\#"},    Pair{"_", "\\_"},   Pair{"{", "\\{"},    Pair{"}", "\\}"},
-                                Pair{"$", "\\$"},    Pair{"~", "\\textasciitilde{}"},
-                                Pair{"^", "\\textasciicircum{}"},        Pair{"\\", "\\textbackslash{}"},
-                                Pair{"…", "\\dots{}"}, Pair{"µ", "\\textmu{}"}};
+constexpr std::array kLatexMath{
+    Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},  Pair{"γ", "\\gamma"},  Pair{"δ", "\\delta"},   Pair{"ε", "\\epsilon"},
+    Pair{"ζ", "\\zeta"},    Pair{"η", "\\eta"},   Pair{"θ", "\\theta"},  Pair{"κ", "\\kappa"},   Pair{"λ", "\\lambda"},
+    Pair{"μ", "\\mu"},      Pair{"ν", "\\nu"},    Pair{"ξ", "\\xi"},     Pair{"π", "\\pi"},      Pair{"ρ", "\\rho"},
+    Pair{"σ", "\\sigma"},   Pair{"τ", "\\tau"},   Pair{"φ", "\\varphi"}, Pair{"χ", "\\chi"},     Pair{"ψ", "\\psi"},
+    Pair{"ω", "\\omega"},   Pair{"Θ", "\\Theta"}, Pair{"Δ", "\\Delta"},  Pair{"Σ", "\\Sigma"},   Pair{"Ω", "\\Omega"},
+    Pair{"×", "\\times "},  Pair{"·", "\\cdot "}, Pair{"−", "-"},        Pair{"≥", "\\ge "},     Pair{"≤", "\\le "},
+    Pair{"≈", "\\approx "}, Pair{"√", "\\surd "}, Pair{"∞", "\\infty "}, Pair{"°", "^{\\circ}"}, Pair{"±", "\\pm "},
+    Pair{"′", "'"},         Pair{"→", "\\to "},   Pair{"²", "^{2}"},     Pair{"³", "^{3}"}};
+constexpr std::array kLatexText{Pair{"–", "--"},
+                                Pair{"—", "---"},
+                                Pair{"\u00A0", "~"},
+                                Pair{"\u2009", "\\,"},
+                                Pair{"“", "``"},
+                                Pair{"”", "''"},
+                                Pair{"%", "\\%"},
+                                Pair{"&", "\\&"},
+                                Pair{"#", "\\#"},
+                                Pair{"_", "\\_"},
+                                Pair{"{", "\\{"},
+                                Pair{"}", "\\}"},
+                                Pair{"$", "\\$"},
+                                Pair{"~", "\\textasciitilde{}"},
+                                Pair{"^", "\\textasciicircum{}"},
+                                Pair{"\\", "\\textbackslash{}"},
+                                Pair{"…", "\\dots{}"},
+                                Pair{"µ", "\\textmu{}"}};
 
 std::size_t sequence_length(char lead) {
     const auto byte = static_cast<unsigned char>(lead);
@@ -193,9 +201,9 @@ std::string latex_run(const Run& run) {
 }
 
 std::string superscript(std::string_view text) {
-    static constexpr std::array kRaised{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"}, Pair{"4", "⁴"},
-                                        Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"}, Pair{"8", "⁸"}, Pair{"9", "⁹"},
-                                        Pair{"−", "⁻"}, Pair{"+", "⁺"}};
+    static constexpr std::array kRaised{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
+                                        Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
+                                        Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view c = next_character(text, at);

@@ -101,7 +101,8 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
     std::string models, text;
     for (const sim::ModelRow& row : a.models)
         if (row.error && row.model != a.best_model)
-            models += fmt::format("{}{} {} rad", models.empty() ? "" : ", ", sim::name(row.model), number(*row.error, 2));
+            models +=
+                fmt::format("{}{} {} rad", models.empty() ? "" : ", ", sim::name(row.model), number(*row.error, 2));
     if (!models.empty())
         text += filled(en ? " Within {1} s the models of the beam differ from {0} by: {2}."
                           : "前 {1} s 内各梁模型与 {0} 的差：{2}。",
@@ -111,7 +112,8 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
         if (row.error)
             contact += fmt::format("{}{}: {} rad", contact.empty() ? "" : "; ", row.change, number(*row.error, 2));
     if (!contact.empty())
-        text += filled(en ? " What changes of the contact law move {} by: {}." : "接触参数的变化引起的 {} 的改变：{}。", angle(a), contact);
+        text += filled(en ? " What changes of the contact law move {} by: {}." : "接触参数的变化引起的 {} 的改变：{}。",
+                       angle(a), contact);
     return text;
 }
 
@@ -145,7 +147,8 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
     figure.caption = filled(
         en ? "Largest error of {} in the first {} s against the run time on one core, the median of up to {} runs "
              "with their range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}.{}"
-           : "{} 在前 {} s 内的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 rk8，容差 10^{{−13}}。模型 {}。{}",
+           : "{} 在前 {} s 内的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 "
+             "rk8，容差 10^{{−13}}。模型 {}。{}",
         angle(a), number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), model, budget(a, lang));
     figure.accuracy = filled(en ? "The reference is good to about {} rad." : "参考解自身误差约 {} rad。",
                              number(a.reference_error, 1));

@@ -85,14 +85,17 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
         panel.series = {force, depth};
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.62;
-        figure.caption = filled(
-            en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is negative "
-                 "where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision has {} impact{} "
-                 "(shaded); peak force {} N, energy lost {} J. "
-               : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s 起。该碰撞包含 {} 次{}"
-                 "冲击（阴影）；峰值力 {} N，能量损失 {} J。",
-            grouped(c->t_start, 6), c->count, en && c->count != 1 ? "s" : "", c->force_peak ? number(*c->force_peak, 4) : std::string("–"),
-            number(c->energy_lost, 3));
+        figure.caption =
+            filled(en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which "
+                        "is negative "
+                        "where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision has {} "
+                        "impact{} "
+                        "(shaded); peak force {} N, energy lost {} J. "
+                      : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} "
+                        "s 起。该碰撞包含 {} 次{}"
+                        "冲击（阴影）；峰值力 {} N，能量损失 {} J。",
+                   grouped(c->t_start, 6), c->count, en && c->count != 1 ? "s" : "",
+                   c->force_peak ? number(*c->force_peak, 4) : std::string("–"), number(c->energy_lost, 3));
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
@@ -105,8 +108,8 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
     const std::size_t table = studies.table(
         study, {0, end, kCurve},
         {ChannelKind::t, ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
-         ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact, ChannelKind::loss_friction,
-         ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});
+         ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact,
+         ChannelKind::loss_friction, ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -152,8 +155,9 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
         add({"bending and contact", "弯曲与接触能"}, sum({Kind::energy_elastic, Kind::energy_contact}), false);
         add({"lost", "损失"}, sum({Kind::loss_structural, Kind::loss_contact, Kind::loss_friction}), false);
         add({"work done on it", "外功"}, sum({Kind::work_cam, Kind::work_drive}), false);
-        std::vector<double> total = sum({Kind::energy_kinetic, Kind::energy_potential, Kind::energy_elastic, Kind::energy_contact, Kind::loss_structural,
-                                         Kind::loss_contact, Kind::loss_friction});
+        std::vector<double> total =
+            sum({Kind::energy_kinetic, Kind::energy_potential, Kind::energy_elastic, Kind::energy_contact,
+                 Kind::loss_structural, Kind::loss_contact, Kind::loss_friction});
         const std::vector<double> work = sum({Kind::work_cam, Kind::work_drive});
         for (std::size_t i = 0; i < total.size(); ++i) total[i] -= work[i];
         Series s;
@@ -186,11 +190,13 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
         figure.aspect = 1.05;
         const bool both = figure.panels.size() > 1;
         const Words ledger_words{
-            "Energy ledger: {}kinetic, potential and stored energy, what structure, contact and friction lost, and the work "
+            "Energy ledger: {}kinetic, potential and stored energy, what structure, contact and friction lost, and the "
+            "work "
             "of cam and drive; their balance is the black line. ",
             "能量账目：{}动能、势能、储能，结构、接触与摩擦的损失，以及凸轮与驱动的功；黑线为其平衡。"};
         const Words closure_words{
-            "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below 10^{−12} of "
+            "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below "
+            "10^{−12} of "
             "the largest energy is rounding and lies on the lower edge. ",
             "(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘。"};
         figure.caption = filled(ledger_words.in(lang).c_str(), both ? "(a) " : "");
@@ -203,7 +209,8 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
 
 // The first collision alone, in which the place moves by less than its mark in the whole.
 std::optional<render::figure::Inset> close_up(const sim::Collision& c, double end, const std::vector<double>& time,
-                               const std::vector<double>& force, const std::vector<double>& x, const Panel& whole, bool en) {
+                                              const std::vector<double>& force, const std::vector<double>& x,
+                                              const Panel& whole, bool en) {
     Panel panel;
     panel.title = en ? "first collision" : "首次碰撞";
     panel.x.label = "($t$ − $t_{1}$) / ms";
@@ -253,8 +260,9 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     figure.name = "contact-places";
     figure.title = en ? "Contact point on the beam" : "梁上的接触点";
     figure.panels = {std::move(panel)};
-    figure.caption = en ? "Place of the impacts on the beam, measured from its root, coloured by their normal impulse $J$. "
-                        : "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。";
+    figure.caption =
+        en ? "Place of the impacts on the beam, measured from its root, coloured by their normal impulse $J$. "
+           : "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。";
     figure.caption += stated(problem, lang);
     figure.accuracy = accuracy({{&problem, &result}}, lang);
     return figure;
@@ -267,8 +275,9 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         return [=, problem = scene.problem](const Results& results) {
             return impulsive_places(problem, *results[study], end, lang);
         };
-    const std::size_t table = studies.table(
-        study, {0, end, fine(end)}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
+    const std::size_t table =
+        studies.table(study, {0, end, fine(end)},
+                      {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -292,8 +301,8 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
             strongest = std::max(strongest, n[i]);
         }
         if (on_beam.x.empty())
-            throw render::PictureError(
-                fmt::format("figure contact-places: the beam does not touch the cam before {:g} s; raise time.end", end));
+            throw render::PictureError(fmt::format(
+                "figure contact-places: the beam does not touch the cam before {:g} s; raise time.end", end));
         on_cam.value = on_beam.value;
         // Strong contacts are drawn last, on top.
         for (Series* series : {&on_beam, &on_cam}) {
@@ -332,9 +341,11 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         figure.share_x = true;
         figure.aspect = 1.1;
         figure.caption =
-            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from the mark of "
+            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from the "
+                 "mark of "
                  "the disc (the ray from $C$ to $B$), coloured by the normal force; inset: the first collision. "
-               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ 起的角度）的位置，颜色表示法向力；插图为首次碰撞。";
+               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
+                 "起的角度）的位置，颜色表示法向力；插图为首次碰撞。";
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
@@ -351,6 +362,7 @@ std::optional<std::string> needs_force(const Scene& scene) {
 
 const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_force, prepare_collision};
 const Recipe kEnergy{"energy", {"Energy ledger", "能量账目"}, no_refusal, prepare_energy};
-const Recipe kContactPlaces{"contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
+const Recipe kContactPlaces{
+    "contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
 
 }  // namespace beamcam::scenes

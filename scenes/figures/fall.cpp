@@ -15,9 +15,9 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-constexpr int kCurve = 2001;        // points: a column of print has fewer dots
+constexpr int kCurve = 2001;  // points: a column of print has fewer dots
 constexpr int kVibration = 12001;
-constexpr double kAround = 12e-6;   // the enlarged stretch about the rigid crossing [s]
+constexpr double kAround = 12e-6;  // the enlarged stretch about the rigid crossing [s]
 
 // Where the inset looks: only the hinged rod at rest has the closed form that tells beforehand.
 std::optional<double> closed_form(const sim::Problem& p) {
@@ -65,7 +65,8 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
         studies.turning_points(fall.study);
         fall.table = studies.table(fall.study, {0, end, kCurve}, {ChannelKind::t, ChannelKind::theta});
         if (enlarged)
-            fall.close = studies.table(fall.study, {*exact - kAround, *exact + kAround, 241}, {ChannelKind::t, ChannelKind::theta});
+            fall.close = studies.table(fall.study, {*exact - kAround, *exact + kAround, 241},
+                                       {ChannelKind::t, ChannelKind::theta});
         return fall;
     };
     const Fall f = want(flexible, close), r = want(stiff, close), d = want(doubled, false);
@@ -122,11 +123,14 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
             return x.theta_zero.empty() ? std::string("–") : grouped(x.theta_zero.front().t, 9) + " s";
         };
         figure.caption = filled(
-            en ? "Hub angle of the free fall from rest without a cam: flexible beam, exact rigid rod, and the rigid rod "
+            en ? "Hub angle of the free fall from rest without a cam: flexible beam, exact rigid rod, and the rigid "
+                 "rod "
                  "under twice its gravity torque, which alone gives the 0.262 s that the paper prints for the rigid "
-                 "rod. $θ$ = 0, marked, is reached at {} (flexible), {} (rigid), {} (torque doubled): the flexible beam falls "
+                 "rod. $θ$ = 0, marked, is reached at {} (flexible), {} (rigid), {} (torque doubled): the flexible "
+                 "beam falls "
                  "like the rigid rod. "
-               : "无凸轮时由静止自由下落的转角：柔性梁、精确刚性杆，以及重力矩加倍的刚性杆（只有后者给出原文所列刚性杆的 0.262 s）。到达 "
+               : "无凸轮时由静止自由下落的转角：柔性梁、精确刚性杆，以及重力矩加倍的刚性杆（只有后者给出原文所列刚性杆"
+                 "的 0.262 s）。到达 "
                  "$θ$ = 0 的时刻：柔性梁 {}，刚性杆 {}，力矩加倍 {}；柔性梁与刚性杆的下落几乎一致。",
             zero(flex), zero(rod), zero(twice));
         figure.caption += assumptions(flexible, lang);
@@ -162,10 +166,9 @@ FigureMaker prepare_tip(const Scene& scene, Lang lang, Studies& studies) {
         panel.series.push_back(std::move(s));
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.55;
-        figure.caption =
-            filled(en ? "Transverse deflection of the free end from the tangent at the root{}. "
-                           : "自由端相对根部切线的横向挠度{}。",
-                        problem.cam ? "" : (en ? " during the free fall" : "（自由下落过程）"));
+        figure.caption = filled(en ? "Transverse deflection of the free end from the tangent at the root{}. "
+                                   : "自由端相对根部切线的横向挠度{}。",
+                                problem.cam ? "" : (en ? " during the free fall" : "（自由下落过程）"));
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;

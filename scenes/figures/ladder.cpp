@@ -78,15 +78,17 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
             used.emplace_back(&run.problem, results[run.study]);
         }
         if (used.empty())
-            throw render::PictureError("figure apex-modes: no rebound has an apex before the scene ends; raise time.end");
+            throw render::PictureError(
+                "figure apex-modes: no rebound has an apex before the scene ends; raise time.end");
         for (Series& s : series) s.every_point = true, panel.series.push_back(s);
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.62;
         sim::Problem shown = problem;
         shown.beam.model = ModelKind::first_order;
-        figure.caption = en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, "
-                              "model first-order; models and modes of the following list do not apply. "
-                            : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order（下列模型与模态数不适用）。";
+        figure.caption =
+            en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, "
+                 "model first-order; models and modes of the following list do not apply. "
+               : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order（下列模型与模态数不适用）。";
         figure.caption += stated(shown, lang);
         figure.accuracy = accuracy(used, lang);
         return figure;
@@ -108,7 +110,8 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
             if (p.beam.damping_ratio.size() > 1) p.beam.damping_ratio.clear();
         }
         where.push_back(studies.of(p, scene.end_time, "models"));
-        tables.push_back(studies.table(where.back(), {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta}));
+        tables.push_back(
+            studies.table(where.back(), {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta}));
         problems.push_back(std::move(p));
     }
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
@@ -153,13 +156,17 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.15;
-        figure.caption = en ? "The rungs of the model ladder compared: (a) hub angle, (b) the largest difference so far "
-                              "from the model second-order. The model exact (inextensible elastica) has shapes of its own, "
-                              "so its difference is that of the shapes too. The model “paper” is the paper's eq. (4) as printed, with the "
-                              "sign of gravity from its eq. (2); it does not conserve energy. After an impact small "
-                              "differences grow as the motion is chaotic. "
-                            : "各级模型比较：(a) 转角，(b) 与 second-order 模型之差迄今的最大值。exact（不可伸长弹性线）模型使用自己的形函数，其差别亦含形函数的差别。模型 paper 为原文式 (4)，仅重力符号取自式 (2)，其能量"
-                              "不守恒。碰撞之后由于混沌，微小差别会增长。";
+        figure.caption =
+            en ? "The rungs of the model ladder compared: (a) hub angle, (b) the largest difference so far "
+                 "from the model second-order. The model exact (inextensible elastica) has shapes of its own, "
+                 "so its difference is that of the shapes too. The model “paper” is the paper's eq. (4) as printed, "
+                 "with the "
+                 "sign of gravity from its eq. (2); it does not conserve energy. After an impact small "
+                 "differences grow as the motion is chaotic. "
+               : "各级模型比较：(a) 转角，(b) 与 second-order "
+                 "模型之差迄今的最大值。exact（不可伸长弹性线）模型使用自己的形函数，其差别亦含形函数的差别。模型 "
+                 "paper 为原文式 (4)，仅重力符号取自式 (2)，其能量"
+                 "不守恒。碰撞之后由于混沌，微小差别会增长。";
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy(runs, lang);
         return figure;
@@ -178,8 +185,10 @@ std::optional<std::string> needs_flexible(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kApexModes{
-    "apex-modes", {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"}, needs_free_cam, prepare_apex};
+const Recipe kApexModes{"apex-modes",
+                        {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
+                        needs_free_cam,
+                        prepare_apex};
 const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible, prepare_models};
 
 }  // namespace beamcam::scenes

@@ -67,11 +67,11 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
         return drawn(f, how, kind == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
                      [](figure::Sheet& sheet) { return sheet.bytes(); });
     return output::encode_png(figure_image(f, how), {how.dpi,
-                                              {{"Title", document.title},
-                                               {"Description", document.subject},
-                                               {"Software", document.creator},
-                                               {"beamcam-scene", scene},
-                                               {"beamcam-accuracy", figure::to_plain(f.accuracy)}}});
+                                                     {{"Title", document.title},
+                                                      {"Description", document.subject},
+                                                      {"Software", document.creator},
+                                                      {"beamcam-scene", scene},
+                                                      {"beamcam-accuracy", figure::to_plain(f.accuracy)}}});
 }
 
 }  // namespace

@@ -62,12 +62,13 @@ std::string horizon_words(const std::vector<const sim::Result*>& results, double
         const double until = r->reproducible_until.value_or(end);
         times += until < end ? grouped(until, 3) + " s" : (en ? "the end" : "结束");
     }
-    return filled(en ? "The motion is chaotic: from the vertical line on (until {}), drawn lighter, $θ$ is not "
-                            "reproducible to 10^{{−6}} rad, by comparison with a run at a tighter tolerance; there the "
-                            "curve is one of many possible ones. "
-                          : "运动是混沌的：竖线之后（可重现至 {}）以浅色绘制，与更严容差的计算相比，$θ$ 不能重现到 10^{{−6}} rad，"
-                            "该部分只是多种可能曲线之一。",
-                       times);
+    return filled(
+        en ? "The motion is chaotic: from the vertical line on (until {}), drawn lighter, $θ$ is not "
+             "reproducible to 10^{{−6}} rad, by comparison with a run at a tighter tolerance; there the "
+             "curve is one of many possible ones. "
+           : "运动是混沌的：竖线之后（可重现至 {}）以浅色绘制，与更严容差的计算相比，$θ$ 不能重现到 10^{{−6}} rad，"
+             "该部分只是多种可能曲线之一。",
+        times);
 }
 
 FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
@@ -83,7 +84,8 @@ FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
         figure.panels.push_back(angle_panel(*results[study], table, end));
         figure.aspect = 0.55;
         figure.caption = en ? "Hub angle $θ$. " : "转角 $θ$。";
-        if (results[study]->reproducible_until.value_or(end) < end) figure.caption += horizon_words({results[study]}, end, lang);
+        if (results[study]->reproducible_until.value_or(end) < end)
+            figure.caption += horizon_words({results[study]}, end, lang);
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, results[study]}}, lang);
         return figure;
@@ -106,7 +108,8 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
         const bool en = lang == Lang::en;
         Figure figure;
         figure.name = "speeds";
-        figure.title = en ? "Hub angle through repeated impacts for three speeds of the cam" : "三种凸轮转速下反复碰撞时的转角";
+        figure.title =
+            en ? "Hub angle through repeated impacts for three speeds of the cam" : "三种凸轮转速下反复碰撞时的转角";
         std::vector<const sim::Result*> all;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
         double low = 1e300, high = -1e300;
@@ -188,14 +191,17 @@ FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
             s.x = mean(s.x, period);
             s.y = mean(s.y, period);
         }
-        if (!s.x.empty()) panel.marks.push_back({.x = s.x.front(), .y = s.y.front(), .label = en ? "start" : "起点", .look = 6});
+        if (!s.x.empty())
+            panel.marks.push_back({.x = s.x.front(), .y = s.y.front(), .label = en ? "start" : "起点", .look = 6});
         panel.series.push_back(std::move(s));
         panel.rules.push_back({.at = 0});
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.75;
-        figure.caption = en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured by time, the "
-                              "mean over one period of the first bending mode. Near-vertical stretches are collisions. "
-                            : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。近似竖直的线段为碰撞。";
+        figure.caption =
+            en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured by time, the "
+                 "mean over one period of the first bending mode. Near-vertical stretches are collisions. "
+               : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。近似竖直的线段为碰"
+                 "撞。";
         figure.caption += stated(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
@@ -205,10 +211,11 @@ FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
 }  // namespace
 
 const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
-const Recipe kSpeeds{"speeds",
-                     {"Hub angle through repeated impacts for three speeds of the cam", "三种凸轮转速下反复碰撞时的转角"},
-                     needs_cam,
-                     prepare_speeds};
+const Recipe kSpeeds{
+    "speeds",
+    {"Hub angle through repeated impacts for three speeds of the cam", "三种凸轮转速下反复碰撞时的转角"},
+    needs_cam,
+    prepare_speeds};
 const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
 
 }  // namespace beamcam::scenes

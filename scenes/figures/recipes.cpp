@@ -12,8 +12,8 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{&kSchematic, &kFreeFall, &kTipVibration, &kDeflection, &kDistance,  &kAngle,     &kSpeeds,
-                          &kCollision, &kEnergy,   &kContactPlaces, &kPhase,     &kApexModes, &kModels};
+const std::array kRecipes{&kSchematic, &kFreeFall, &kTipVibration,  &kDeflection, &kDistance,  &kAngle, &kSpeeds,
+                          &kCollision, &kEnergy,   &kContactPlaces, &kPhase,      &kApexModes, &kModels};
 
 const std::vector<Recipe>& table() {
     static const std::vector<Recipe> all = [] {
@@ -149,11 +149,14 @@ std::string stated(const sim::Problem& p, Lang lang) {
         fmt::format("$ψ_{{0}}$ = {}°", number(c.phase * 180 / M_PI, 4)),
         filled(en ? "$ω$ = {} rad s^{{−1}} clockwise" : "$ω$ = {} rad s^{{−1}}（顺时针）", number(c.speed, 4))};
     if (p.contact.model == sim::ContactModel::compliant) {
-        out.push_back(fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
-        out.push_back(fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), number(p.contact.restitution, 3)));
+        out.push_back(
+            fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
+        out.push_back(
+            fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), number(p.contact.restitution, 3)));
     } else {
-        out.push_back(filled(en ? "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}" : "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}",
-                                  name(p.contact.law), number(p.contact.restitution, 3)));
+        out.push_back(
+            filled(en ? "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}" : "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}",
+                   name(p.contact.law), number(p.contact.restitution, 3)));
     }
     out.push_back(friction_words(p, lang));
     const double d = contact_offset(p);
@@ -161,9 +164,10 @@ std::string stated(const sim::Problem& p, Lang lang) {
                          : filled(en ? "contact face {} m off the centre line" : "接触面距中心线 {} m", number(d, 4)));
     const std::string beam = assumptions(p, lang) + (en ? " " : "");
     return beam + filled(en ? "Cam and contact: {}. The paper prints neither $a$, $I_{{\\r{{h}}}}$, $e$, $ψ_{{0}}$ nor "
-                            "the contact's and damping's constants; these values are assumptions."
-                          : "凸轮与接触：{}。原文未给出 $a$、$I_{{\\r{{h}}}}$、$e$、$ψ_{{0}}$ 以及接触和阻尼常数，此处均为假定值。",
-                       fmt::join(out, en ? ", " : "，"));
+                              "the contact's and damping's constants; these values are assumptions."
+                            : "凸轮与接触：{}。原文未给出 $a$、$I_{{\\r{{h}}}}$、$e$、$ψ_{{0}}$ "
+                              "以及接触和阻尼常数，此处均为假定值。",
+                         fmt::join(out, en ? ", " : "，"));
 }
 
 std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim::Result*>>& runs, Lang lang) {
@@ -180,11 +184,10 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
             closure = std::max(closure, result->energy_residual_max / result->energy_scale);
     }
     const std::string but = paper ? (en ? ", the model “paper” apart" : "（模型 paper 除外）") : "";
-    if (closure == 0)
-        return filled(en ? "Relative tolerance {}." : "相对容差 {}。", one_digit(rtol));
+    if (closure == 0) return filled(en ? "Relative tolerance {}." : "相对容差 {}。", one_digit(rtol));
     return filled(en ? "Relative tolerance {}; the energy ledger closes to {} of its scale{}."
-                          : "相对容差 {}；能量账目闭合到其尺度的 {}{}。",
-                       one_digit(rtol), one_digit(closure), but);
+                     : "相对容差 {}；能量账目闭合到其尺度的 {}{}。",
+                  one_digit(rtol), one_digit(closure), but);
 }
 
 }  // namespace beamcam::scenes

@@ -65,8 +65,8 @@ template <class... Values>
 std::string filled(const char* text, const Values&... values) {
     return fmt::format(fmt::runtime(text), values...);
 }
-std::string number(double value, int digits);              // "0.25", "2.5×10^{−3}" with a true minus
-std::string grouped(double value, int decimals);           // "0.369 994": thin spaces between threes
+std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
+std::string grouped(double value, int decimals);  // "0.369 994": thin spaces between threes
 std::vector<double> scaled(std::vector<double> values, double factor);
 
 }  // namespace beamcam::scenes

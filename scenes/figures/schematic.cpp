@@ -113,13 +113,20 @@ class Drawing {
         label(c, cam.eccentricity > 0 ? "$C$" : "$B$ = $C$", {-0.85, cam.eccentricity > 0 ? 0.2 : 0.9});
         if (cam.speed == 0) return;
         const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
-        add({.kind = Kind::turn, .centre = b, .radius = r, .from = -0.9 * way + 0.2, .to = 0.5 * way + 0.2, .color = kInk, .width = 0.8});
+        add({.kind = Kind::turn,
+             .centre = b,
+             .radius = r,
+             .from = -0.9 * way + 0.2,
+             .to = 0.5 * way + 0.2,
+             .color = kInk,
+             .width = 0.8});
         label(b + r * sim::unit(0.1), "$ω$", {-0.85, 0});
     }
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
     void frames() {
-        const double reach = std::max(1.12 * size_ * std::cos(theta_), p_.cam ? p_.cam->centre.x + 1.5 * p_.cam->radius : 0.0);
+        const double reach =
+            std::max(1.12 * size_ * std::cos(theta_), p_.cam ? p_.cam->centre.x + 1.5 * p_.cam->radius : 0.0);
         arrow({-0.06 * unit_, 0}, {reach, 0});
         label({reach, 0}, "$X$", {0.2, -0.9});
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
@@ -151,7 +158,8 @@ class Drawing {
         // Length, beside the beam.
         const Vec2 off = 0.12 * size_ * j;
         line(p_.hub.radius * i + 0.25 * off, p_.hub.radius * i + 1.1 * off, kGrey);
-        line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off, kGrey);
+        line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off,
+             kGrey);
         dimension(p_.hub.radius * i + off, (p_.hub.radius + p_.beam.length) * i + off);
         label((p_.hub.radius + 0.45 * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
         dot(on_beam(1), kBlue, 1.4);
@@ -194,11 +202,14 @@ std::string caption(const sim::Problem& p, Lang lang) {
     const std::string text =
         lang == Lang::en
             ? "The system, to scale except for the deflection $v$($x$, $t$), which is exaggerated. The beam of length "
-              "$L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; the frame $x$′$y$′ turns "
+              "$L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; the frame $x$′$y$′ "
+              "turns "
               "with it, $XY$ is fixed. The disc of radius $R$ and centre $B$ turns about $C$, at the distance $D$ from "
               "$O$, with the speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
-            : "系统示意图，除挠度 $v$($x$, $t$) 放大外均按比例绘制。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 "
-              "$θ$；坐标系 $x$′$y$′ 随之转动，$XY$ 固定。半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 为 "
+            : "系统示意图，除挠度 $v$($x$, $t$) 放大外均按比例绘制。长度为 $L$ 的梁沿径向固支于半径为 $a$ "
+              "的轮毂，轮毂绕 $O$ 转过角 "
+              "$θ$；坐标系 $x$′$y$′ 随之转动，$XY$ 固定。半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ "
+              "转动，$C$ 距 $O$ 为 "
               "$D$，偏心距 $e$ = |$CB$|。";
     return text + stated(p, lang);
 }

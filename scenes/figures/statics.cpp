@@ -52,15 +52,15 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
                     const double from = overhang ? support : 0, to = overhang ? reach : support;
                     for (int k = 0; k < kPerSpan; ++k) {
                         const double x = from + (to - from) * k / (kPerSpan - 1);
-                        const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, printing, overhang);
+                        const sim::StaticDeflection s =
+                            sim::supported_beam(problem, angle, support, x, printing, overhang);
                         w.x.push_back(x);
                         w.y.push_back(s.w * 1e3);
                         d.x.push_back(x);
                         d.y.push_back(s.slope * 1e3);
                     }
                 }
-                if (printed)
-                    largest_jump = std::max(largest_jump, std::abs(d.y[kPerSpan] - d.y[kPerSpan - 1]));
+                if (printed) largest_jump = std::max(largest_jump, std::abs(d.y[kPerSpan] - d.y[kPerSpan - 1]));
                 w.look = d.look = look;
                 w.solid = d.solid = !printed;
                 w.color = d.color = render::figure::look(look).color;
@@ -87,14 +87,20 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
         figure.share_x = true;
         figure.aspect = 1.15;
         figure.caption = filled(
-            en ? "Static deflection $w$ (a) and slope (b) of the beam inclined by {}° ({}), supported at the hinge and at "
-                 "the horizontal distance $l_{{1}}$, by eq. (5) of the paper: as printed (dashed) and corrected (solid). "
+            en ? "Static deflection $w$ (a) and slope (b) of the beam inclined by {}° ({}), supported at the hinge and "
+                 "at "
+                 "the horizontal distance $l_{{1}}$, by eq. (5) of the paper: as printed (dashed) and corrected "
+                 "(solid). "
                  "As printed, the overhanging span lacks a term in each constant, so that its slope jumps at the "
-                 "support, by up to {} × 10^{{−3}} here; and along the inclined rod the deflection is 1/cos^{{2}} $θ$ larger. "
-               : "倾角 {}°（{}）的梁支承于铰和水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)，按原文式 (5)：原文公式（虚线）与修正后（实线）。"
-                 "原文悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × 10^{{−3}}）；且沿倾斜梁的挠度应大 1/cos^{{2}} $θ$ 倍。",
+                 "support, by up to {} × 10^{{−3}} here; and along the inclined rod the deflection is 1/cos^{{2}} $θ$ "
+                 "larger. "
+               : "倾角 {}°（{}）的梁支承于铰和水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)，按原文式 "
+                 "(5)：原文公式（虚线）与修正后（实线）。"
+                 "原文悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × 10^{{−3}}）；且沿倾斜梁的挠度应大 "
+                 "1/cos^{{2}} $θ$ 倍。",
             number(angle * 180 / M_PI, 4),
-            problem.cam ? (en ? "tangent to the centred disc" : "与对心圆盘相切") : (en ? "the initial angle" : "初始角"),
+            problem.cam ? (en ? "tangent to the centred disc" : "与对心圆盘相切")
+                        : (en ? "the initial angle" : "初始角"),
             number(largest_jump, 3));
         figure.caption += assumptions(problem, lang);
         figure.accuracy = accuracy({}, lang);
@@ -105,11 +111,13 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
 std::optional<std::string> refusal(const Scene& scene) {
     const double angle = angle_of(scene.problem);
     if (std::abs(std::cos(angle)) > 0.02) return std::nullopt;
-    return fmt::format("eq. (5) of the paper measures along the horizontal; a beam at {:.3g}° has none", angle * 180 / M_PI);
+    return fmt::format("eq. (5) of the paper measures along the horizontal; a beam at {:.3g}° has none",
+                       angle * 180 / M_PI);
 }
 
 }  // namespace
 
-const Recipe kDeflection{"deflection", {"Static deflection for several contact points", "不同接触点的静挠度"}, refusal, prepare};
+const Recipe kDeflection{
+    "deflection", {"Static deflection for several contact points", "不同接触点的静挠度"}, refusal, prepare};
 
 }  // namespace beamcam::scenes

@@ -19,9 +19,9 @@ using render::figure::Series;
 
 // Instants of the fall: a quarter of a millisecond apart, or nearer in a short scene.
 int rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
-constexpr int kTrial = 5;             // points of the first round: 0.21 … 0.25 m in the paper
-constexpr int kRefined = 8;           // intervals between two trial points in the second round
-constexpr double kShown = 0.012;      // before and after the touch, of the fall's duration 0.3 s: [s]
+constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
+constexpr int kRefined = 8;       // intervals between two trial points in the second round
+constexpr double kShown = 0.012;  // before and after the touch, of the fall's duration 0.3 s: [s]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Where the rigid beam would touch, x₁, and the trial points about it at the paper's spacing of L/100.
@@ -35,7 +35,7 @@ std::vector<double> trial_points(const sim::Problem& p) {
 }
 
 struct Fall {
-    std::vector<double> t, x;                  // instants, arc positions
+    std::vector<double> t, x;                   // instants, arc positions
     std::vector<std::vector<double>> distance;  // [m], by position, then instant
 };
 
@@ -100,9 +100,10 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         for (std::size_t k = 0; k < when.size(); k += kRefined)
             if (when[k] < when[first_trial]) first_trial = k;
         if (when[first] == kNever)
-            throw render::PictureError(fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
-                                                   "cam before {:g} s; raise time.end",
-                                                   fine.front(), fine.back(), end));
+            throw render::PictureError(
+                fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
+                            "cam before {:g} s; raise time.end",
+                            fine.front(), fine.back(), end));
         Figure figure;
         figure.name = "distance";
         figure.title = en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";
@@ -147,18 +148,23 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         std::string located_words = en ? "the simulation has no impact" : "仿真中无碰撞";
         if (!strikes.impacts.empty()) {
             const sim::Impact& hit = strikes.impacts.front();
-            inset.marks.push_back({.x = hit.x, .y = hit.t_start * 1e3, .label = en ? "located" : "事件定位", .look = 1});
-            located_words = filled(en ? "the located event is at $x$ = {} m, $t$ = {} s" : "事件定位为 $x$ = {} m、$t$ = {} s",
-                                        grouped(hit.x, 6), grouped(hit.t_start, 9));
+            inset.marks.push_back(
+                {.x = hit.x, .y = hit.t_start * 1e3, .label = en ? "located" : "事件定位", .look = 1});
+            located_words =
+                filled(en ? "the located event is at $x$ = {} m, $t$ = {} s" : "事件定位为 $x$ = {} m、$t$ = {} s",
+                       grouped(hit.x, 6), grouped(hit.t_start, 9));
         }
         panel.insets.push_back({.panel = {inset}, .width = 0.42, .height = 0.42});
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.76;
         figure.caption = filled(
-            en ? "Distance $D$′ of points $x$ of the falling beam from the cam's surface near the first touch. Inset: the "
+            en ? "Distance $D$′ of points $x$ of the falling beam from the cam's surface near the first touch. Inset: "
+                 "the "
                  "time of zero against $x$, the trial method's first round (points) and its refinement (line), and the "
-                 "event that the simulation locates. First of the trial points: {} m; refined: $x$ = {} m, $t$ = {} s; {}. "
-               : "首次接触附近下落梁上各点 $x$ 到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ 的变化，试算法第一轮（点）及加密（线），"
+                 "event that the simulation locates. First of the trial points: {} m; refined: $x$ = {} m, $t$ = {} s; "
+                 "{}. "
+               : "首次接触附近下落梁上各点 $x$ 到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
+                 "的变化，试算法第一轮（点）及加密（线），"
                  "以及仿真定位的事件。首轮最先接触点：{} m；加密后 $x$ = {} m，$t$ = {} s；{}。",
             number(fine[first_trial], 3), number(fine[first], 5), grouped(when[first], 7), located_words);
         figure.caption += stated(problem, lang);

@@ -1,5 +1,3 @@
-#include "output/spool.hpp"
-
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -7,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "output/spool.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {

@@ -197,9 +197,9 @@ TEST(Film, LeavesNothingWhenItIsNotFinished) {
 // SVT-AV1 would wait forever.
 TEST(Film, OfAnyCodecEndsWhenItIsDropped) {
     Scratch scratch;
-    const std::pair<const char*, Codec> kinds[] = {{"a.mp4", Codec::av1},   {"a.webm", Codec::vp9}, {"a.mov", Codec::prores},
-                                                   {"a.mkv", Codec::ffv1},  {"a.mp4", Codec::h264}, {"a.apng", Codec::apng},
-                                                   {"a.webp", Codec::webp}};
+    const std::pair<const char*, Codec> kinds[] = {
+        {"a.mp4", Codec::av1},  {"a.webm", Codec::vp9},  {"a.mov", Codec::prores}, {"a.mkv", Codec::ffv1},
+        {"a.mp4", Codec::h264}, {"a.apng", Codec::apng}, {"a.webp", Codec::webp}};
     for (const auto& [name, codec] : kinds)
         for (int pictures : {0, 1, 7}) {
             VideoOptions options = small_film();

@@ -60,15 +60,25 @@ TEST(FigureAxis, ReversedLimitsTurnTheAxisRound) {
 
 TEST(FigureAxis, AnyFiniteRangeIsShown) {
     constexpr double kMost = std::numeric_limits<double>::max(), kLeast = std::numeric_limits<double>::denorm_min();
-    for (const auto& [low, high] : {std::pair{1e-300, 2e-300}, {1e300, 2e300}, {-1e300, 1e300}, {-kMost, kMost},
-                                    {kLeast, 3 * kLeast}, {0.0, kLeast}, {5.0, 5.0}, {0.0, 0.0}, {1e300, 1e300},
-                                    {1e8, 1e8 + 1e-3}, {1.0, std::nextafter(1.0, 2.0)}, {-1e-300, 1e300}}) {
+    for (const auto& [low, high] : {std::pair{1e-300, 2e-300},
+                                    {1e300, 2e300},
+                                    {-1e300, 1e300},
+                                    {-kMost, kMost},
+                                    {kLeast, 3 * kLeast},
+                                    {0.0, kLeast},
+                                    {5.0, 5.0},
+                                    {0.0, 0.0},
+                                    {1e300, 1e300},
+                                    {1e8, 1e8 + 1e-3},
+                                    {1.0, std::nextafter(1.0, 2.0)},
+                                    {-1e-300, 1e300}}) {
         const AxisMap a = axis(low, high);
         EXPECT_GE(labels(a).size(), 2u) << low << " " << high;
         EXPECT_LE(labels(a).size(), 8u);
         EXPECT_TRUE(std::isfinite(a.place(low)) && std::isfinite(a.place(high))) << low << " " << high;
         EXPECT_LE(a.place(low), a.place(high));
-        for (const Tick& t : a.ticks()) EXPECT_TRUE(t.at >= -1e-6 && t.at <= 1 + 1e-6) << low << " " << high << " " << t.at;
+        for (const Tick& t : a.ticks())
+            EXPECT_TRUE(t.at >= -1e-6 && t.at <= 1 + 1e-6) << low << " " << high << " " << t.at;
         for (const std::string& text : labels(a)) EXPECT_LE(text.size(), 14u) << text;
     }
     EXPECT_THAT(axis(1e300, 2e300).common(), HasSubstr("10^{300}"));
@@ -203,7 +213,8 @@ Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi
     return {sheet.image(), sheet.written};
 }
 
-// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each value.
+// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each
+// value.
 TEST(Figure, ABandLooksLikeItsSwings) {
     std::vector<double> x, y;
     for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
@@ -229,9 +240,15 @@ TEST(Figure, ABandLooksLikeItsSwings) {
 
 TEST(Figure, BadNumbersGiveAPictureOrAClearError) {
     const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-    for (const auto& [x, y] : std::vector<std::pair<std::vector<double>, std::vector<double>>>{
-             {{0}, {1}}, {{0, 1}, {3, 3}}, {{2, 2, 2}, {1, 5, 3}}, {{0, 1, 2}, {1, nan, 2}}, {{0, 1, 2}, {1, inf, 2}},
-             {{0, 1}, {1e-300, 2e-300}}, {{0, 1}, {-1e300, 1e300}}, {{1e300, 1.1e300}, {0, 1}}}) {
+    for (const auto& [x, y] :
+         std::vector<std::pair<std::vector<double>, std::vector<double>>>{{{0}, {1}},
+                                                                          {{0, 1}, {3, 3}},
+                                                                          {{2, 2, 2}, {1, 5, 3}},
+                                                                          {{0, 1, 2}, {1, nan, 2}},
+                                                                          {{0, 1, 2}, {1, inf, 2}},
+                                                                          {{0, 1}, {1e-300, 2e-300}},
+                                                                          {{0, 1}, {-1e300, 1e300}},
+                                                                          {{1e300, 1.1e300}, {0, 1}}}) {
         const Drawn drawn = draw_png(plot(x, y));
         bool blank = true;
         for (const std::uint32_t p : drawn.image.pixels) blank = blank && p == 0xFFFFFFFF;
@@ -267,10 +284,12 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
 
 TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
     Figure figure = plot({0, 1}, {0, 1});
-    figure.panels[0].rules = {{.at = 0.5, .label = "level"}, {.at = 7, .label = "beyond"}, {.at = 0.4, .vertical = true, .label = "now"}};
+    figure.panels[0].rules = {
+        {.at = 0.5, .label = "level"}, {.at = 7, .label = "beyond"}, {.at = 0.4, .vertical = true, .label = "now"}};
     const Drawn drawn = draw_png(figure);
     const auto written = [&](const char* words) {
-        return std::any_of(drawn.written.begin(), drawn.written.end(), [&](const auto& w) { return w.markup == words; });
+        return std::any_of(drawn.written.begin(), drawn.written.end(),
+                           [&](const auto& w) { return w.markup == words; });
     };
     EXPECT_TRUE(written("level"));
     EXPECT_TRUE(written("now"));

@@ -21,7 +21,8 @@ using ::testing::StartsWith;
 TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;
     EXPECT_THAT(shell(folder, "$BEAMCAM --version").out, StartsWith("beamcam "));
-    for (const char* command : {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "figure", "paper"}) {
+    for (const char* command :
+         {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "figure", "paper"}) {
         const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
         EXPECT_EQ(help.code, 0);
         EXPECT_THAT(help.out, HasSubstr("Usage"));

@@ -23,8 +23,8 @@ namespace {
 using testing::Finished;
 using testing::Folder;
 using ::testing::HasSubstr;
-using testing::shell;
 using ::testing::Not;
+using testing::shell;
 using ::testing::StartsWith;
 
 Scene scene(const std::string& text) {
@@ -53,7 +53,8 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
 }
 
 TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
-    const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
+    const Plan p =
+        plan(scene(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
         {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
     ASSERT_TRUE(p.simulation);
     EXPECT_TRUE(p.variants.empty());
@@ -84,13 +85,14 @@ TEST(Figures, FreeFallShowsTheThreePublishedTimes) {
 }
 
 TEST(Figures, TrialMethodMeetsTheLocatedTouch) {
-    const auto figure = figure_of(scene(R"({"cam": {"eccentricity": 0, "speed": 0}, "time": {"end": 0.3}})"), "distance");
+    const auto figure =
+        figure_of(scene(R"({"cam": {"eccentricity": 0, "speed": 0}, "time": {"end": 0.3}})"), "distance");
     const auto& inset = figure.panels[0].insets[0].panel[0];
     ASSERT_EQ(inset.marks.size(), 1u);
     const auto& refined = inset.series[0];
     const auto first = std::min_element(refined.y.begin(), refined.y.end()) - refined.y.begin();
-    EXPECT_NEAR(refined.x[static_cast<std::size_t>(first)], inset.marks[0].x, 0.00125);      // the refined spacing
-    EXPECT_NEAR(refined.y[static_cast<std::size_t>(first)], inset.marks[0].y, 0.02);         // a flat minimum [ms]
+    EXPECT_NEAR(refined.x[static_cast<std::size_t>(first)], inset.marks[0].x, 0.00125);  // the refined spacing
+    EXPECT_NEAR(refined.y[static_cast<std::size_t>(first)], inset.marks[0].y, 0.02);     // a flat minimum [ms]
     EXPECT_NEAR(inset.marks[0].x, 0.229, 0.001);
 }
 
@@ -162,7 +164,8 @@ TEST(Figures, PdfFontsAreEmbeddedTrueType) {
     folder.write("s.json", R"({"cam": null, "time": {"end": 0.4}})");
     if (shell(folder, "command -v pdffonts").code != 0) GTEST_SKIP() << "needs pdffonts (Debian: poppler-utils)";
     for (const char* lang : {"en", "zh"}) {
-        ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM figure s.json free-fall --lang {} -q --force -o a.pdf", lang)).code, 0);
+        ASSERT_EQ(
+            shell(folder, fmt::format("$BEAMCAM figure s.json free-fall --lang {} -q --force -o a.pdf", lang)).code, 0);
         std::istringstream fonts(shell(folder, "pdffonts a.pdf").out);
         std::string line;
         std::getline(fonts, line);
@@ -191,7 +194,8 @@ TEST(Figures, DataAndCaptionLieBesideThem) {
 
 TEST(Figures, RunMakesThoseThatASceneLists) {
     const Folder folder;
-    folder.write("s.json", R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");
+    folder.write("s.json",
+                 R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
     EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"89mm\""));
@@ -236,8 +240,8 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
     ASSERT_EQ(work.size(), 4u);
     EXPECT_EQ(work[1].label, "auto");
     EXPECT_EQ(work[1].x.size(), 10u);
-    EXPECT_DOUBLE_EQ(work[1].x[0], 3);           // ms
-    EXPECT_EQ(work[1].y.back(), 1e-9);           // not below what the reference can tell
+    EXPECT_DOUBLE_EQ(work[1].x[0], 3);  // ms
+    EXPECT_EQ(work[1].y.back(), 1e-9);  // not below what the reference can tell
     EXPECT_EQ(work[3].x.size(), 6u);
     EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
     EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
@@ -250,8 +254,8 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
 TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {
     const Folder folder;
     folder.write("s.json", R"({"cam": null, "beam": {"model": "rigid"}, "time": {"end": 0.05}})");
-    const Finished made =
-        shell(folder, "$BEAMCAM accuracy s.json --repeats 1 -o a.png -o a.svg -o a.pdf -o a.json --lang zh --column ieee");
+    const Finished made = shell(
+        folder, "$BEAMCAM accuracy s.json --repeats 1 -o a.png -o a.svg -o a.pdf -o a.json --lang zh --column ieee");
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"88.9mm\""));
     for (const char* file : {"a.png", "a.svg", "a.pdf"})
@@ -293,8 +297,8 @@ TEST(Paper, ScenesAreFineAndListEveryFigureOnce) {
         for (const Output& output : reading.scene->outputs) files.push_back(file_of(output).substr(0, 5));
     }
     std::sort(files.begin(), files.end());
-    EXPECT_THAT(files, ::testing::ElementsAre("fig01", "fig02", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09",
-                                              "fig10", "fig11", "fig12"));
+    EXPECT_THAT(files, ::testing::ElementsAre("fig01", "fig02", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08",
+                                              "fig09", "fig10", "fig11", "fig12"));
 }
 
 // The numbers that the table of findings states and no other test keeps.
@@ -352,14 +356,15 @@ TEST(Findings, ReboundsDeclineInTrendWithoutRegularity) {
     for (std::size_t i = 0; i + 1 < r.collisions.size(); ++i) {
         double highest = -1;
         for (const sim::Apex& apex : r.apexes)
-            if (apex.t > r.collisions[i].t_start && apex.t < r.collisions[i + 1].t_start) highest = std::max(highest, apex.theta);
+            if (apex.t > r.collisions[i].t_start && apex.t < r.collisions[i + 1].t_start)
+                highest = std::max(highest, apex.theta);
         heights.push_back(highest);
     }
     ASSERT_GE(heights.size(), 4u);
     int rises = 0;
     for (std::size_t i = 1; i < heights.size(); ++i) rises += heights[i] > heights[i - 1];
-    EXPECT_GT(rises, 0);                              // the cam's work
-    EXPECT_LT(heights.back(), heights.front());       // in trend
+    EXPECT_GT(rises, 0);                         // the cam's work
+    EXPECT_LT(heights.back(), heights.front());  // in trend
 }
 
 // ---- golden pictures ------------------------------------------------------------------------------
@@ -373,8 +378,8 @@ struct Golden {
 
 void expect_golden(const Golden& g) {
     const Folder folder;
-    const std::string made = fmt::format("$BEAMCAM figure '{0}/../scenes/paper/{1}.json' {2} -o a.png -q {3}", BEAMCAM_TEST_DIR,
-                                         g.scene, g.figure, g.options);
+    const std::string made = fmt::format("$BEAMCAM figure '{0}/../scenes/paper/{1}.json' {2} -o a.png -q {3}",
+                                         BEAMCAM_TEST_DIR, g.scene, g.figure, g.options);
     const Finished drawn = shell(folder, made);
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     const Finished verdict =
@@ -383,12 +388,13 @@ void expect_golden(const Golden& g) {
 }
 
 TEST(GoldenFigures, OfTheGalleryAreRedrawn) {
-    for (const Golden& g : {Golden{"system", "schematic", "../scenes/gallery/paper/fig01-schematic.png", "--dpi 150"},
-                            Golden{"free-fall", "free-fall", "../scenes/gallery/paper/fig02-free-fall.png", "--dpi 150"},
-                            Golden{"free-fall", "tip-vibration", "../scenes/gallery/paper/fig03-tip-vibration.png", "--dpi 150"},
-                            Golden{"system", "deflection", "../scenes/gallery/paper/fig04-deflection.png", "--dpi 150"},
-                            Golden{"first-touch", "distance", "../scenes/gallery/paper/fig05-distance.png", "--dpi 150"},
-                            Golden{"collision", "collision", "../scenes/gallery/paper/fig07-collision.png", "--dpi 150"}})
+    for (const Golden& g :
+         {Golden{"system", "schematic", "../scenes/gallery/paper/fig01-schematic.png", "--dpi 150"},
+          Golden{"free-fall", "free-fall", "../scenes/gallery/paper/fig02-free-fall.png", "--dpi 150"},
+          Golden{"free-fall", "tip-vibration", "../scenes/gallery/paper/fig03-tip-vibration.png", "--dpi 150"},
+          Golden{"system", "deflection", "../scenes/gallery/paper/fig04-deflection.png", "--dpi 150"},
+          Golden{"first-touch", "distance", "../scenes/gallery/paper/fig05-distance.png", "--dpi 150"},
+          Golden{"collision", "collision", "../scenes/gallery/paper/fig07-collision.png", "--dpi 150"}})
         expect_golden(g);
 }
 
@@ -419,7 +425,8 @@ TEST(LongPaper, MakesEveryFigureThriceWithCaptionsAndFindings) {
     ASSERT_EQ(made.code, 0) << made.err;
     int pictures = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
-        pictures += entry.path().extension() == ".png" || entry.path().extension() == ".svg" || entry.path().extension() == ".pdf";
+        pictures += entry.path().extension() == ".png" || entry.path().extension() == ".svg" ||
+                    entry.path().extension() == ".pdf";
     EXPECT_EQ(pictures, 36);
     const std::string findings = testing::slurp(folder / "out/findings.md");
     EXPECT_THAT(findings, HasSubstr("0.369998497559697"));

@@ -9,9 +9,9 @@
 namespace beamcam::scenes {
 namespace {
 
+using testing::Folder;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Folder;
 using testing::shell;
 
 TEST(History, KnowsWhatWasNotedAndTakesTheFirstNameItKnows) {

@@ -62,7 +62,8 @@ TEST(Info, FiguresGiveBackTheSceneThatMakesTheSameBytes) {
         const std::string name(file);
         ASSERT_EQ(shell(folder, "$BEAMCAM figure -q s.json deflection --lang zh --column aps -o " + name).code, 0);
         EXPECT_THAT(shell(folder, "$BEAMCAM info " + name).out, HasSubstr("made by        beamcam 0."));
-        ASSERT_EQ(shell(folder, "$BEAMCAM info --scene " + name + " > t.json && $BEAMCAM run -q t.json -o again").code, 0);
+        ASSERT_EQ(shell(folder, "$BEAMCAM info --scene " + name + " > t.json && $BEAMCAM run -q t.json -o again").code,
+                  0);
         EXPECT_EQ(testing::slurp(folder / name), testing::slurp(folder / ("again/" + name))) << name;
     }
 }

@@ -57,7 +57,8 @@ constexpr const char* kStill =
 
 std::string scene(const std::string& outputs, const std::string& physics = "") {
     // A method of many steps, so that the motion is worth keeping.
-    return "{" + physics + "\"solver\": {\"method\": \"rk8\"}, \"time\": {\"end\": 0.3}, \"outputs\": [" + outputs + "]}";
+    return "{" + physics + "\"solver\": {\"method\": \"rk8\"}, \"time\": {\"end\": 0.3}, \"outputs\": [" + outputs +
+           "]}";
 }
 
 // ---- only what is asked for ----------------------------------------------------------------------
@@ -244,7 +245,8 @@ TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     const Finished first = shell(folder, "$BEAMCAM run -v s.json");
     EXPECT_EQ(count(first, "integrations"), 1);
     EXPECT_EQ(count(first, "figures_drawn"), 2);
-    for (const char* what : {"gl_contexts", "encoder_modules", "frames_drawn"}) EXPECT_EQ(count(first, what), 0) << what;
+    for (const char* what : {"gl_contexts", "encoder_modules", "frames_drawn"})
+        EXPECT_EQ(count(first, what), 0) << what;
     const Finished again = shell(folder, "$BEAMCAM run -v s.json");
     EXPECT_EQ(count(again, "files_left"), 2);
     EXPECT_EQ(count(again, "integrations"), 0);
@@ -255,8 +257,9 @@ TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     EXPECT_EQ(count(chinese, "figures_drawn"), 1);
     EXPECT_EQ(count(chinese, "files_left"), 1);
     // The instant that a document carries is one of its inputs.
-    EXPECT_EQ(count(shell(folder, "SOURCE_DATE_EPOCH=86400 $BEAMCAM run -v s.json --set outputs.0.lang=zh"),
-                    "figures_drawn"), 1);
+    EXPECT_EQ(
+        count(shell(folder, "SOURCE_DATE_EPOCH=86400 $BEAMCAM run -v s.json --set outputs.0.lang=zh"), "figures_drawn"),
+        1);
 }
 
 TEST(Skipping, AFigureAndItsDataAreLeftAloneOnlyTogether) {

@@ -125,7 +125,8 @@ TEST(Films, HaveTheSamePixelsWithTheCacheAndWithout) {
         "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}, "phase"]}}]})");
     std::string pictures;
     const auto made = [&](const char* how, const char* count) {
-        const Finished run = shell(folder, std::string("rm -f f-*.png m.csv .beamcam.json; $BEAMCAM run s.json -v ") + how);
+        const Finished run =
+            shell(folder, std::string("rm -f f-*.png m.csv .beamcam.json; $BEAMCAM run s.json -v ") + how);
         ASSERT_EQ(run.code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr(count)) << how;
         const std::string found = shell(folder, "$BEAMCAM hash f-*.png").out;

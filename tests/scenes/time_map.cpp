@@ -166,8 +166,8 @@ TEST(FilmTimes, WordsStandAsLongAsTheFreeze) {
 }
 
 TEST(FilmTimes, WordsOfOneInstantStandOneAfterTheOther) {
-    const FilmTimes times = film_times(
-        {.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {});
+    const FilmTimes times =
+        film_times({.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {});
     ASSERT_EQ(times.callouts.size(), 2u);
     EXPECT_EQ(times.callouts[0].first, 5);
     EXPECT_EQ(times.callouts[0].last, 25);

@@ -60,7 +60,8 @@ TEST(Oscillators, NoDampingMakesTheirAnswersOverflow) {
                 double r[kResponse];
                 respond(Oscillator{omega, gamma}, tau, r);
                 for (int j = 0; j < kResponse; ++j)
-                    ASSERT_TRUE(std::isfinite(r[j])) << "g" << j - 2 << ", γ " << gamma << ", ω " << omega << ", τ " << tau;
+                    ASSERT_TRUE(std::isfinite(r[j]))
+                        << "g" << j - 2 << ", γ " << gamma << ", ω " << omega << ", τ " << tau;
                 if (tau == 0) {
                     EXPECT_EQ(r[0], 1);
                     for (int j = 1; j < kResponse; ++j) EXPECT_EQ(r[j], 0);

@@ -112,7 +112,8 @@ TEST(Failure, APaceThatTheBudgetCannotMeetEndsTheRunEarly) {
     p.beam.model = ModelKind::second_order;
     p.beam.youngs_modulus = 1e25;
     p.solver.max_steps = 1'000'000;
-    EXPECT_THAT(words(p, 1e3), AllOf(HasSubstr("at the pace of late"), HasSubstr("its budget of 1000000"), HasSubstr("1 mode up to")));
+    EXPECT_THAT(words(p, 1e3),
+                AllOf(HasSubstr("at the pace of late"), HasSubstr("its budget of 1000000"), HasSubstr("1 mode up to")));
 }
 
 TEST(Failure, NoStepThatKeepsToTheToleranceIsToldInWords) {

@@ -219,7 +219,8 @@ TEST(Validate, TellsTheOneNumberThatMakesAScaleImpossible) {
     p.beam.length = 5e-324;
     const std::vector<Finding> findings = validate(p);
     ASSERT_EQ(findings.size(), 1u);  // not what follows from it
-    EXPECT_NE(findings[0].message.find("the beam's mass smaller than 1e-60 kg"), std::string::npos) << findings[0].message;
+    EXPECT_NE(findings[0].message.find("the beam's mass smaller than 1e-60 kg"), std::string::npos)
+        << findings[0].message;
     p.beam.length = 1;
     p.contact.stiffness = 5e-324;
     for (const Finding& f : validate(p)) EXPECT_EQ(f.message.find("inf"), std::string::npos) << f.message;
