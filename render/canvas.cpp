@@ -239,7 +239,8 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     if (style.align == Align::centre) x -= m.advance / 2;
     if (style.align == Align::right) x -= m.advance;
     cairo_move_to(cr_, x, baseline.y - m.baseline);
-    if (style.halo) {
+    const bool halo = style.halo && halos;
+    if (halo) {
         pango_cairo_layout_path(cr_, layout);
         note('t', {x, baseline.y}, key_of(markup, style));
         pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
@@ -250,7 +251,7 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     pango_cairo_show_layout(cr_, layout);
     new_path();
     const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
-    touch(ink.inset(style.halo ? -1 - kHalo / 2 * style.size : -1));  // glyphs stand on whole pixels
+    touch(ink.inset(halo ? -1 - kHalo / 2 * style.size : -1));  // glyphs stand on whole pixels
     if (record) record->push_back(ink);
     return {x, ink.y, m.advance, ink.h};
 }

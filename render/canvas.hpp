@@ -64,6 +64,7 @@ class Canvas : public Brush {
     const Image& image() const { return image_; }                    // as drawn so far
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
 
+    bool halos = true;                   // false: there is no paper that texts could be outlined with
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
 
   private:

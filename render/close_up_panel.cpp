@@ -50,8 +50,10 @@ class CloseUpPanel final : public Panel {
         canvas.rectangle(plot_);
         canvas.fill(mix(p.paper, p.grid, 0.35));
         if (!motion().problem.cam) return;
-        const Ticks marks =
-            ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5));
+        // One mark tells no scale: two at least, however low the panel.
+        Ticks marks;
+        for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
+            marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
         const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
@@ -149,8 +151,10 @@ class CloseUpPanel final : public Panel {
         const Palette& p = *facts_.palette;
         const double u = facts_.unit;
         if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
-            const double x = plot_.x + plot_.w / 2;
+            const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, 14 * u);
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, "beam",
+                        {.size = 17 * u, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
@@ -188,13 +192,18 @@ class CloseUpPanel final : public Panel {
     void forces(Canvas& canvas, const sim::Nearest& near) const {
         if (!near.touching || !(near.force > 0) || !(facts_.force_scale > 0)) return;
         const Palette& p = *facts_.palette;
-        const double u = facts_.unit, longest = 0.55 * plot_.h, least = 20 * u;
+        const double u = facts_.unit, longest = 0.55 * plot_.h;
         const Vec2 foot = at(0, near.gap / 2);
-        const double up = least + (longest - least) * std::min(1.0, near.force / facts_.force_scale);
-        canvas.arrow(foot, foot - Vec2{0, up}, {p.contact, 4 * u}, 16 * u);
-        if (near.friction == 0) return;
-        const double way = least + (longest - least) * std::min(1.0, std::abs(near.friction) / facts_.force_scale);
-        canvas.arrow(foot, foot + Vec2{near.friction > 0 ? way : -way, 0}, {p.contact, 4 * u}, 16 * u);
+        // One scale for both, from zero; what is too short for an arrow is told in numbers alone.
+        const auto arrow = [&](double force, Vec2 way) {
+            const double length = longest * std::min(1.0, force / facts_.force_scale);
+            if (length > 5 * u)
+                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, std::min(16 * u, 0.7 * length));
+        };
+        canvas.circle(foot, 3.5 * u);
+        canvas.fill(p.contact);
+        arrow(near.force, {0, -1});
+        arrow(std::abs(near.friction), {near.friction > 0 ? 1.0 : -1.0, 0});
     }
 
     void draw_state(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
@@ -207,7 +216,8 @@ class CloseUpPanel final : public Panel {
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
         told(canvas, {plot_.right(), box_.y + 26 * u}, deep ? "penetration" : "gap", amount, "00.0\u00A0mm",
              {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
-        // Two lines in the upper right corner. The face may pass behind them: the halo is the colour of most of it.
+        // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
+        // it.
         const Color ground = mix(p.paper, p.grid, 0.35);
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
         const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
@@ -216,12 +226,14 @@ class CloseUpPanel final : public Panel {
         TextStyle style{.size = 17 * u, .color = p.ink, .align = Align::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
-        if (!near.touching || near.friction == 0 || plot_.h < 120 * u) return;
+        if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
-        if (canvas.measure("friction ", style).w + canvas.measure(widest, style).w < room)
-            told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, "friction",
-                 quantity(std::abs(near.friction), "N"), widest, style);
+        if (canvas.measure("friction ", style).w + canvas.measure(widest, style).w > room) return;
+        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, "force", quantity(near.force, "N"), widest, style);
+        if (near.friction != 0)
+            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, "friction", quantity(std::abs(near.friction), "N"),
+                 widest, style);
     }
 
     // A word and a number that ends at `right`; the word stays where it is however long the number.

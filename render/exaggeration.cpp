@@ -178,6 +178,11 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
         contact.gap = foot.distance - problem.cam->radius - offset;
         // A hundred-thousandth of the length is a hundredth of a pixel in a full-size picture.
         if (factor != 1 && contact.gap < -1e-5 * problem.beam.length) beam.clear = false;
+        // A contact drawn elsewhere on the beam would tell a lie.
+        constexpr double kElsewhere = 0.05;  // of the length; `auto` stays at about half of it
+        if (factor != 1 && pose.nearest->touching &&
+            std::abs(contact.x - pose.nearest->x) > kElsewhere * problem.beam.length)
+            beam.clear = false;
         beam.contact = contact;
     }
     return beam;

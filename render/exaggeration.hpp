@@ -39,7 +39,8 @@ struct DrawnBeam {
     double base_angle = 0;  // of the base line as drawn [rad]
     double tilt = 0;        // drawn minus true slope at the contact, before the turn [rad]
     std::optional<DrawnContact> contact;
-    bool clear = true;  // false: no turn keeps the drawn beam off the disc; the factor must yield
+    bool clear =
+        true;  // false: it enters the disc, or touches it far from where the true beam does; the factor must yield
 
     Vec2 face(std::size_t i) const { return line[i] + left[i] * (side >= 0 ? low : high); }
     Vec2 back(std::size_t i) const { return line[i] + left[i] * (side >= 0 ? high : low); }

@@ -74,6 +74,7 @@ struct Film::Tools {
             grown.add_all();
         }
         Canvas canvas(kept, fonts);
+        canvas.halos = !p.facts.setup->view.transparent;
         canvas.touched = &grown;
         for (std::size_t i = 0; i < p.panels.size(); ++i)
             p.panels[i]->grow(canvas, p.ground, wanted, anew, states[i].get());
@@ -89,9 +90,9 @@ struct Film::Tools {
     Image picture;
     int frame = -1;  // that the picture shows; < 0: none
     Stencils stencils;
-    Tiles grown;     // where `kept` changed since the picture was drawn
-    Tiles moved;     // where the picture may differ from `kept` as it was then
-    Tiles changed;   // where the picture may differ from the one before
+    Tiles grown;    // where `kept` changed since the picture was drawn
+    Tiles moved;    // where the picture may differ from `kept` as it was then
+    Tiles changed;  // where the picture may differ from the one before
 };
 
 // ---- the ground layer ------------------------------------------------------------------------
@@ -100,6 +101,7 @@ void Film::Prepared::draw_ground() {
     const FilmSetup& setup = *facts.setup;
     ground = Image(setup.width, setup.height);
     Canvas canvas(ground, *facts.fonts);
+    canvas.halos = !setup.view.transparent;
     canvas.record = &ground_texts;
     if (!setup.view.transparent) canvas.paint(facts.palette->paper);
     draw_header(canvas);
@@ -170,12 +172,11 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     if (facts.force_scale > 0) {
         const std::string top = quantity(facts.force_scale, "N"), quarter = quantity(facts.force_scale / 4, "N");
         if (facts.setup->view.trace == TraceColor::force) {
-            bar(right, "contact force, trace", [&](double s) { return force_color(palette, s); }, {"0", quarter, top},
-                {0, 0.5, 1});
+            bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
+                {"0", quarter, top}, {0, 0.5, 1});
         } else {
             const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
-            bar(right, "age of the trace",
-                [&](double s) { return age_color(palette, s * oldest, half_life); },
+            bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
                 {"0", quantity(oldest / 2, "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
         }
         right -= 300 * u;
@@ -308,6 +309,7 @@ const Image& Film::draw(int frame) {
     t.grown.clear();
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
+    canvas.halos = !prepared_->facts.setup->view.transparent;
     canvas.touched = &t.moved;
     if (Stencils::exact()) canvas.stencils = &t.stencils;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
@@ -331,6 +333,7 @@ FrameGeometry Film::geometry(int frame) {
     t.keep(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
+    canvas.halos = !p.facts.setup->view.transparent;
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

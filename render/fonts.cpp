@@ -4,6 +4,7 @@
 #include <pango/pangofc-fontmap.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -94,13 +95,20 @@ void keep_system_settings_out() {
 
 }  // namespace
 
-// UTF-8 lead bytes: U+2E80 and above starts with E2 BA; everything from E3 on is beyond it. U+E000…
-// U+FFFF (EE, EF) holds punctuation of the same scripts (full-width forms).
+// Scripts from U+2E80 on. Pictographs, variation selectors and mathematical letters are none of them, and such a font
+// has none.
 bool needs_cjk(std::string_view utf8) {
-    for (std::size_t i = 0; i < utf8.size(); ++i) {
+    for (std::size_t i = 0; i < utf8.size();) {
         const auto lead = static_cast<unsigned char>(utf8[i]);
-        if (lead >= 0xE3 && lead <= 0xF4) return true;
-        if (lead == 0xE2 && i + 1 < utf8.size() && static_cast<unsigned char>(utf8[i + 1]) >= 0xBA) return true;
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+        std::uint32_t letter = length == 1 ? lead : lead & (0xFFU >> (length + 1));
+        for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
+            letter = letter << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
+        if ((letter >= 0x2E80 && letter < 0xE000) || (letter >= 0xF900 && letter < 0xFB00) ||
+            (letter >= 0xFE30 && letter < 0xFE50) || (letter >= 0xFF00 && letter < 0xFFF0) ||
+            (letter >= 0x20000 && letter < 0x40000))
+            return true;
+        i += length;
     }
     return false;
 }

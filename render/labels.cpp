@@ -28,7 +28,10 @@ struct FrictionPiece {
         return equation("μ", fmt::format("{:.3g}", f.coefficient));
     }
     std::string operator()(const sim::StickSlipFriction& f) const {
-        return equation("μ", fmt::format("{:.3g}", f.coefficient)) + ", stick–slip";
+        std::string text = equation("μ", fmt::format("{:.3g}", f.coefficient));
+        if (f.static_coefficient.value_or(f.coefficient) != f.coefficient)
+            text += ", " + math("μ") + "<sub>s</sub>\u2009=\u2009" + fmt::format("{:.3g}", *f.static_coefficient);
+        return text + ", stick–slip";
     }
 };
 
@@ -72,7 +75,8 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
     else
         out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
                                   problem.beam.modes == 1 ? "" : "s"));
-    if (std::string drive = std::visit(DrivePiece{}, problem.hub.drive); !drive.empty()) out.push_back(std::move(drive));
+    if (std::string drive = std::visit(DrivePiece{}, problem.hub.drive); !drive.empty())
+        out.push_back(std::move(drive));
     if (problem.gravity == 0) out.emplace_back("no gravity");
     if (problem.cam) {
         out.push_back(contact_piece(problem));

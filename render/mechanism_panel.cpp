@@ -232,10 +232,12 @@ void MechanismPanel::note_path() {
     };
     std::vector<Tip> tips;
     const double now = facts_.at(member_, facts_.frames() - 1);
-    for (int k = 0; k < facts_.frames(); ++k) tips.push_back({facts_.at(member_, k), tips_[static_cast<std::size_t>(k)]});
+    for (int k = 0; k < facts_.frames(); ++k)
+        tips.push_back({facts_.at(member_, k), tips_[static_cast<std::size_t>(k)]});
     for (std::size_t k = 0; motion().survey && k < motion().surveyed(); ++k)
         if (const DrawnBeam b = surveyed_beam(member_, k); motion().survey->time(k) <= now)
-            tips.push_back({motion().survey->time(k), px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5)});
+            tips.push_back(
+                {motion().survey->time(k), px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5)});
     std::ranges::stable_sort(tips, {}, &Tip::t);
     const auto again = std::ranges::unique(tips, {}, &Tip::t);
     tips.erase(again.begin(), again.end());
@@ -261,8 +263,8 @@ void MechanismPanel::find_flashes() {
         if (at == frames.end() || (*at == 0 && time(0) > impact.t_start)) continue;
         const DrawnBeam b = beam(*at);
         if (!b.contact) continue;
-        flashes_.push_back({*at, std::atan2(b.contact->normal.y, b.contact->normal.x) -
-                                     facts_.pose(member_, *at).cam_angle});
+        flashes_.push_back(
+            {*at, std::atan2(b.contact->normal.y, b.contact->normal.x) - facts_.pose(member_, *at).cam_angle});
     }
 }
 
@@ -525,7 +527,7 @@ void MechanismPanel::angle_arc(const Scene& s) const {
         radius = std::min(radius, 0.86 * free * look_.camera.scale);
     }
     const double hub = hub_radius(problem(), look_.camera, u_);
-    const double angle = std::remainder(s.pose.theta, 2 * kPi);
+    const double angle = std::fmod(s.pose.theta, 2 * kPi);  // in the sense in which the hub has turned
     if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
     s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
@@ -575,7 +577,8 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
     s.canvas.text({at.x, at.bottom()}, label, style);
 }
 
-// Room for the cam's speed, so wide: beside the arrow; where the panel ends there, below it. Its bottom is the baseline.
+// Room for the cam's speed, so wide: beside the arrow; where the panel ends there, below it. Its bottom is the
+// baseline.
 Box MechanismPanel::speed_box(const Scene& s, double w) const {
     const sim::Cam& cam = *problem().cam;
     const Vec2 axis = px(s.pose.cam_centre);
@@ -704,11 +707,10 @@ void MechanismPanel::force_arrow(const Scene& s) const {
                n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
     s.canvas.circle(foot, 5 * u_);
     s.canvas.fill(palette_.contact);
-    // A stub that shows the direction, then in proportion to the force; the number stands beside it.
-    const double longest = (small_ ? 60 : 150) * u_, stub = 36 * u_;
-    const double length = stub + (longest - stub) * s.pose.nearest->force / facts_.arrow_scale;
+    // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
+    const double longest = (small_ ? 60 : 150) * u_, length = longest * s.pose.nearest->force / facts_.arrow_scale;
     const Vec2 tip = s.on(flat + n * length);
-    s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, 19 * u_);
+    if (length > 7 * u_) s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, std::min(19 * u_, 0.7 * length));
     if (small_) return;
     const TextStyle style{.size = 22 * u_,
                           .color = palette_.contact,

@@ -486,11 +486,17 @@ class CollisionPanel final : public Panel {
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : ChartPanel(facts, content(facts, slot), slot.box), box_(slot.box) {}
+        : ChartPanel(facts, content(facts, slot), slot.box),
+          box_(slot.box),
+          member_(std::min(slot.spec.member, facts.members() - 1)) {}
 
     void draw_ground(Canvas& canvas) const override {
         ChartPanel::draw_ground(canvas);
         legend(canvas);
+    }
+    void draw(Canvas& canvas, int frame, Style style, State* state) const override {
+        ChartPanel::draw(canvas, frame, style, state);
+        whose(canvas);
     }
 
   private:
@@ -515,7 +521,7 @@ class EnergyPanel final : public ChartPanel {
         const PanelSpec& spec = slot.spec;
         const int member = std::min(spec.member, facts.members() - 1);
         ChartContent c = blank(facts, spec, member);
-        c.words = slot.box.w > 600 * facts.unit ? "Energy " : "";  // the legend stands beside it
+        if (is_wide(facts, slot.box)) c.words = "Energy ";  // else the legend alone stands beside the symbol
         c.symbol = math("E");
         c.unit = "J";
         const sim::Table& table = facts.motion(member).chart;
@@ -530,7 +536,9 @@ class EnergyPanel final : public ChartPanel {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
                 const double zero = zero_of(table, {kind, 0});
-                for (std::size_t i = 0; i < base.size(); ++i) band.high[i] += std::max((*v)[i] - zero, 0.0);
+                // Without a cam nothing is lost in a contact: its channels are empty.
+                for (std::size_t i = 0; i < base.size(); ++i)
+                    if (!std::isnan((*v)[i])) band.high[i] += std::max((*v)[i] - zero, 0.0);
             }
             base = band.high;
             for (double v : base)
@@ -541,26 +549,58 @@ class EnergyPanel final : public ChartPanel {
         return c;
     }
 
+    static bool is_wide(const FilmFacts& facts, const Box& box) { return box.w > 600 * facts.unit; }
+
+    // Beside the heading, closer and smaller where it would not find room; below it, whose energy this is.
     void legend(Canvas& canvas) const {
         const double u = facts_.unit;
-        const TextStyle style{.size = 16 * u, .color = facts_.palette->muted};
-        double x =
-            plot_area(box_, u).x +
-            canvas.measure(box_.w > 600 * u ? "Energy E / mJ" : "E / mJ", {.size = 21 * u, .weight = Weight::semibold})
-                .w +
-            24 * u;
-        for (const Part& part : parts(facts_)) {
-            if (part.channels.front() == ChannelKind::energy_contact && !facts_.setup->problem.cam) continue;
-            const double w = canvas.measure(part.label, style).w;
-            if (x + w + 22 * u > box_.right()) break;
-            canvas.rounded({x, box_.y + 14 * u, 13 * u, 13 * u}, 3 * u);
-            canvas.fill(part.color);
-            canvas.text({x + 19 * u, box_.y + 26 * u}, part.label, style);
-            x += w + 35 * u;
+        const Box plot = plot_area(box_, u);
+        std::vector<Part> shown = parts(facts_);
+        if (!facts_.motion(member_).problem.cam)
+            std::erase_if(shown, [](const Part& p) { return p.channels.front() == ChannelKind::energy_contact; });
+        const double first = plot.x +
+                             canvas
+                                 .measure(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ",
+                                          {.size = 21 * u, .weight = Weight::semibold})
+                                 .w +
+                             20 * u;
+        struct Step {
+            double size, swatch, gap;
+        } chosen{};
+        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {12.5, 13, 6}}) {
+            chosen = step;
+            double end = first - step.gap * u;
+            for (const Part& part : shown)
+                end += (step.gap + step.swatch) * u + canvas.measure(part.label, {.size = step.size * u}).w;
+            if (end <= box_.right()) break;
         }
+        const TextStyle style{.size = chosen.size * u, .color = facts_.palette->muted};
+        const double side = 0.8 * chosen.size * u;
+        double x = first;
+        for (const Part& part : shown) {
+            const double w = canvas.measure(part.label, style).w;
+            if (x + w + chosen.swatch * u > box_.right() + 1) break;
+            canvas.rounded({x, box_.y + 26.5 * u - side, side, side}, 3 * u);
+            canvas.fill(part.color);
+            canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, part.label, style);
+            x += w + (chosen.swatch + chosen.gap) * u;
+        }
+    }
+    // Over the bands, which grow beneath it.
+    void whose(Canvas& canvas) const {
+        if (facts_.members() == 1) return;
+        const double u = facts_.unit;
+        const Box plot = plot_area(box_, u);
+        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, escape(canvas.drawable(facts_.motion(member_).label)),
+                    {.size = 18 * u,
+                     .color = facts_.palette->ink,
+                     .weight = Weight::semibold,
+                     .max_width = plot.w - 20 * u,
+                     .halo = facts_.palette->paper});
     }
     std::vector<Reading> readings(int) const override { return {}; }
     Box box_;
+    int member_;
 };
 
 }  // namespace

@@ -69,6 +69,17 @@ std::string numbered_file(std::string_view pattern, long number) {
     return fmt::format("{}{:0{}}{}", parts.before, number, width, parts.after);
 }
 
+std::optional<long> number_of(std::string_view pattern, std::string_view file) {
+    const Pattern parts = split(pattern);
+    if (!matches(parts, file)) return {};
+    const std::string_view digits =
+        file.substr(parts.before.size(), file.size() - parts.before.size() - parts.after.size());
+    if (digits.size() > 9) return {};  // no frame has such a number
+    long number = 0;
+    for (const char digit : digits) number = 10 * number + (digit - '0');
+    return numbered_file(pattern, number) == file ? std::optional(number) : std::nullopt;
+}
+
 bool may_collide(std::string_view first, std::string_view second) {
     const std::string a = normal(first), b = normal(second);
     if (is_numbered(a) && is_numbered(b)) return split(a).before == split(b).before && split(a).after == split(b).after;

@@ -110,11 +110,22 @@ std::vector<double> rows_of_collisions(const sim::Result& motion, double from, d
     for (const Span& s : spans) {
         if (s.high < from) continue;
         const double length = std::clamp(s.high - s.low, 1e-4, kLongestCollision), before = 0.15 * length;
-        for (const double t : rows(std::max(from, s.low - before), std::min(to, s.low + length + before),
-                                   count / (length + 2 * before)))
+        for (const double t :
+             rows(std::max(from, s.low - before), std::min(to, s.low + length + before), count / (length + 2 * before)))
             out.push_back(t);
     }
     return out;
+}
+
+// Of the collision that is under way at `t`, with a little of what follows; `t` itself where none is.
+double end_of_collision(const sim::Result& motion, double t) {
+    std::optional<int> which;
+    double begin = t, end = t;
+    for (const sim::Impact& i : motion.impacts) {
+        if (!which && i.t_start == t) which = i.collision;
+        if (which == i.collision) end = std::max(end, std::min(i.t_end.value_or(t), t + kLongestCollision));
+    }
+    return end + 0.15 * (end - begin);
 }
 
 // The first frame at this instant or after it, else the last: what an impact has begun shows.
@@ -157,7 +168,10 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
+    // At the first touch of an impact nothing of it can be seen yet: the charts go on to where it is over.
+    const double ahead = at.kind == Instant::Kind::time ? t : std::max(t, std::min(end_of_collision(motion, t), until));
     out.chart = rows(0, t, chart_rate(t));
+    if (ahead > t) merge(out.chart, rows(t, ahead, 600 / (ahead - t)));
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;

@@ -135,9 +135,14 @@ LayoutNode read_node(const PictureContext& c, Fields& parent, const Node& node, 
     if (node.kind == Node::Kind::string) {
         const auto panel = panel_named(c, node.text);
         if (panel && (panel->kind != PanelKind::strip || !panel->channels.empty())) return {.panel = *panel};
-        parent.fail(node, key,
-                    fmt::format("{} = {} is no panel{}", parent.path(key), in_quotes(node.text),
-                                suggestion_or_list(node.text, panel_words(c))));
+        if (panel)
+            parent.fail(node, key,
+                        fmt::format("{} = {} needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}",
+                                    parent.path(key), in_quotes(node.text)));
+        else
+            parent.fail(node, key,
+                        fmt::format("{} = {} is no panel{}", parent.path(key), in_quotes(node.text),
+                                    suggestion_or_list(node.text, panel_words(c))));
         return {};
     }
     Fields f(c.findings, &node, parent.path(key));
@@ -226,17 +231,20 @@ void read_layout(const PictureContext& c, Fields& f, Picture& picture) {
                                       panel.member + 1, motions));
     for (const PanelSpec& panel : panels)
         if (panel.by_collision && !picture.compare.empty())
-            f.fail(*node, "layout",
-                   fmt::format("{}: \"window\": \"collision\" is of one motion's collisions, and the picture compares {}; give a "
-                               "time such as \"50 ms\"",
-                               f.path("layout"), picture.compare.size()));
+            f.fail(
+                *node, "layout",
+                fmt::format(
+                    "{}: \"window\": \"collision\" is of one motion's collisions, and the picture compares {}; give a "
+                    "time such as \"50 ms\"",
+                    f.path("layout"), picture.compare.size()));
     if (c.findings.failed("cam")) return;
     for (const PanelSpec& panel : panels)
         if (const std::string what = without_cam(c, picture, panel); !what.empty())
-            f.fail(*node, "layout",
-                   fmt::format("{}: \"{}\" is of the contact, and there is no cam; remove the panel, or give the scene a "
-                               "\"cam\"",
-                               f.path("layout"), what));
+            f.fail(
+                *node, "layout",
+                fmt::format("{}: \"{}\" is of the contact, and there is no cam; remove the panel, or give the scene a "
+                            "\"cam\"",
+                            f.path("layout"), what));
 }
 
 // ---- compare -----------------------------------------------------------------------------------
@@ -344,9 +352,10 @@ void read_compare(const PictureContext& c, Fields& f, Picture& picture) {
                          picture.comparison);
     const Node* node = f.take("compare");
     if (!node && picture.comparison == Comparison::ghosts && f.node())
-        c.findings.warning(f.node()->place,
-                           fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
-                                       f.path("comparison")));
+        c.findings.warning(
+            f.node()->place,
+            fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
+                        f.path("comparison")));
     if (!node) return;
     if (node->kind != Node::Kind::array || node->items.size() < 2 || node->items.size() > kMostCompared)
         return f.fail(*node, "compare",

@@ -332,8 +332,7 @@ class Planner {
             skip("OpenGL", "every view is flat");
         if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
         if (plan_.summaries.empty()) skip("extrema and turning points", "no output is a summary");
-        if (!plan_.simulation->horizon)
-            skip("second run for the reproducible horizon", "nothing asks for it");
+        if (!plan_.simulation->horizon) skip("second run for the reproducible horizon", "nothing asks for it");
     }
 
     void note_unread_channels() {
@@ -429,8 +428,9 @@ std::string shard_file(const std::string& file, int shard, int shards) {
 }
 
 std::string no_room(const Size& size) {
-    return fmt::format("{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them",
-                       size.width, size.height);
+    return fmt::format(
+        "{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them", size.width,
+        size.height);
 }
 
 bool is_slow_motion(const Pictures& p) {
@@ -465,8 +465,7 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
         if (span.poster) fix(*span.poster);
         sim::Request none;
         if (p.kind == Pictures::Kind::still)
-            put_times(p, none, still_times({.kind = Instant::Kind::time, .t = instant_of(p.at, first)}, all,
-                                           surveyed_until(p)));
+            put_times(p, none, still_times(p.at, first, surveyed_until(p)));
         else
             put_times(p, none, film_times(span, p.end_time, all));
     }

@@ -36,7 +36,9 @@
 namespace beamcam::scenes {
 namespace {
 
-std::string counted(std::size_t n, std::string_view thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+std::string counted(std::size_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -59,7 +61,8 @@ std::string power_of_ten(double value) {
 
 // Where the time went, for -v.
 struct Times {
-    double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;  // [s]; drawing summed over threads
+    double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0,
+           write = 0;  // [s]; drawing summed over threads
 };
 
 void stop_if_interrupted() {
@@ -226,8 +229,8 @@ class Runner {
             for (const ComparedMotion& each : p.compared) {
                 sim::Request request = each.request;
                 compared_poses_.back().push_back(keep_apart(request, 0, 1));
-                others_.push_back(shop_.motions.want(each.problem, {std::move(request)},
-                                                     fmt::format("{}, {}", p.file, each.label)));
+                others_.push_back(
+                    shop_.motions.want(each.problem, {std::move(request)}, fmt::format("{}, {}", p.file, each.label)));
             }
         }
     }
@@ -373,13 +376,14 @@ class Runner {
         return all;
     }
 
-    // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹"
+    // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹ · bends beyond first-order"
     std::string accuracy_note(const Pictures& p) const { return accuracy_note(scene_.problem, seen_by(p)); }
     static std::string accuracy_note(const sim::Problem& problem, const sim::Result& result) {
         std::string note = fmt::format("rtol {}", power_of_ten(problem.solver.rtol));
         if (result.energy_scale > 0 && result.energy_residual_max > 0)
             note +=
                 fmt::format(" · energy closes to {}", power_of_ten(result.energy_residual_max / result.energy_scale));
+        if (result.beyond_model) note += fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
         return note;
     }
 
@@ -529,11 +533,13 @@ class Runner {
     void add_compared(std::size_t index, render::FilmSetup& setup) {
         const Pictures& p = plan_.pictures[index];
         double worst = -1;
+        std::string beyond;
         for (std::size_t i = 0; i < p.compared.size(); ++i) {
             const ComparedMotion& each = p.compared[i];
             sim::Result& result = compared_[index][i];
             const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
             if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
+            if (result.beyond_model) beyond = fmt::format(" · bends beyond {}", sim::name(each.problem.beam.model));
             const bool traced = result.tables.size() > 1;
             render::Motion motion =
                 motion_of(each.problem, result, 0, 0, traced ? std::optional<std::size_t>(1) : std::nullopt);
@@ -545,6 +551,7 @@ class Runner {
             else
                 setup.others.push_back(std::move(motion));
         }
+        if (setup.accuracy_note.find(" · bends beyond ") == std::string::npos) setup.accuracy_note += beyond;
     }
 
     // A GIF's colours are those of a few of its frames.
@@ -569,7 +576,9 @@ class Runner {
         const auto begun = Clock::now();
         render::Film film = film_of(index);
         if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields() && !capture_ && !options_.quiet)
-            fmt::print(stderr, "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam\n",
+            fmt::print(stderr,
+                       "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
+                       "far from where it touches\n",
                        p.file, film.exaggeration(), *wanted);
         std::unique_ptr<output::VideoWriter> video;
         if (p.kind == Pictures::Kind::video && !capture_) {
@@ -699,8 +708,8 @@ class Runner {
     std::vector<sim::Result> ends_;                     // as Simulation::ends
     std::vector<std::vector<sim::Result>> of_figures_;  // one for each study of each figure
     std::vector<std::vector<sim::Result>> compared_;    // one for each motion of each picture
-    std::vector<Kept> own_poses_;                    // of each picture; none where results bring theirs
-    std::vector<std::vector<Kept>> compared_poses_;  // as `compared_`
+    std::vector<Kept> own_poses_;                       // of each picture; none where results bring theirs
+    std::vector<std::vector<Kept>> compared_poses_;     // as `compared_`
 };
 
 // ---- all together ------------------------------------------------------------------------------
@@ -752,7 +761,8 @@ void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runner
 
 void tell(const Shop& shop) {
     fmt::print(stderr,
-               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads; read back {:.2f} s), conversion {:.2f} s, "
+               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads; read back {:.2f} s), conversion "
+               "{:.2f} s, "
                "encoding {:.2f} s, other files {:.2f} s\n",
                seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options.threads),
                shop.times.read_back, shop.times.convert, shop.times.encode, shop.times.write);

@@ -77,8 +77,12 @@ class Surveyor {
     }
 
     void look_at_frames(const Pictures& p) {
-        if (!p.settled) return;  // how many there are only the impacts tell
         std::set<long> there;
+        if (!p.settled) {  // how many there are only the impacts tell
+            there = frames_there(p);
+            if (!there.empty()) found_.known.frames[p.output] = std::move(there);
+            return;
+        }
         for (int k : p.draw)
             if (const long number = p.first_frame + k; is_there(numbered_file(p.file, number), p.output))
                 there.insert(number);
@@ -86,6 +90,19 @@ class Surveyor {
             found_.known.finished.insert(p.output);
         else if (!there.empty())
             found_.known.frames[p.output] = std::move(there);
+    }
+
+    // Of all numbers.
+    std::set<long> frames_there(const Pictures& p) {
+        std::set<long> there;
+        const fs::path pattern = p.file, folder = place_of(directory_, pattern.parent_path().string());
+        std::error_code failed;  // no folder, no frames
+        for (fs::directory_iterator at(folder.empty() ? "." : folder, failed), end; !failed && at != end;
+             at.increment(failed))
+            if (const auto number = number_of(pattern.filename().string(), at->path().filename().string());
+                number && is_there(numbered_file(p.file, *number), p.output))
+                there.insert(*number);
+        return there;
     }
 
     const Scene& scene_;

@@ -655,6 +655,7 @@ void Recorder::finish(double t, const double* y, const Tally& tally) {
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
     result_.end_time = t;
     result_.counters = tally.counters;
+    result_.beyond_model = bends_beyond(problem_, largest_elastic_);
     result_.warnings = warnings(problem_, result_, tally, largest_elastic_);
 }
 

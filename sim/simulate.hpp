@@ -112,6 +112,7 @@ struct Result {
     std::optional<double> reproducible_until;  // [s]
     Counters counters;
     double wall_seconds = 0;
+    bool beyond_model = false;          // it bends through angles that its model does not hold for
     std::vector<std::string> warnings;  // in the user's terms
 };
 

@@ -30,16 +30,19 @@ void tell_ledger(const Problem& problem, const Result& result, std::vector<std::
                     problem.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
 }
 
-// ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape.
-void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
+// ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape [rad].
+double slope_bound(const Problem& problem, double largest_elastic) {
     const Beam& beam = problem.beam;
-    if (beam.model == ModelKind::exact || beam.model == ModelKind::rigid) return;
-    const double slope = std::sqrt(2 * largest_elastic * beam.length / beam.bending_stiffness());
-    if (slope > kLargestSlope)
+    return std::sqrt(2 * largest_elastic * beam.length / beam.bending_stiffness());
+}
+
+void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
+    const double slope = slope_bound(problem, largest_elastic);
+    if (bends_beyond(problem, largest_elastic))
         out.push_back(
             fmt::format("the beam bends through angles up to about {:.2g} rad; {} holds for small ones: use "
                         "\"model\": \"exact\"",
-                        slope, name(beam.model)));
+                        slope, name(problem.beam.model)));
 }
 
 // Newton's law creates energy where friction turns the slip around during an impact (Kane & Levinson 1985).
@@ -66,6 +69,12 @@ void tell_floor(const Problem& problem, const Result& result, const Tally& tally
 }
 
 }  // namespace
+
+bool bends_beyond(const Problem& problem, double largest_elastic) {
+    const ModelKind model = problem.beam.model;
+    return model != ModelKind::exact && model != ModelKind::rigid &&
+           slope_bound(problem, largest_elastic) > kLargestSlope;
+}
 
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
                                   double largest_elastic) {

@@ -15,7 +15,9 @@ inline constexpr double kSummedShare = 0.1;
 // most 2v/(g(1 − e)) too early (MODEL.md §9).
 inline constexpr double kChatterShare = 1e-3;
 
-// `largest_elastic`: the largest bending energy of the run [J].
+// Through angles that the model does not hold for. `largest_elastic`: the largest bending energy of the run [J].
+bool bends_beyond(const Problem& problem, double largest_elastic);
+
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
                                   double largest_elastic);
 

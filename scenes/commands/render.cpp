@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "scenes/commands/commands.hpp"
 #include "scenes/files.hpp"
@@ -87,7 +88,7 @@ void apply_format(const Arguments& args, VideoOutput& film) {
 }
 
 // The scenes of the command line beside each other; the first one's outputs tell how.
-void compare_scenes(const Arguments& args, const Scene& scene, Picture& picture) {
+void compare_scenes(const Arguments& args, Scene& scene, Picture& picture) {
     const auto entry = [](const Scene& one) {
         Scene mechanics = one;
         mechanics.outputs.clear();
@@ -98,8 +99,24 @@ void compare_scenes(const Arguments& args, const Scene& scene, Picture& picture)
         picture.comparison = *args.comparison == "ghosts" ? render::Comparison::ghosts : render::Comparison::panels;
     if (args.others.empty()) return;
     if (args.others.size() > 7) throw UsageError("render: a picture compares at most eight scenes");
+    // A grid made for one motion would show that one alone.
+    if (picture.layout && picture.comparison == render::Comparison::panels) {
+        std::set<int> shown;
+        for (const render::PanelSpec& panel : render::panels_of(*picture.layout))
+            if (panel.kind == render::PanelKind::mechanism) shown.insert(panel.member);
+        if (shown.size() != args.others.size() + 1) {
+            picture.layout.reset();
+            if (!args.common.quiet)
+                fmt::print(stderr,
+                           "note: the layout in {} does not show {} motions; they stand in the standard arrangement\n",
+                           args.scene, args.others.size() + 1);
+        }
+    }
     picture.compare = {entry(scene)};
     for (const std::string& other : args.others) picture.compare.push_back(entry(read_or_refuse(other, args.common)));
+    // Each motion has its scene's title as its label; the first one's is no title for all.
+    static constexpr std::string_view kCounts[] = {"Two", "Three", "Four", "Five", "Six", "Seven", "Eight"};
+    scene.title = fmt::format("{} motions compared", kCounts[args.others.size() - 1]);
 }
 
 void apply_render_options(const Arguments& args, VideoOutput& film) {

@@ -212,6 +212,23 @@ TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
         EXPECT_TRUE(drawn_beam(film.problem, pose, n, film.problem.beam.depth).clear);
 }
 
+TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
+    test::Synthetic how;
+    how.amplitude = 6e-3;
+    const FilmSetup film = test::synthetic_film(how);
+    for (const std::optional<double> wanted : {std::optional<double>(), std::optional(20.0), std::optional(200.0)}) {
+        const double n = film_factor(film.problem, film.poses, wanted);
+        int touching = 0;
+        for (const sim::Pose& pose : film.poses) {
+            const DrawnBeam beam = drawn_beam(film.problem, pose, n, film.problem.beam.depth);
+            if (!pose.nearest->touching) continue;
+            ++touching;
+            EXPECT_NEAR(beam.contact->x, pose.nearest->x, 0.05 * film.problem.beam.length) << n;
+        }
+        EXPECT_GT(touching, 10);
+    }
+}
+
 TEST(Camera, FitsTheWorldAndInvertsItself) {
     Bounds world;
     world.add({-1, -2});

@@ -274,7 +274,9 @@ TEST(Trace, RowsWithoutContactAreNoSamples) {
 
 TEST(Fonts, ChineseIsRecognized) {
     EXPECT_FALSE(needs_cjk("Flexible beam θ, ω · 10⁻³ – “quoted”"));
-    EXPECT_TRUE(needs_cjk("柔性梁"));
+    for (const char* words : {"柔性梁", "t = 1 s（慢）", "かむ", "캠", "𠮷"}) EXPECT_TRUE(needs_cjk(words)) << words;
+    for (const char* words : {"\U0001F680", "\U0001F44D\uFE0F", "\U0001D703", "\xF0\x9F", ""})
+        EXPECT_FALSE(needs_cjk(words)) << words;
 }
 
 // System settings that would replace every font: pixels must not care.

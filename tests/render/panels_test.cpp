@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "render/film.hpp"
 #include "render/growing.hpp"
@@ -270,6 +272,141 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
     EXPECT_GT(opaque, 10000U);
 }
 
+// Paper around letters would be a patch on whatever the picture is laid upon.
+TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
+    const auto of_paper = [](bool transparent) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.7});
+        setup.width = 960, setup.height = 540;
+        setup.view.style = Style::flat;
+        setup.view.transparent = transparent;
+        setup.layout = leaf({.kind = PanelKind::mechanism});
+        const Color paper = palette(setup.view.theme).paper;
+        const auto byte = [](double share) { return static_cast<std::uint32_t>(std::lround(255 * share)); };
+        const std::uint32_t wanted = 0xFF000000U | byte(paper.r) << 16 | byte(paper.g) << 8 | byte(paper.b);
+        Film film(std::move(setup));
+        const Image image = drawn(film, 37);
+        return std::ranges::count(image.pixels, wanted);
+    };
+    EXPECT_GT(of_paper(false), 300000);
+    EXPECT_LT(of_paper(true), 60);  // the disc's bore
+}
+
+TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
+    const auto ledger = [](double nothing) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.3, .cam = false});
+        setup.width = 960, setup.height = 540;
+        setup.view.style = Style::flat;
+        const std::size_t rows = setup.chart.values[0].size();
+        for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, 1.0},
+                                          {ChannelKind::loss_structural, 2.0},
+                                          {ChannelKind::loss_contact, nothing},
+                                          {ChannelKind::loss_friction, nothing}}) {
+            setup.chart.channels.push_back({kind, 0});
+            setup.chart.values.emplace_back(rows, value);
+        }
+        setup.layout = leaf({.kind = PanelKind::energy});
+        Film film(std::move(setup));
+        return drawn(film, 12);
+    };
+    const Image empty = ledger(std::numeric_limits<double>::quiet_NaN()), zero = ledger(0);
+    EXPECT_EQ(empty.pixels, zero.pixels);
+}
+
+// Twice the force, twice the arrow; in the mechanism and in the close-up.
+TEST(ForceArrows, AreInProportionToTheForce) {
+    for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 1280, setup.height = 1280;
+        setup.view.style = Style::flat;
+        setup.impacts.clear();
+        for (auto& column : setup.trace.values) column.clear();
+        // The same pose with three forces: the first gives the scale, of the second and third the arrows are compared.
+        sim::Pose pose = test::synthetic_pose(setup.problem, {}, 1.99);
+        pose.nearest->touching = true, pose.nearest->gap = -1e-5, pose.nearest->friction = 0;
+        setup.poses.clear();
+        for (const double force : {200.0, 180.0, 90.0}) {
+            pose.nearest->force = force;
+            setup.poses.push_back(pose);
+            pose.t += 0.01;
+        }
+        setup.layout = leaf({.kind = kind});
+        const Color contact = palette(setup.view.theme).contact;
+        Film film(std::move(setup));
+        const Box box = film.geometry(1).layout.first(kind)->box;
+        // How far its colour reaches along it.
+        const auto length = [&](int frame) {
+            const Image image = drawn(film, frame);
+            const FrameGeometry g = film.geometry(frame);
+            const bool close = kind == PanelKind::close_up;
+            const Vec2 along = close ? Vec2{0, 1} : g.beam.contact->normal;
+            const double u = g.layout.unit;
+            const Vec2 foot =
+                close ? Vec2{box.x + 70 * u + (box.w - 78 * u) / 2, 0} : g.camera.to_pixels(g.beam.contact->on_disc);
+            double top = -1e9, bottom = 1e9;
+            for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
+                for (int x = int(box.x); x < int(box.right()); ++x) {
+                    const Vec2 off{x - foot.x, foot.y - y};
+                    if (std::abs(cross(along, off)) > 10 * u) continue;
+                    const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                    if (std::abs((p >> 16 & 255) / 255.0 - contact.r) + std::abs((p >> 8 & 255) / 255.0 - contact.g) +
+                            std::abs((p & 255) / 255.0 - contact.b) <
+                        0.02)
+                        top = std::max(top, dot(along, off)), bottom = std::min(bottom, dot(along, off));
+                }
+            return top - bottom - (close ? 3.5 : 5) * u;  // the dot reaches below the arrow's foot
+        };
+        EXPECT_GT(length(2), 40) << name(kind);
+        // Antialiasing takes some two pixels of a tip.
+        EXPECT_NEAR(length(1) / length(2), 2, 0.12) << name(kind);
+    }
+}
+
+TEST(CloseUp, HasTwoMarksHoweverLow) {
+    for (const int height : {240, 300, 400, 700}) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 960, setup.height = height;
+        setup.view.style = Style::flat;
+        setup.layout = leaf({.kind = PanelKind::close_up});
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(0);
+        const Box box = g.layout.first(PanelKind::close_up)->box;
+        const auto marks = std::ranges::count_if(g.texts, [&](const Box& b) {
+            return b.right() < box.x + 62 * g.layout.unit && b.y > box.y + 30 * g.layout.unit &&
+                   b.bottom() < box.bottom() - 30 * g.layout.unit;
+        });
+        EXPECT_GE(marks, 2) << height;
+    }
+}
+
+TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
+    // 200° counter-clockwise passes the vertical above the hub, not the one below.
+    FilmSetup setup = test::synthetic_film({.duration = 0.1, .cam = false});
+    setup.width = 1200, setup.height = 1200;
+    setup.view.style = Style::flat;
+    const double angle = 200 * std::numbers::pi / 180;
+    for (sim::Pose& pose : setup.poses) {
+        const std::size_t n = pose.centreline.size();
+        for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
+        pose.theta = pose.root_slope = angle;
+    }
+    setup.layout = leaf({.kind = PanelKind::mechanism});
+    const Color muted = palette(setup.view.theme).muted;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(2);
+    const Image image = drawn(film, 2);
+    const Vec2 hub = g.camera.to_pixels({0, 0});
+    const auto has_arc = [&](double side) {
+        for (double r = 60 * g.layout.unit; r < 100 * g.layout.unit; ++r) {
+            const auto x = std::size_t(hub.x), y = std::size_t(hub.y + side * r);
+            const std::uint32_t p = image.pixels[y * std::size_t(image.width) + x];
+            if (std::abs((p >> 16 & 255) / 255.0 - muted.r) + std::abs((p & 255) / 255.0 - muted.b) < 0.15) return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(has_arc(-1));
+    EXPECT_FALSE(has_arc(1));
+}
+
 TEST(Layout, SharesDivideTheRoom) {
     using enum LayoutNode::Kind;
     const Layout l =
@@ -326,8 +463,8 @@ TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
         const auto x = std::size_t(plot.x + plot.w / 2);
         for (int y = int(plot.y); y < int(plot.bottom()); ++y) {
             const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + x];
-            const double off = std::abs((p >> 16 & 255) / 255.0 - motion.r) + std::abs((p >> 8 & 255) / 255.0 - motion.g) +
-                               std::abs((p & 255) / 255.0 - motion.b);
+            const double off = std::abs((p >> 16 & 255) / 255.0 - motion.r) +
+                               std::abs((p >> 8 & 255) / 255.0 - motion.g) + std::abs((p & 255) / 255.0 - motion.b);
             if (off < 0.25) sum += y + 0.5, ++count;
         }
         return count > 0 ? sum / count : -1;
@@ -374,7 +511,8 @@ double seen_apart(Color a, Color b) {
         const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
         const double in[] = {linear(c.r), linear(c.g), linear(c.b)};
         double v[3];
-        for (std::size_t i = 0; i < 3; ++i) v[i] = std::clamp(m[i][0] * in[0] + m[i][1] * in[1] + m[i][2] * in[2], 0.0, 1.0);
+        for (std::size_t i = 0; i < 3; ++i)
+            v[i] = std::clamp(m[i][0] * in[0] + m[i][1] * in[1] + m[i][2] * in[2], 0.0, 1.0);
         const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
         const double x = f((0.4124 * v[0] + 0.3576 * v[1] + 0.1805 * v[2]) / 0.9505),
                      y = f(0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2]),
@@ -394,7 +532,8 @@ TEST(Colors, EightMotionsAreToldApartByEverybody) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print})
         for (std::size_t i = 0; i < 8; ++i)
             for (std::size_t k = 0; k < i; ++k)
-                EXPECT_GT(seen_apart(series_color(palette(theme), i), series_color(palette(theme), k)), 15) << i << " and " << k;
+                EXPECT_GT(seen_apart(series_color(palette(theme), i), series_color(palette(theme), k)), 15)
+                    << i << " and " << k;
 }
 
 TEST(Labels, SpeedsAreToldAsFractions) {
@@ -405,6 +544,16 @@ TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(0.037), "1/20 speed");
     EXPECT_EQ(speed_text(0), "frozen");
     EXPECT_EQ(speed_text(4), "4× speed");
+}
+
+TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
+    sim::Problem problem;
+    problem.contact.friction = sim::StickSlipFriction{.coefficient = 0.2, .static_coefficient = 0.35};
+    const std::vector<std::string> pieces = parameter_pieces(problem);
+    const auto found =
+        std::ranges::find_if(pieces, [](const std::string& piece) { return piece.find("0.2") != std::string::npos; });
+    ASSERT_NE(found, pieces.end());
+    EXPECT_NE(found->find("0.35"), std::string::npos) << *found;
 }
 
 TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {

@@ -69,20 +69,26 @@ TEST(Films, TouchingIsDrawnTouchingAtEveryFrameInContact) {
 
 TEST(Films, WhatStandsStillIsNeitherDrawnNorConvertedAgain) {
     const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20,
+    folder.write("s.json",
+                 R"({"time": {"end": 0.3}, "outputs": [{"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20,
         "from": 0.2, "poster": "impact:1", "view": {"style": "flat"}, "events": [{"at": "impact:1", "freeze": 2, "text": "touch"}]}]})");
     std::string pictures;
     for (const char* jobs : {"1", "3"}) {
         const Finished made = shell(folder, std::string("$BEAMCAM run s.json -v -j ") + jobs + " -o j" + jobs);
         ASSERT_EQ(made.code, 0) << made.err;
-        EXPECT_THAT(made.err, HasSubstr("frames_repeated=15 "));  // from 24 frames after the touch, when its ring is gone
+        EXPECT_THAT(made.err,
+                    HasSubstr("frames_repeated=15 "));  // from 24 frames after the touch, when its ring is gone
         const std::string found = shell(folder, std::string("$BEAMCAM hash j") + jobs + "/f.mkv | cut -c1-64").out;
         EXPECT_TRUE(pictures.empty() || found == pictures);
         pictures = found;
     }
-    ASSERT_EQ(shell(folder, "sed -i 's/f.mkv/f-##.png/; s/video/frames/; s/\"poster\": \"impact:1\",//' s.json && $BEAMCAM run s.json -q").code,
+    ASSERT_EQ(shell(folder,
+                    "sed -i 's/f.mkv/f-##.png/; s/video/frames/; s/\"poster\": \"impact:1\",//' s.json && $BEAMCAM run "
+                    "s.json -q")
+                  .code,
               0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM hash j1/f.mkv | cut -c1-64").out, shell(folder, "$BEAMCAM hash f-*.png | cut -c1-64").out);
+    EXPECT_EQ(shell(folder, "$BEAMCAM hash j1/f.mkv | cut -c1-64").out,
+              shell(folder, "$BEAMCAM hash f-*.png | cut -c1-64").out);
 }
 
 TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
@@ -121,6 +127,43 @@ TEST(Films, ScenesOfTheCommandLineAreCompared) {
     EXPECT_EQ(finished.code, 0) << finished.err;
     EXPECT_THAT(finished.out, HasSubstr("as \"slow\" of c.png"));
     EXPECT_THAT(finished.out, HasSubstr("as \"fast\" of c.png"));
+}
+
+// A grid of one mechanism would show the first motion alone.
+TEST(Films, ALayoutForOneMotionGivesWayToTheStandardOne) {
+    const Folder folder;
+    folder.write("a.json", R"({"title": "slow", "outputs": [{"type": "video", "file": "a.mp4",
+        "layout": {"columns": ["mechanism", "theta"]}}]})");
+    folder.write("b.json", R"({"title": "fast", "cam": {"speed": 5}})");
+    const std::string still = " --at 0.4 --style flat --size 640x360 && $BEAMCAM info --scene ";
+    const Finished panels = shell(folder, "$BEAMCAM render a.json b.json -o c.png" + still + "c.png");
+    EXPECT_EQ(panels.code, 0) << panels.err;
+    EXPECT_THAT(panels.err, HasSubstr("does not show 2 motions"));
+    EXPECT_THAT(panels.out, HasSubstr("\"layout\": \"auto\""));
+    EXPECT_THAT(panels.out, HasSubstr("Two motions compared"));
+    const Finished ghosts =
+        shell(folder, "$BEAMCAM render a.json b.json -o d.png --comparison ghosts" + still + "d.png");
+    EXPECT_THAT(ghosts.err, Not(HasSubstr("does not show")));
+    EXPECT_THAT(ghosts.out, Not(HasSubstr("\"layout\": \"auto\"")));
+}
+
+TEST(Films, PicturesSayWhenTheBeamBendsBeyondItsModel) {
+    const Folder folder;
+    const std::string still =
+        R"("outputs": [{"type": "still", "file": "s.png", "at": 0.4, "size": [640, 360], "view": {"style": "flat"}}]})";
+    folder.write("soft.json", R"({"beam": {"youngs_modulus": 1e8, "damping_ratio": 0.05}, )" + still);
+    folder.write("stiff.json", "{" + still);
+    EXPECT_THAT(shell(folder, "$BEAMCAM run -q soft.json && $BEAMCAM info s.png").out,
+                HasSubstr("bends beyond first-order"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run -q stiff.json && $BEAMCAM info s.png").out, Not(HasSubstr("bends beyond")));
+}
+
+TEST(Films, AStripWithoutChannelsIsToldToNameThem) {
+    const Reading reading =
+        testing::read(R"({"outputs": [{"type": "video", "layout": {"rows": ["mechanism", "strip"]}}]})");
+    EXPECT_FALSE(reading.scene);
+    ASSERT_EQ(testing::messages(reading).size(), 1u);
+    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("needs channels"));
 }
 
 TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
@@ -225,10 +268,15 @@ TEST(Posters, AreAskedForAndRefusedInWords) {
 TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
     const Folder folder;
     for (const char* at : {"\"impact:1\"", "1.2"}) {
-        folder.write("s.json", std::string(R"({"outputs": [{"type": "still", "file": "t.png", "size": [160, 90], "view": {"style": "flat"}, "at": )") +
-                                   at + R"(}, {"type": "video", "file": "f.mkv", "to": 0.3, "fps": 10, "size": [160, 90], "view": {"style": "flat"}}]})");
+        folder.write(
+            "s.json",
+            std::string(
+                R"({"outputs": [{"type": "still", "file": "t.png", "size": [160, 90], "view": {"style": "flat"}, "at": )") +
+                at +
+                R"(}, {"type": "video", "file": "f.mkv", "to": 0.3, "fps": 10, "size": [160, 90], "view": {"style": "flat"}}]})");
         EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0) << at;
-        EXPECT_EQ(shell(folder, "$BEAMCAM hash f.mkv").out.size(), shell(folder, "$BEAMCAM hash f.mkv | head -n 3").out.size());
+        EXPECT_EQ(shell(folder, "$BEAMCAM hash f.mkv").out.size(),
+                  shell(folder, "$BEAMCAM hash f.mkv | head -n 3").out.size());
     }
 }
 
@@ -279,25 +327,31 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     EXPECT_TRUE(flat.first);
     EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera moves in the solid view alone"));
     const std::string two = R"("compare": [{"label": "a"}, {"label": "b", "set": {"cam": null}}])";
-    const auto collisions = told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
+    const auto collisions =
+        told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
     EXPECT_FALSE(collisions.first);
     EXPECT_THAT(collisions.second, HasSubstr("is of one motion's collisions, and the picture compares 2"));
     EXPECT_TRUE(told(R"({"type": "video", "layout": {"rows": ["mechanism", "contact_force"]}, )" + two + "}").first);
-    EXPECT_FALSE(told(R"({"type": "video", "layout": {"rows": ["mechanism", {"panel": "close-up", "motion": 2}]}, )" + two + "}").first);
+    EXPECT_FALSE(
+        told(R"({"type": "video", "layout": {"rows": ["mechanism", {"panel": "close-up", "motion": 2}]}, )" + two + "}")
+            .first);
 }
 
 TEST(Films, AFirstMotionWithoutACamHidesNoContactOfTheOthers) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": 0.5,
         "compare": [{"label": "free", "set": {"cam": null}}, {"label": "cam"}]}]})");
     const Plan made = plan(*reading.scene);
-    EXPECT_THAT(made.pictures.front().chart_channels, ::testing::Contains(sim::Channel{sim::ChannelKind::contact_force, 0}));
+    EXPECT_THAT(made.pictures.front().chart_channels,
+                ::testing::Contains(sim::Channel{sim::ChannelKind::contact_force, 0}));
 }
 
 TEST(Films, AFactorThatYieldsIsTold) {
     const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7, "size": [160, 90],
+    folder.write("s.json",
+                 R"({"time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7, "size": [160, 90],
         "view": {"style": "flat", "exaggeration": 1e6}}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("instead of ×1e+06, which would draw the beam into the cam"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err,
+                HasSubstr("instead of ×1e+06, which would draw the beam into the cam"));
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.view.exaggeration=2").err,
                 ::testing::Not(HasSubstr("warning")));
 }
@@ -305,12 +359,16 @@ TEST(Films, AFactorThatYieldsIsTold) {
 // One frame has all of the path that led to it.
 TEST(Films, AStillHasThePathOfTheTip) {
     const Folder folder;
-    folder.write("s.json", R"({"cam": null, "time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7,
+    folder.write("s.json",
+                 R"({"cam": null, "time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7,
         "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}},
         {"type": "still", "file": "b.png", "at": 0, "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}}]})");
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.file=c.png --set outputs.0.view.tip_path=recent "
-                            "--set outputs.1.file=d.png").code, 0);
+    EXPECT_EQ(shell(folder,
+                    "$BEAMCAM run s.json --force --set outputs.0.file=c.png --set outputs.0.view.tip_path=recent "
+                    "--set outputs.1.file=d.png")
+                  .code,
+              0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png c.png").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff b.png d.png").code, 0);
 }
@@ -326,7 +384,8 @@ TEST(Films, PanelsThatFindNoRoomAreTold) {
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("warning: a.png shows no energy: 640 × 300"));
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json -q --force").err, ::testing::IsEmpty());
     // The standard arrangement is nobody's wish.
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.layout=auto").err, ::testing::Not(HasSubstr("warning")));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.layout=auto").err,
+                ::testing::Not(HasSubstr("warning")));
 }
 
 }  // namespace

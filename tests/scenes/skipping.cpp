@@ -311,6 +311,27 @@ TEST(Skipping, AnInterruptedSequenceResumes) {
     EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json -o part"), "files_left"), 1);
 }
 
+// How many frames there are, only the impacts tell.
+TEST(Skipping, AnInterruptedSequenceInSlowMotionResumes) {
+    const Folder folder;
+    folder.write("s.json", scene(R"({"type": "frames", "file": "f-###.png", "size": [320, 180], "fps": 10, "from": 0.27,
+        "view": {"style": "flat"}, "speed": {"around": "impacts", "factor": 0.02}})"));
+    const int all = count(shell(folder, "$BEAMCAM run -v s.json -o whole"), "frames_drawn");
+    ASSERT_GT(all, 4);
+    // Files of other makers with numbers alike are none of its frames.
+    shell(folder, "cp -a whole part; cd part; rm f-004.png; cp f-005.png f-0005.png; touch f-a.png");
+    const Finished rest = shell(folder, "$BEAMCAM run -v s.json -o part");
+    EXPECT_EQ(count(rest, "frames_drawn"), 1) << rest.err;
+    EXPECT_EQ(count(rest, "frames_left"), all - 1);
+    EXPECT_EQ(shell(folder, "for f in whole/f-*.png; do cmp $f part/${f#whole/} || exit 1; done").code, 0);
+    const Finished none = shell(folder, "$BEAMCAM run -v s.json -o part");
+    EXPECT_EQ(none.code, 0) << none.err;
+    EXPECT_EQ(count(none, "frames_drawn"), 0);
+    // Another scene leaves none of them.
+    shell(folder, "sed -i 's/0.02/0.04/' s.json");
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json -o part"), "frames_left"), 0);
+}
+
 TEST(Skipping, PartsHaveThePixelsOfTheWhole) {
     const Folder folder;
     folder.write("s.json", scene(std::string(kFrames) + ", " + kStill));

@@ -127,6 +127,23 @@ TEST(FilmTimes, SlowMotionHasRowsBetweenItsFrames) {
     EXPECT_GE(within(times.chart, 0.300, 0.301), 22);
 }
 
+TEST(FilmTimes, AStillOfAnImpactHasChartsToTheEndOfItsCollision) {
+    sim::Result motion;
+    const auto add = [&](double from, double to, int collision) {
+        sim::Impact& next = motion.impacts.emplace_back();
+        next.t_start = from, next.t_end = to, next.collision = collision;
+    };
+    add(0.300, 0.301, 0), add(0.305, 0.306, 0), add(0.600, 0.601, 1);
+    const FilmTimes of_impact = still_times({.kind = Instant::Kind::impact, .number = 1}, motion, 1);
+    EXPECT_EQ(of_impact.frames, std::vector{0.3});
+    EXPECT_GE(of_impact.chart.back(), 0.306);
+    EXPECT_LT(of_impact.chart.back(), 0.31);
+    EXPECT_TRUE(std::ranges::is_sorted(of_impact.chart));
+    // Not beyond the motion; and a still of an instant shows its past alone.
+    EXPECT_EQ(still_times({.kind = Instant::Kind::impact, .number = 1}, motion, 0.303).chart.back(), 0.303);
+    EXPECT_EQ(still_times({.kind = Instant::Kind::time, .t = 0.3}, motion, 1).chart.back(), 0.3);
+}
+
 // A strip that turns from one collision to the next is smooth at any speed of the film.
 TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     sim::Result motion;
