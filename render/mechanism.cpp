@@ -153,6 +153,30 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, const Palette& p
     canvas.stroke({p.steel_edge, 2.4 * u});
 }
 
+namespace {
+
+// Of a wide hub the root's corner, which stands off the radius that the centre line leaves along, would stay outside:
+// the section goes on inwards until both of its corners are in the hub.
+void continue_into_hub(MechanismShape& s) {
+    if (s.face.size() < 2) return;
+    const Vec2 along = s.face[0] - s.face[1], inwards = along * (1 / std::max(norm(along), 1e-300));
+    const double radius = s.hub - 1;
+    double by = 0;
+    for (Vec2 corner : {s.face[0], s.back[0]}) {
+        const Vec2 from = corner - s.hinge;
+        const double outside = dot(from, from) - radius * radius, middle = -dot(from, inwards);
+        if (outside <= 0) continue;
+        if (middle <= 0 || middle * middle < outside) return;  // it passes the hub by, or begins beyond its middle
+        by = std::max(by, middle - std::sqrt(middle * middle - outside));
+    }
+    if (by == 0) return;
+    s.face.insert(s.face.begin(), s.face[0] + inwards * by);
+    s.back.insert(s.back.begin(), s.back[0] + inwards * by);
+    s.colors.insert(s.colors.begin(), s.colors[0]);
+}
+
+}  // namespace
+
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
                                const MechanismLook& look, const Palette& p) {
     MechanismShape s;
@@ -167,6 +191,7 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     s.hub = hub_radius(problem, look.camera, look.unit);
     s.pin = std::min(7 * look.unit, 0.4 * s.hub);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
+    continue_into_hub(s);
     return s;
 }
 

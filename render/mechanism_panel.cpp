@@ -649,7 +649,7 @@ void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
     disc_letters(s, ink);
 }
 
-// B and C beyond the ends of the line between them, so that they keep off it at any angle.
+// B and C beyond the ends of the line between them, so that they keep off it at any angle, and within the disc.
 void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     const DiscShape& d = *s.shape.disc;
     if (d.radius < 60 * u_) return;
@@ -657,8 +657,10 @@ void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = 22 * u_, .color = ink, .align = Align::centre};
     s.canvas.text(s.on(d.centre + along * (20 * u_)) + Vec2{0, 7 * u_}, math("B"), style);
-    // The shaft that stands out in the solid view needs more room.
-    s.canvas.text(s.on(d.axis - along * (d.bore + (s.view ? 24 : 16) * u_)) + Vec2{0, 7 * u_}, math("C"), style);
+    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands beside.
+    const double off = d.bore + (s.view ? 24 : 16) * u_;
+    const Vec2 way = apart + off + 24 * u_ <= d.radius ? along * -1 : Vec2{along.y, -along.x};
+    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * u_}, math("C"), style);
 }
 
 void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {

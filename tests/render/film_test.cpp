@@ -194,6 +194,26 @@ TEST(Mechanism, MarkOfTheDiscStandsAtTheCamAngle) {
     }
 }
 
+// The section stands beside the radius along which it leaves the hub; no wedge opens between the two.
+TEST(Mechanism, TheBeamsRootIsWithinItsHub) {
+    for (const double radius : {0.0, 0.03, 0.1, 0.3}) {
+        FilmSetup film = test::synthetic_film({.duration = 0.1, .cam = false});
+        film.problem.hub.radius = radius;
+        MechanismLook look;
+        look.camera = {900, {100, 400}};
+        look.depth = film.problem.beam.depth;
+        sim::Pose pose = film.poses.front();
+        for (Vec2& p : pose.centreline) p = p + sim::unit(pose.theta) * radius;
+        const DrawnBeam beam = drawn_beam(film.problem, pose, 1, look.depth);
+        const MechanismShape shape = mechanism_shape(film.problem, pose, beam, look, palette(Theme::light));
+        ASSERT_EQ(shape.face.size(), shape.back.size());
+        ASSERT_EQ(shape.face.size(), shape.colors.size());
+        for (Vec2 corner : {shape.face.front(), shape.back.front()})
+            EXPECT_LT(norm(corner - shape.hinge), shape.hub) << radius;
+        EXPECT_NEAR(norm(shape.face.back() - look.camera.to_pixels(beam.face(beam.line.size() - 1))), 0, 1e-9);
+    }
+}
+
 // The colour in the middle of the drawn section is the moment's, and beyond the face it is not.
 TEST(Film, FlatBeamIsDrawnWhereItsGeometrySays) {
     FilmSetup setup = small_film(Style::flat);
