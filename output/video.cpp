@@ -335,7 +335,9 @@ struct VideoWriter::Impl {
     void work() {
         std::unique_lock lock(mutex);
         for (;;) {
+            const Clock::time_point idle = Clock::now();
             changed.wait(lock, [this] { return closing || !queue.empty(); });
+            cost.idle_seconds += seconds_since(idle);
             if (abandoned || queue.empty()) return;
             Slot* slot = queue.front();
             lock.unlock();

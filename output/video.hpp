@@ -52,6 +52,7 @@ struct VideoStatistics {
     double convert_seconds = 0;  // picture to film colours, summed over the threads that draw
     double encode_seconds = 0;   // inside the encoder, in the writer's thread
     double wait_seconds = 0;     // for the encoder, summed over the threads that draw
+    double idle_seconds = 0;     // of the writer's thread, for want of pictures
 };
 
 class VideoWriter {

@@ -26,15 +26,33 @@ int thread_count(int wanted) {
     return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate) {
+int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
     std::atomic<long> next{0};
     std::mutex failure_mutex;
     std::exception_ptr failure;
+    const int most = static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)));
+    std::mutex others_mutex;
+    std::vector<std::thread> others;  // not joined yet
+    std::atomic<int> working{1};
+    std::function<void()> work;
 
-    auto work = [&] {
+    const auto start_another = [&] {
+        const std::lock_guard lock(others_mutex);
+        if (working >= most) return;
+        try {
+            others.emplace_back(work);
+            ++working;
+        } catch (const std::system_error&) {
+            // fewer threads than asked for do the same work
+        }
+    };
+    work = [&] {
         try {
             const Worker worker = make_worker();
-            for (long k = next++; k < count; k = next++) worker(k);
+            for (long k = next++; k < count; k = next++) {
+                worker(k);
+                if (crew.more && working < most && next < count && crew.more()) start_another();
+            }
         } catch (const Gate::Closed&) {
             // the thread that closed it tells why
         } catch (...) {
@@ -45,16 +63,20 @@ void fan_out(long count, int threads, const std::function<Worker()>& make_worker
         }
     };
 
-    const long useful = std::clamp<long>(threads, 1, std::max<long>(count, 1));
-    std::vector<std::thread> others;
-    try {
-        for (long i = 1; i < useful; ++i) others.emplace_back(work);
-    } catch (const std::system_error&) {
-        // fewer threads than asked for do the same work
-    }
+    for (int i = 1; i < std::min(crew.first, most); ++i) start_another();
     work();
-    for (std::thread& thread : others) thread.join();
+    for (;;) {  // one that still works may have started another meanwhile
+        std::thread thread;
+        {
+            const std::lock_guard lock(others_mutex);
+            if (others.empty()) break;
+            thread = std::move(others.back());
+            others.pop_back();
+        }
+        thread.join();
+    }
     if (failure) std::rethrow_exception(failure);
+    return working;
 }
 
 }  // namespace beamcam::scenes

@@ -33,8 +33,18 @@ int thread_count(int wanted);
 // What one thread does with a number. Made in that thread, so that it may own what belongs to a thread.
 using Worker = std::function<void(long)>;
 
-// Calls workers for 0 … count−1, each once, on `threads` threads (the calling one for a single
-// thread). The first exception closes the gate, ends the work and is thrown here.
-void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate);
+// How many threads work: `first` from the beginning, and one more, up to `most`, whenever `more` says that it helps.
+// Threads ask that after each number, several at once.
+struct Crew {
+    int first = 1, most = 1;
+    std::function<bool()> more = {};
+};
+
+// Calls workers for 0 … count−1, each once; the calling thread is the first of the crew. The first exception closes the
+// gate, ends the work and is thrown here. Returns how many threads worked.
+int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate);
+inline void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate) {
+    fan_out(count, Crew{threads, threads}, make_worker, gate);
+}
 
 }  // namespace beamcam::scenes

@@ -25,6 +25,7 @@
 #include "output/video.hpp"
 #include "output/work.hpp"
 #include "render/film.hpp"
+#include "scenes/demand.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/files.hpp"
@@ -63,6 +64,7 @@ std::string power_of_ten(double value) {
 struct Times {
     double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0,
            write = 0;  // [s]; drawing summed over threads
+    int threads = 0;   // that drew
 };
 
 void stop_if_interrupted() {
@@ -650,7 +652,7 @@ class Runner {
                 });
             };
         };
-        fan_out(count, thread_count(options_.threads), make_worker, gate);
+        times_.threads = std::max(times_.threads, fan_out(count, crew(p, video.get()), make_worker, gate));
         const render::DrawingCounts& counts = film.counts();
         work_.font_sets += counts.font_sets;
         work_.gl_contexts += counts.gl_contexts;
@@ -659,6 +661,14 @@ class Runner {
         finish(p, video.get(), count);
         if (!capture_)
             note(picture_work(p, thread_count(options_.threads)), static_cast<double>(count), begun, made_of(p));
+    }
+
+    // An encoder has its own threads; few have to draw to keep it busy.
+    Crew crew(const Pictures& p, const output::VideoWriter* video) const {
+        const int most = thread_count(options_.threads);
+        if (!video || p.picture.view.style == render::Style::solid) return {most, most};
+        const int share = p.picture.view.style == render::Style::flat ? 4 : 2;
+        return {std::max(1, most / share), most, [demand = std::make_shared<Demand>(*video)] { return (*demand)(); }};
     }
 
     // Equal to the picture that is written just before it, and not wanted beside the film.
@@ -761,11 +771,12 @@ void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runner
 
 void tell(const Shop& shop) {
     fmt::print(stderr,
-               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({} threads; read back {:.2f} s), conversion "
+               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
                "{:.2f} s, "
                "encoding {:.2f} s, other files {:.2f} s\n",
-               seconds_since(shop.started), shop.times.simulate, shop.times.draw, thread_count(shop.options.threads),
-               shop.times.read_back, shop.times.convert, shop.times.encode, shop.times.write);
+               seconds_since(shop.started), shop.times.simulate, shop.times.draw,
+               counted(static_cast<std::size_t>(shop.times.threads), "thread"), shop.times.read_back,
+               shop.times.convert, shop.times.encode, shop.times.write);
     std::string text;
     for_each_count(shop.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
     fmt::print(stderr, "work:{}\n", text);
