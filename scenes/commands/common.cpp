@@ -30,7 +30,7 @@ void add_scene(CLI::App& app, std::string& scene, Common& common) {
 
 void add_work(CLI::App& app, Common& common) {
     app.add_flag("-v,--verbose", common.verbose, "Tell where the time went, and count the work");
-    app.add_option("-j,--jobs", common.threads, "Threads that draw (default: one for each core)")
+    app.add_option("-j,--jobs", common.threads, "Threads that draw, at most (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     app.add_option("--progress", common.progress, "Progress on standard error: auto, bar, plain, json or none")

@@ -115,7 +115,7 @@ void add_test(Grammar& grammar) {
     app->add_option("--report", args->report, "Folder for a page with actual and difference pictures")
         ->type_name("DIR");
     app->add_option("--junit", args->junit, "Report for continuous integration, .xml")->type_name("FILE");
-    app->add_option("-j,--jobs", args->common.threads, "Threads that draw (default: one for each core)")
+    app->add_option("-j,--jobs", args->common.threads, "Threads that draw, at most (default: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
