@@ -35,6 +35,11 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     }
 }
 
+constexpr double kColumn = 540;  // width of panels beside the mechanism [design px]
+bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
+// How much wider the column may become where the mechanism does not need the room [px].
+double widening(double w, double u) { return std::clamp(w - 1600 * u, 0.0, 200 * u); }
+
 // What stands around the panels, and the room that is left for them.
 struct Frame {
     Layout out;
@@ -59,7 +64,8 @@ Frame frame(int width, int height) {
         f.top += 54 * u;
     }
     if (has_parameters) {
-        out.parameters = Box{margin, f.top, w - 2 * margin, 36 * u};
+        const double beside = f.wide && has_column(w, h, u) ? kColumn * u + widening(w, u) + 40 * u : 0;
+        out.parameters = Box{margin, f.top, w - 2 * margin - beside, 36 * u};
         f.top += 36 * u;
     }
     if (has_scales) {
@@ -124,18 +130,65 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
     }
 }
 
-// One mechanism for each motion, in the direction that leaves each the better shape.
-void place_mechanisms(Layout& out, const Box& box, int members) {
-    LayoutNode grid{.kind = box.w > 1.5 * box.h ? LayoutNode::Kind::columns : LayoutNode::Kind::rows};
-    for (int i = 0; i < members; ++i) grid.children.push_back({.panel = {.kind = PanelKind::mechanism, .member = i}});
-    Layout parts;
-    parts.unit = out.unit;
-    if (members == 1)
-        parts.panels.push_back({grid.children.front().panel, whole(box)});
-    else
-        place_grid(parts, grid, box);
-    out.panels.insert(out.panels.begin(), parts.panels.begin(), parts.panels.end());
+// ---- the standard arrangement ------------------------------------------------------------------
+
+// Equal cells for mechanisms beside and above each other.
+struct Cells {
+    int columns = 1, rows = 1;
+    double w = 0, h = 0;                               // whole pixels
+    static constexpr double kAcross = 30, kDown = 14;  // between them [design px]
+};
+
+Cells cells(const Box& box, int count, int columns, double u) {
+    Cells out{columns, (count + columns - 1) / columns};
+    out.w = std::floor((box.w - Cells::kAcross * u * (out.columns - 1)) / out.columns);
+    out.h = std::floor((box.h - Cells::kDown * u * (out.rows - 1)) / out.rows);
+    return out;
 }
+
+double scale_in(const Cells& c, const Sight& sight, double u) { return sight.camera({0, 0, c.w, c.h}, u).scale; }
+
+// As many as have room, in the rows and columns that give them the largest scale.
+Cells best_cells(const Box& box, int& count, const Sight& sight, double u) {
+    const Vec2 least = smallest(PanelKind::mechanism) * u;
+    for (; count > 1; --count) {
+        std::optional<Cells> best;
+        for (int columns = count; columns >= 1; --columns) {
+            const Cells one = cells(box, count, columns, u);
+            if (one.w < least.x || one.h < least.y) continue;
+            if (!best || scale_in(one, sight, u) > scale_in(*best, sight, u)) best = one;
+        }
+        if (best) return *best;
+    }
+    return cells(box, 1, 1, u);
+}
+
+void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sight) {
+    const double u = out.unit;
+    if (members == 1) {
+        out.panels.insert(out.panels.begin(), {{.kind = PanelKind::mechanism}, whole(box)});
+        return;
+    }
+    const Cells c = best_cells(box, members, sight, u);
+    std::vector<PanelSlot> slots;
+    for (int i = 0; i < members; ++i) {
+        const double x = box.x + (c.w + Cells::kAcross * u) * (i % c.columns),
+                     y = box.y + (c.h + Cells::kDown * u) * (i / c.columns);
+        slots.push_back({{.kind = PanelKind::mechanism, .member = i},
+                         {std::round(x), std::round(y), std::max(1.0, c.w), std::max(1.0, c.h)}});
+    }
+    out.panels.insert(out.panels.begin(), slots.begin(), slots.end());
+}
+
+// What the mechanisms leave of their box at the scale that it gives them [px].
+Vec2 spare(const Box& box, int members, const Sight& sight, double u) {
+    const Cells c = best_cells(box, members, sight, u);
+    const Vec2 used = sight.room({0, 0, c.w, c.h}, u);
+    return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
+}
+
+// Some of it stays, for words and arrows around the mechanism.
+double given(double spare, double most) { return std::min(0.6 * spare, most); }
 
 }  // namespace
 
@@ -181,36 +234,81 @@ const char* name(PanelKind kind) {
     return "";
 }
 
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members) {
+std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
+                               const Sight& sight) {
     Frame f = frame(width, height);
     Layout& out = f.out;
-    const double u = out.unit, w = width, h = height, margin = f.margin;
-    double top = f.top, bottom = f.bottom, right = f.right;
-    if (f.wide && w >= 1150 * u && h >= 480 * u && members < 3) {
-        const double column = 540 * u, first = margin * 0.8;
-        stack(out, side, {right - column, first, column, bottom - first - 6 * u});
-        if (!out.panels.empty()) {
-            right -= column + 40 * u;
-            if (out.title) out.title->w = right - out.title->x;
-            if (out.parameters) out.parameters->w = right - out.parameters->x;
+    const double u = out.unit, w = width, h = height;
+    Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
+    const double lower = std::min(0.62 * room.h, 3 * 330 * u);  // of a stack
+    switch (how) {
+        case Arrangement::alone:
+            break;
+        case Arrangement::column: {
+            if (!has_column(w, h, u)) return {};
+            Box left = room;
+            left.w -= kColumn * u + 40 * u;
+            const double column = kColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
+            // Beside the title, too, where height is what lacks.
+            const double top = f.wide ? f.margin * 0.8 : f.top;
+            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u});
+            room.w -= column + 40 * u;
+            if (f.wide && out.title) out.title->w = room.right() - out.title->x;
+            break;
         }
-    } else if ((!f.wide || members >= 3) && w >= 420 * u && bottom - top >= 620 * u) {
-        const double share = std::min(0.62 * (bottom - top), 3 * 330 * u);
-        if (h > 1.35 * w) {
-            const Box area{margin, bottom - share, right - margin, share};
-            stack(out, side, area);
-            if (!out.panels.empty()) bottom -= share - (area.bottom() - out.panels.back().box.bottom()) + 20 * u;
-            const double spare = area.bottom() - (out.panels.empty() ? area.bottom() : out.panels.back().box.bottom());
-            for (PanelSlot& slot : out.panels) slot.box.y += spare;
-        } else {
-            spread(out, side, {margin, bottom - 300 * u, right - margin, 300 * u});
-            if (!out.panels.empty()) bottom -= 320 * u;
+        case Arrangement::row: {
+            if (w < 420 * u || room.h < 620 * u) return {};
+            Box above = room;
+            above.h -= 320 * u;
+            const double row = 300 * u + given(spare(above, members, sight, u).y, 140 * u);
+            spread(out, side, {room.x, room.bottom() - row, room.w, row});
+            room.h -= row + 20 * u;
+            break;
+        }
+        case Arrangement::stack: {
+            if (w < 420 * u || room.h < 620 * u) return {};
+            stack(out, side, {room.x, room.bottom() - lower, room.w, lower});
+            if (out.panels.empty()) return {};
+            // As high as their number asks for, and what the mechanisms leave.
+            const double n = static_cast<double>(out.panels.size());
+            double used = out.panels.back().box.bottom() - out.panels.front().box.y;
+            Box above = room;
+            above.h -= used + 20 * u;
+            used += given(spare(above, members, sight, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
+            const std::vector<PanelSpec> shown(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
+            out.panels.clear();
+            stack(out, shown, {room.x, room.bottom() - used, room.w, used});
+            room.h -= used + 20 * u;
+            break;
         }
     }
-    Box room{margin, top, right - margin, bottom - top};
+    if (out.panels.empty() && how != Arrangement::alone) return {};
     if (room.w < 8 || room.h < 8) room = {0, 0, w, h};
-    place_mechanisms(out, room, members);
+    place_mechanisms(out, room, members, sight);
     return std::move(f.out);
+}
+
+double scale_of(const Layout& layout, const Sight& sight) {
+    double least = 0;
+    for (const PanelSlot& slot : layout.panels) {
+        if (slot.spec.kind != PanelKind::mechanism) continue;
+        const double scale = sight.camera(slot.box, layout.unit).scale;
+        least = least > 0 ? std::min(least, scale) : scale;
+    }
+    return least;
+}
+
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const Sight& sight) {
+    using enum Arrangement;
+    const bool wide = width >= 1.4 * height, tall = height > 1.35 * width;
+    std::optional<Layout> best;
+    for (Arrangement how : wide   ? std::vector{column, row}
+                           : tall ? std::vector{stack, column}
+                                  : std::vector{row, column}) {
+        std::optional<Layout> one = arranged(how, width, height, side, members, sight);
+        if (one && (!best || scale_of(*one, sight) > scale_of(*best, sight))) best = std::move(one);
+    }
+    return best ? *std::move(best) : *arranged(alone, width, height, side, members, sight);
 }
 
 Layout layout(int width, int height, const LayoutNode& wanted) {

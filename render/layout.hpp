@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/geometry.hpp"
+#include "render/sight.hpp"
 #include "sim/channels.hpp"
 
 namespace beamcam::render {
@@ -58,9 +59,20 @@ struct Layout {
     const PanelSlot* first(PanelKind kind) const;
 };
 
+// Where the side panels of the standard arrangement stand: one above the other at the right, side by side below, or
+// one above the other below.
+enum class Arrangement { alone, column, row, stack };
+
 // width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
-// with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable.
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1);
+// with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable:
+// where that leaves the mechanisms the larger scale for their `sight`. Room that they do not need goes to the panels.
+// The box of the parameters depends on the size alone, so that what it holds is known before there is a motion.
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {});
+// One of them; none where the picture is too small for it.
+std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
+                               const Sight& sight);
+// Of the smallest mechanism [px/m]; 0 without one.
+double scale_of(const Layout& layout, const Sight& sight);
 // The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
 // become rows.
 Layout layout(int width, int height, const LayoutNode& wanted);

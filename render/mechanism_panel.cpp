@@ -140,7 +140,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
       member_(std::min(slot.spec.member, facts.members() - 1)),
       ghosts_(facts.members() > 1 && facts.setup->comparison == Comparison::ghosts),
       u_(facts.unit),
-      small_(slot.box.w < 420 * facts.unit || slot.box.h < 300 * facts.unit) {
+      small_(is_small(slot.box, facts.unit)) {
     // Mechanisms beside each other share one camera's scale, so that they can be compared.
     for (int m = 0; m < facts.members(); ++m) shown_.push_back(m);
     look_.unit = u_;
@@ -166,46 +166,15 @@ DrawnBeam MechanismPanel::surveyed_beam(int member, std::size_t k) const {
     return drawn_beam(one.problem, one.surveyed(k), factor, look_.depth);
 }
 
-// The box of all drawn beams [m]; of a still, of the one that it shows, with the tip's path if that is wanted.
-Bounds MechanismPanel::beams_reach() const {
-    Bounds all;
-    for (int m : shown_)
-        for (std::size_t k = 0; k < (facts_.frames() == 1 ? 1 : facts_.motion(m).surveyed()); ++k) {
-            const DrawnBeam b = facts_.frames() == 1 ? beam_of(m, 0) : surveyed_beam(m, k);
-            for (std::size_t i = 0; i < b.line.size(); i += (i + 5 < b.line.size() ? 4 : 1))
-                all.add(b.face(i)), all.add(b.back(i));
-        }
-    if (facts_.frames() == 1 && facts_.setup->view.tip_path)
-        for (std::size_t k = 0; k < motion().surveyed(); ++k)
-            if (const DrawnBeam b = surveyed_beam(member_, k); motion().surveyed(k).t <= facts_.at(member_, 0))
-                all.add(b.line.back());
-    return all;
-}
-
 // The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
 void MechanismPanel::place_camera() {
-    const double u = u_;
-    const Box room = box_.inset(std::min(26 * u, 0.08 * std::min(box_.w, box_.h)));
-    look_.depth = problem().beam.depth;
-    Bounds beams;
-    for (int pass = 0; pass < 4; ++pass) {  // sizes fixed in pixels make the fit implicit; it settles at once
-        if (pass < 2) beams = beams_reach();
-        Bounds all = beams;
-        const double pixel = pass == 0 ? 0 : 1 / look_.camera.scale;  // [m]
-        for (int m : shown_) {
-            const sim::Problem& p = facts_.motion(m).problem;
-            if (p.cam) {
-                const double swept = p.cam->radius + p.cam->eccentricity;
-                all.add(facts_.pose(m, 0).cam_centre, swept + (p.cam->speed != 0 ? 34 * u * pixel : 0));
-            }
-            const double hub = pass == 0 ? std::max(p.hub.radius, 0.0) : hub_radius(p, look_.camera, u) * pixel;
-            all.add({0, 0}, hub + 12 * u * pixel);
-            all.add({0, -support_reach(hub / std::max(pixel, 1e-300), u) * pixel});
-        }
-        look_.camera = fit(all, room);
-        // A beam thinner than a line gets the weight of one; it grows away from the cam.
-        look_.depth = std::max(problem().beam.depth, 7 * u / look_.camera.scale);
-    }
+    // A beam thinner than a line gets the weight of one; it grows away from the cam.
+    const auto as_deep_as = [&](const Sight& sight) {
+        look_.camera = sight.camera(box_, u_);
+        look_.depth = std::max(problem().beam.depth, 7 * u_ / look_.camera.scale);
+    };
+    as_deep_as(facts_.sight);
+    if (look_.depth > problem().beam.depth) as_deep_as(sight_of(facts_, look_.depth));
 }
 
 void MechanismPanel::note_extent() {
@@ -704,13 +673,13 @@ void MechanismPanel::flash(const Scene& s) const {
 }
 
 void MechanismPanel::force_arrow(const Scene& s) const {
-    if (!s.pose.nearest || !s.pose.nearest->touching || !(s.pose.nearest->force > 0) || !s.beam.contact) return;
+    if (!shows_force(s.pose, s.beam)) return;
     const Vec2 flat = px(s.beam.contact->on_disc), foot = s.on(flat),
                n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
     s.canvas.circle(foot, 5 * u_);
     s.canvas.fill(palette_.contact);
     // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
-    const double longest = (small_ ? 60 : 150) * u_, length = longest * s.pose.nearest->force / facts_.arrow_scale;
+    const double length = push_length(s.pose.nearest->force / facts_.arrow_scale, small_, u_);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * u_) s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, std::min(19 * u_, 0.7 * length));
     if (small_) return;
@@ -721,7 +690,7 @@ void MechanismPanel::force_arrow(const Scene& s) const {
                           .halo = palette_.paper};
     const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
     // Beside the tip and clear of the beam's back, however short the arrow.
-    const double clear = std::max(length, look_.depth * look_.camera.scale + 26 * u_);
+    const double clear = push_label(length, look_.depth * look_.camera.scale, u_);
     Vec2 at = s.on(flat + n * clear) + Vec2{-14 * u_, 6 * u_};
     const double w = s.canvas.measure(label, style).w;
     at.x = std::max(at.x, box_.x + w);

@@ -56,7 +56,6 @@ class MechanismPanel final : public Panel {
     Vec2 px(Vec2 world) const { return look_.camera.to_pixels(world); }
 
     void place_camera();
-    Bounds beams_reach() const;
     void note_extent();
     void note_path();
     void find_flashes();

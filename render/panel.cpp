@@ -89,9 +89,11 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     }
     fonts = std::make_unique<const Fonts>(cjk);
     ++counts->font_sets;
+    choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
-    places = setup->layout ? layout(setup->width, setup->height, *setup->layout)
-                           : layout(setup->width, setup->height, standard(*setup), mechanisms);
+    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout);
+    if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
+    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight);
     unit = places.unit;
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
@@ -102,7 +104,6 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
         span.high = std::max(span.high, *std::ranges::max_element(*t));
     }
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
-    choose_scales();
 }
 
 void FilmFacts::check() const {

@@ -30,6 +30,7 @@ struct FilmFacts {
     double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none
     double arrow_scale = 0;                         // largest force of a frame [N]
     double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
+    Sight sight;                                    // of all mechanisms
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();

@@ -145,5 +145,129 @@ TEST(Layout, PanelsWithoutRoomAreNamed) {
     EXPECT_EQ(left_out(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
 }
 
+// ---- the standard arrangement follows what is to be seen ---------------------------------------
+
+// The reach of a beam that swings between two angles, and of the paper's cam.
+Sight swinging(const sim::Problem& problem, double from, double to) {
+    Sight sight{.beams = {}, .problems = {&problem}, .pushes = {}};
+    for (double angle = from; angle <= to; angle += 0.01) sight.beams.add(sim::unit(angle) * problem.beam.length);
+    sight.beams.add({0, 0}, problem.beam.depth);
+    return sight;
+}
+
+struct Sights {
+    sim::Problem paper, flat;
+    std::vector<Sight> all;
+    Sights() {
+        flat.cam->radius = 0.03, flat.cam->eccentricity = 0.005;
+        all = {swinging(paper, 0.3, 0.8), swinging(paper, 1.2, 1.6), swinging(flat, 0.05, 0.12)};
+    }
+};
+
+// 200 sizes, the same in every run.
+std::vector<Size> many_sizes() {
+    std::vector<Size> out;
+    std::uint64_t state = 88172645463325252;
+    const auto next = [&](int from, int to) {
+        state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+        return from + static_cast<int>(state % static_cast<std::uint64_t>(to - from));
+    };
+    for (int i = 0; i < 200; ++i) out.push_back({next(200, i % 4 ? 2200 : 700), next(200, i % 4 ? 2200 : 700)});
+    return out;
+}
+
+TEST(Layout, PartsStandApartForAnyMotionAndSize) {
+    const Sights sights;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            for (int members : {1, 3, 8}) {
+                const Layout l = layout(w, h, kAll, members, sight);
+                const std::vector<Box> all = parts(l);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << w << "x" << h << ": " << i;
+                    for (std::size_t j = 0; j < i; ++j)
+                        EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1)))
+                            << w << "x" << h << ", " << members << ": " << i << " and " << j;
+                }
+            }
+}
+
+TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
+    using enum Arrangement;
+    const Sights sights;
+    int columns = 0, below = 0;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            for (int members : {1, 3}) {
+                const Layout l = layout(w, h, kAll, members, sight);
+                const PanelSlot* side = l.first(PanelKind::strip);
+                if (!side) continue;
+                (side->box.x > l.first(PanelKind::mechanism)->box.right() ? columns : below) += 1;
+                for (Arrangement other : {column, h > 1.35 * w ? stack : row})
+                    if (const auto o = arranged(other, w, h, kAll, members, sight)) {
+                        EXPECT_GE(scale_of(l, sight), scale_of(*o, sight)) << w << "x" << h;
+                    }
+            }
+    EXPECT_GT(columns, 100);
+    EXPECT_GT(below, 100);
+}
+
+// Charts take room that a mechanism leaves, and never any that it needs.
+TEST(Layout, WideChartsCostTheMechanismNothing) {
+    const Sights sights;
+    const Layout upright = layout(1920, 1080, kAll, 1, sights.all[1]),
+                 lying = layout(1920, 1080, kAll, 1, sights.all[2]);
+    EXPECT_GT(upright.first(PanelKind::strip)->box.w, 700);
+    const Box narrow{0, 0, 1212, upright.first(PanelKind::mechanism)->box.h};  // beside a column of the usual width
+    EXPECT_NEAR(scale_of(upright, sights.all[1]), sights.all[1].camera(narrow, 1).scale, 1e-9);
+    EXPECT_GT(lying.first(PanelKind::strip)->box.y, lying.first(PanelKind::mechanism)->box.bottom());
+}
+
+TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
+    const Sights sights;
+    const auto boxes = [&](const Sight& sight) {
+        std::vector<Box> out;
+        for (const PanelSlot& slot : layout(1920, 1080, {}, 3, sight).panels) out.push_back(slot.box);
+        return out;
+    };
+    const std::vector<Box> upright = boxes(sights.all[1]), lying = boxes(sights.all[2]);
+    ASSERT_EQ(upright.size(), 3U);
+    ASSERT_EQ(lying.size(), 3U);
+    EXPECT_EQ(upright[0].y, upright[2].y);
+    EXPECT_EQ(lying[0].x, lying[2].x);
+    for (const auto& all : {upright, lying})
+        for (const Box& box : all) EXPECT_TRUE(box.w == all[0].w && box.h == all[0].h);
+}
+
+// What stands in the line of parameters can be told before there is a motion.
+TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
+    const Sights sights;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            EXPECT_EQ(layout(w, h, kAll, 1, sight).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
+}
+
+// The arrow of the largest force, too, stands in the mechanism's box.
+TEST(Sight, ArrowsOfForceAreSeen) {
+    FilmSetup setup = test::synthetic_film({.duration = 1.5});
+    setup.problem.cam->radius *= 0.3, setup.problem.cam->eccentricity *= 0.3;
+    for (std::size_t k = 0; k < setup.poses.size(); ++k)
+        setup.poses[k] = test::synthetic_pose(setup.problem, {}, 1.9 + double(k) / 600);
+    setup.view.style = Style::flat;
+    double largest = 0;
+    for (const sim::Pose& pose : setup.poses) largest = std::max(largest, pose.nearest->force);
+    ASSERT_GT(largest, 0);
+    const std::vector<sim::Pose> poses = setup.poses;
+    Film film(std::move(setup));
+    for (int k = 0; k < film.frames(); k += 7) {
+        const FrameGeometry g = film.geometry(k);
+        const sim::Nearest& near = *poses[std::size_t(k)].nearest;
+        if (!near.touching || !g.beam.contact) continue;
+        const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc);
+        const double length = push_length(near.force / largest, false, g.layout.unit);
+        EXPECT_GE(foot.y - g.beam.contact->normal.y * length, g.layout.first(PanelKind::mechanism)->box.y) << k;
+    }
+}
+
 }  // namespace
 }  // namespace beamcam::render
