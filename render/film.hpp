@@ -62,13 +62,13 @@ class PoseStore {
 // One run of one mechanism as a film shows it.
 struct Motion {
     sim::Problem problem;
-    std::string label;             // plain text; told where several motions stand beside each other
-    std::vector<sim::Pose> poses;  // one a frame, true geometry, times not decreasing, at least one
+    std::string label;                        // plain text; told where several motions stand beside each other
+    std::vector<sim::Pose> poses;             // one a frame, true geometry, times not decreasing, at least one
     std::shared_ptr<const PoseStore> stored;  // in place of `poses`
     // The motion over the time that the film shows, in any order: what scales and camera are chosen by, so that they do
     // not depend on which instants the frames happen to be of. Absent: the frames.
     std::shared_ptr<const PoseStore> survey;
-    sim::Table chart;              // t and the channels that the panels show, times increasing; any number of rows
+    sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
 
@@ -95,6 +95,7 @@ struct FilmSetup : Motion {
     std::optional<LayoutNode> layout;  // absent: the standard arrangement
     std::vector<Motion> others;        // to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
+    double fps = 60;             // frames a second that it is shown at, > 0: what fades does so by the clock
     std::vector<double> speeds;  // of time at each frame, 1: as it is; empty: always 1
     bool slow_motion = false;    // the standard arrangement shows collisions one by one
     std::vector<Callout> callouts;

@@ -19,9 +19,9 @@ using sim::Pose;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
-constexpr int kFlashFrames = 24;  // an impact's ring fades within this many frames (0.4 s at 60 fps)
-constexpr int kTrailFrames = 72;  // length of the tip's trail, frozen ones not counted
-constexpr double kArcStep = 6;    // of what is drawn of the tip's path [design px]
+constexpr double kFlash = 0.4;  // an impact's ring fades within so much of the film [s]
+constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
+constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
 
 // A box with room for shadows around it, in whole pixels, cut to the mechanism's.
 Box covered(const Box& shapes, const Box& within, double unit) {
@@ -473,12 +473,12 @@ void MechanismPanel::ghost_bodies(const Scene& s) const {
     }
 }
 
-// The tip's path over the last frames, fading.
+// The tip's path over the last of the film, fading.
 void MechanismPanel::trail(const Scene& s) const {
     if (whole_path()) return;  // all of it is drawn already
     const auto now = static_cast<std::size_t>(s.frame);
     for (std::size_t k = now; k-- > 0;) {
-        const double age = double(moved_[now] - moved_[k]) / kTrailFrames;
+        const double age = (moved_[now] - moved_[k]) / (kTrail * facts_.setup->fps);
         if (age > 1) break;
         if (moved_[k + 1] == moved_[k]) continue;
         std::vector<Vec2> piece = smooth_piece(tips_, k, kArcStep * u_);
@@ -649,12 +649,14 @@ void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
     });
 }
 
+double MechanismPanel::flash_frames() const { return kFlash * facts_.setup->fps; }
+
 // The camera, and the rings of impacts.
 bool MechanismPanel::plays(int frame) const {
     const View& view = facts_.setup->view;
     if (view.style == Style::solid && view.orbit.swing != 0) return true;
     return std::ranges::any_of(flashes_, [&](const Flash& f) {
-        return frame >= f.frame && frame <= f.frame + kFlashFrames;  // gone with the last
+        return frame >= f.frame && frame < f.frame + flash_frames() + 1;  // gone with the last
     });
 }
 
@@ -663,8 +665,8 @@ void MechanismPanel::flash(const Scene& s) const {
     if (!problem().cam) return;
     for (const Flash& f : flashes_) {
         const int age = s.frame - f.frame;
-        if (age < 0 || age >= kFlashFrames) continue;
-        const double share = double(age) / kFlashFrames;
+        if (age < 0 || age >= flash_frames()) continue;
+        const double share = age / flash_frames();
         const Vec2 at =
             s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * problem().cam->radius);
         s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * u_);

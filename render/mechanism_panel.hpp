@@ -78,6 +78,7 @@ class MechanismPanel final : public Panel {
     void disc_marks(const Scene& s, const Trace& trace) const;
     void disc_letters(const Scene& s, Color ink) const;
     void beam_trace(const Scene& s, const Trace& trace) const;
+    double flash_frames() const;
     void flash(const Scene& s) const;
     void force_arrow(const Scene& s) const;
     void callout(const Scene& s) const;

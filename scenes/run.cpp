@@ -503,6 +503,7 @@ class Runner {
         setup.view = p.picture.view;
         setup.layout = p.picture.layout;
         setup.comparison = p.picture.comparison;
+        if (p.kind != Pictures::Kind::still) setup.fps = p.span.fps.value();
         setup.speeds = p.speeds;
         setup.slow_motion = is_slow_motion(p);
         setup.callouts = p.callouts;

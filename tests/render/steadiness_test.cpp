@@ -56,7 +56,8 @@ void no_paper_between(Style style, std::optional<double> factor) {
         ++touching;
         const FrameGeometry g = film.geometry(k);
         const Image image = drawn(film, k);
-        const Vec2 from = g.camera.to_pixels(g.beam.contact->on_disc), n{g.beam.contact->normal.x, -g.beam.contact->normal.y};
+        const Vec2 from = g.camera.to_pixels(g.beam.contact->on_disc),
+                   n{g.beam.contact->normal.x, -g.beam.contact->normal.y};
         for (double out = -5; out <= 5; out += 0.25) EXPECT_NE(at(image, from + n * out), paper) << k << ", " << out;
         EXPECT_LT(std::abs(g.beam.contact->gap) * g.camera.scale, 0.5) << k;
     }
@@ -105,7 +106,8 @@ TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
                 for (int x = int(centre.x - r); x <= int(centre.x + r); ++x) {
                     const Vec2 px{double(x), double(y)};
                     if (norm(px + Vec2{0.5, 0.5} - centre) > r) continue;
-                    ASSERT_FALSE(colourful(at(image, px))) << "frame " << k << " at " << x << ", " << y << ", ×" << factor;
+                    ASSERT_FALSE(colourful(at(image, px)))
+                        << "frame " << k << " at " << x << ", " << y << ", ×" << factor;
                 }
             if (!pose.nearest->touching) continue;
             ++touching;
@@ -137,7 +139,8 @@ void static_parts_stay(FilmSetup setup) {
             if (slot.spec.kind != PanelKind::strip) continue;
             const Box plot = plot_area(slot.box, places.unit);
             EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, plot.x - 8 - slot.box.x, slot.box.h})) << k;
-            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y})) << k;
+            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y}))
+                << k;
         }
     }
 }
@@ -189,7 +192,8 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
     const Image before = drawn(film, 0), after = drawn(film, film.frames() - 1);
     EXPECT_TRUE(same_within(before, after, {clock.x, clock.y, head, clock.h}));
     EXPECT_FALSE(same_within(before, after, {clock.x + head, clock.y, number, clock.h}));
-    EXPECT_TRUE(same_within(before, after, {clock.x + head + number + 3, clock.y, clock.w - head - number - 3, clock.h}));
+    EXPECT_TRUE(
+        same_within(before, after, {clock.x + head + number + 3, clock.y, clock.w - head - number - 3, clock.h}));
 }
 
 // ---- what moves --------------------------------------------------------------------------------
@@ -271,6 +275,55 @@ TEST(Steadiness, AFreezeIsOnePicture) {
     Film film(std::move(setup));
     const Image early = drawn(film, 21), late = drawn(film, 49);
     EXPECT_EQ(early.pixels, late.pixels);
+}
+
+// ---- what fades does so by the clock of the film ------------------------------------------------
+
+// Three seconds of film of a fall ten times slowed, so that the tip comes to each place once.
+FilmSetup slow_fall(double fps) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.3});
+    setup.fps = fps;
+    setup.poses.clear();
+    for (int k = 0; k < 3 * fps; ++k) setup.poses.push_back(test::synthetic_pose(setup.problem, {}, 0.1 * k / fps));
+    setup.impacts.clear();
+    return setup;
+}
+
+// How much of the film the trail shows at its second 2.5, found on the paper where the tip has been [s].
+double length_of_trail(double fps) {
+    Film film(slow_fall(fps));
+    const int now = static_cast<int>(2.5 * fps);
+    const Image image = drawn(film, now);
+    double longest = 0;
+    for (int k = 0; k < now; ++k) {
+        const FrameGeometry g = film.geometry(k);
+        const Vec2 tip =
+            g.camera.to_pixels((g.beam.face(g.beam.line.size() - 1) + g.beam.back(g.beam.line.size() - 1)) * 0.5);
+        if (at(image, tip) != opaque(palette(Theme::light).paper)) longest = std::max(longest, (now - k) / fps);
+    }
+    return longest;
+}
+
+TEST(Steadiness, TheTrailIsAsLongAtAnyFrameRate) {
+    for (const double fps : {24.0, 30.0, 60.0}) EXPECT_NEAR(length_of_trail(fps), 1.15, 0.06) << fps;
+}
+
+TEST(Steadiness, TheRingOfAnImpactLastsAsLongAtAnyFrameRate) {
+    for (const double fps : {24.0, 30.0, 60.0}) {
+        FilmSetup setup = film_of(Style::flat, {.duration = 0.8, .fps = fps});
+        setup.fps = fps;
+        const sim::Pose pose =
+            test::synthetic_pose(setup.problem, {}, 0.3);  // touches; the film stands still for a second
+        const auto touched = std::ranges::find_if(setup.poses, [](const sim::Pose& p) { return p.t > 0.3; });
+        const auto first = touched - setup.poses.begin();
+        setup.impacts.resize(1);
+        setup.impacts[0].t_start = pose.t;
+        setup.poses.insert(touched, static_cast<std::size_t>(fps), pose);
+        Film film(std::move(setup));
+        int moving = 0;
+        for (int k = 1; k < fps; ++k) moving += !film.repeats(static_cast<int>(first) + k);
+        EXPECT_NEAR(moving / fps, 0.4, 1.5 / fps) << fps;  // it may begin a frame before
+    }
 }
 
 }  // namespace
