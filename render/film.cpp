@@ -37,6 +37,7 @@ struct Film::Prepared {
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
         facts.fonts.reset();
+        facts.sight = {};  // nobody asks any more
     }
 
     void draw_clock(Canvas& canvas, int frame) const;
@@ -329,7 +330,7 @@ void Film::draw(int frame, Image& out) { out = draw(frame); }
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     Tools& t = tools_for(frame);
-    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts};
+    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts, {}};
     t.keep(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
@@ -339,6 +340,7 @@ FrameGeometry Film::geometry(int frame) {
     if (p.mechanism) {
         out.camera = p.mechanism->camera();
         out.beam = p.mechanism->beam(frame);
+        out.words = p.mechanism->words();
     }
     return out;
 }

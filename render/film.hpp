@@ -114,6 +114,7 @@ struct FrameGeometry {
     double factor = 1;  // of exaggeration
     DrawnBeam beam;
     std::vector<Box> texts;  // ink of every text [px]
+    std::vector<Box> words;  // of the first mechanism: which motion it is, the scale bar [px]
 };
 
 // What drawing has loaded and drawn so far, in all Films that share what is prepared.

@@ -13,13 +13,13 @@ Box whole(const Box& b) {
     return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
 }
 
-// Stacks the panels into `area`, as many as keep a readable height.
-void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
+// Stacks the panels into `area`, as many as keep a readable height, each at most so high [design px].
+void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area, double highest = 440) {
     const double u = out.unit, gap = 14 * u;
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.h + gap) / (215 * u + gap)));
     const std::size_t n = std::min(specs.size(), room);
     for (std::size_t i = 0; i < n; ++i) {
-        const double h = std::min(440 * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
+        const double h = std::min(highest * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
         out.panels.push_back({specs[i], {area.x, area.y + (h + gap) * static_cast<double>(i), area.w, h}});
     }
 }
@@ -47,7 +47,8 @@ struct Frame {
     bool wide = true;
 };
 
-Frame frame(int width, int height) {
+// `beside`: panels may stand beside the header, whose lines have to leave them their room.
+Frame frame(int width, int height, bool beside) {
     Frame f;
     Layout& out = f.out;
     f.wide = width >= 1.4 * height;
@@ -64,8 +65,8 @@ Frame frame(int width, int height) {
         f.top += 54 * u;
     }
     if (has_parameters) {
-        const double beside = f.wide && has_column(w, h, u) ? kColumn * u + widening(w, u) + 40 * u : 0;
-        out.parameters = Box{margin, f.top, w - 2 * margin - beside, 36 * u};
+        const double column = beside && f.wide && has_column(w, h, u) ? kColumn * u + widening(w, u) + 40 * u : 0;
+        out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
         f.top += 36 * u;
     }
     if (has_scales) {
@@ -187,6 +188,11 @@ Vec2 spare(const Box& box, int members, const Sight& sight, double u) {
     return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
 }
 
+// So many mechanisms need the width of a picture below their title, and keep this share of the scale that they would
+// have without charts.
+constexpr int kSeveral = 3;
+constexpr double kKept = 0.6;
+
 // Some of it stays, for words and arrows around the mechanism.
 double given(double spare, double most) { return std::min(0.6 * spare, most); }
 
@@ -236,7 +242,8 @@ const char* name(PanelKind kind) {
 
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
                                const Sight& sight) {
-    Frame f = frame(width, height);
+    const bool beside = members < kSeveral;
+    Frame f = frame(width, height, beside);
     Layout& out = f.out;
     const double u = out.unit, w = width, h = height;
     Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
@@ -250,10 +257,10 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             left.w -= kColumn * u + 40 * u;
             const double column = kColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
             // Beside the title, too, where height is what lacks.
-            const double top = f.wide ? f.margin * 0.8 : f.top;
-            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u});
+            const double top = f.wide && beside ? f.margin * 0.8 : f.top;
+            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);
             room.w -= column + 40 * u;
-            if (f.wide && out.title) out.title->w = room.right() - out.title->x;
+            if (f.wide && beside && out.title) out.title->w = room.right() - out.title->x;
             break;
         }
         case Arrangement::row: {
@@ -302,17 +309,20 @@ Layout layout(int width, int height, const std::vector<PanelSpec>& side, int mem
     using enum Arrangement;
     const bool wide = width >= 1.4 * height, tall = height > 1.35 * width;
     std::optional<Layout> best;
+    Layout without = *arranged(alone, width, height, side, members, sight);
+    const double least = members < kSeveral ? 0 : kKept * scale_of(without, sight);
     for (Arrangement how : wide   ? std::vector{column, row}
                            : tall ? std::vector{stack, column}
                                   : std::vector{row, column}) {
         std::optional<Layout> one = arranged(how, width, height, side, members, sight);
-        if (one && (!best || scale_of(*one, sight) > scale_of(*best, sight))) best = std::move(one);
+        if (!one || scale_of(*one, sight) < least) continue;
+        if (!best || scale_of(*one, sight) > scale_of(*best, sight)) best = std::move(one);
     }
-    return best ? *std::move(best) : *arranged(alone, width, height, side, members, sight);
+    return best ? *std::move(best) : without;
 }
 
 Layout layout(int width, int height, const LayoutNode& wanted) {
-    Frame f = frame(width, height);
+    Frame f = frame(width, height, false);
     LayoutNode grid = wanted;
     // What stands side by side in a wide picture stands one below the other in a tall one.
     if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {

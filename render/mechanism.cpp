@@ -16,10 +16,11 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     disc.radius = cam.radius * camera.scale;
     disc.angle = pose.cam_angle;
     // The bore stays inside the disc: at C it has R − e of material around it.
-    disc.bore = std::min({0.16 * disc.radius, 12 * unit, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
-    disc.mark_radius = std::min(5.5 * unit, 0.09 * disc.radius);
+    const double marks = mark_unit(problem, camera, unit);
+    disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
+    disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
     const Vec2 ray = sim::unit(pose.cam_angle);
-    const double out = disc.radius - std::min(24 * unit, 0.24 * disc.radius);
+    const double out = disc.radius - std::min(24 * marks, 0.24 * disc.radius);
     disc.mark = disc.centre + Vec2{ray.x, -ray.y} * out;
     return disc;
 }
@@ -118,11 +119,22 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
 
 }  // namespace
 
+double mark_unit(double beam_length, double unit) {
+    constexpr double kUsual = 640;   // of a beam at full size [px]
+    constexpr double kLeast = 0.25;  // a hub of 5 px
+    return std::clamp(beam_length / kUsual, std::min(kLeast, unit), unit);
+}
+
+double mark_unit(const sim::Problem& problem, const Camera& camera, double unit) {
+    return mark_unit(problem.beam.length * camera.scale, unit);
+}
+
 // Wide enough to cover the root's corners, within reason, and always short of the circle that the disc sweeps.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
     const double offset = problem.cam ? sim::contact_offset(problem) : problem.beam.depth / 2;
     const double corner = 1.06 * std::max(offset, problem.beam.depth - offset) * camera.scale;
-    double boss = std::clamp(corner, 19 * unit, 36 * unit);
+    const double marks = mark_unit(problem, camera, unit);
+    double boss = std::clamp(corner, 19 * marks, 36 * marks);
     if (problem.cam) {
         const double free = norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity;
         boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);
@@ -130,27 +142,29 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
     return std::max({problem.hub.radius * camera.scale, boss, 1.0});
 }
 
-double support_reach(double hub, double unit) { return hub + 44 * unit; }
+double support_reach(double hub, double marks) { return hub + 44 * marks; }
+double support_half_width(double hub, double marks) { return 0.6 * (hub + 24 * marks) + 18 * marks; }
 
+// Its lines do not become finer than what can be seen.
 void draw_support(Canvas& canvas, Vec2 o, double hub, double u, const Palette& p) {
-    const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u;
+    const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u, pen = std::max(u, 0.45), apart = std::max(11 * u, 4.0);
     canvas.move_to(o);
     canvas.line_to({o.x - half, o.y + foot});
     canvas.line_to({o.x + half, o.y + foot});
     canvas.close();
     canvas.fill_keeping_path(mix(p.paper, p.steel, 0.35));
-    canvas.stroke({p.steel_edge, 2 * u});
-    const double wide = half + 12 * u;
-    const int lines = 1 + static_cast<int>((2 * wide - 10 * u) / (11 * u));
+    canvas.stroke({p.steel_edge, 2 * pen});
+    const double wide = support_half_width(hub, u);
+    const int lines = 1 + static_cast<int>((2 * wide - 10 * u) / apart);
     for (int i = 0; i < lines; ++i) {
-        const double x = (10 + 11 * i) * u - wide;
+        const double x = 10 * u + apart * i - wide;
         canvas.move_to({o.x + x, o.y + foot});
         canvas.line_to({o.x + x - 10 * u, o.y + foot + 12 * u});
     }
-    canvas.stroke({p.muted, 1.5 * u});
+    canvas.stroke({p.muted, 1.5 * pen});
     canvas.move_to({o.x - wide, o.y + foot});
     canvas.line_to({o.x + wide, o.y + foot});
-    canvas.stroke({p.steel_edge, 2.4 * u});
+    canvas.stroke({p.steel_edge, 2.4 * pen});
 }
 
 namespace {

@@ -44,11 +44,16 @@ struct MechanismLook {
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
                                const MechanismLook& look, const Palette& palette);
 
+// The unit of hub, support, marks and their letters [px]: that of the picture, less where the drawn beam is short, so
+// that they stay in proportion to it, and not below what can be read.
+double mark_unit(double beam_length, double unit);
+double mark_unit(const sim::Problem& problem, const Camera& camera, double unit);
 // Radius of the hub's boss [px]: the hub's own where that is larger than a readable boss.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit);
-// The bearing that O stands on; does not move. `reach`: how far it extends below O [px].
-double support_reach(double hub_radius, double unit);
-void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double unit, const Palette& palette);
+// The bearing that O stands on; does not move. `reach`: how far it extends below O [px]. `marks`: mark_unit.
+double support_reach(double hub_radius, double marks);
+double support_half_width(double hub_radius, double marks);
+void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double marks, const Palette& palette);
 
 void draw_flat(Canvas& canvas, const MechanismShape& shape, const MechanismLook& look, const Palette& palette);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,9 +20,10 @@ using sim::Pose;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
-constexpr double kFlash = 0.4;  // an impact's ring fades within so much of the film [s]
-constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
-constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
+constexpr double kFlash = 0.4;   // an impact's ring fades within so much of the film [s]
+constexpr double kTrail = 1.2;   // so much of the film is the tip's trail, what stands still not counted [s]
+constexpr double kReadable = 8;  // the least size of letters [px]
+constexpr double kArcStep = 6;   // of what is drawn of the tip's path [design px]
 
 // A box with room for shadows around it, in whole pixels, cut to the mechanism's.
 Box covered(const Box& shapes, const Box& within, double unit) {
@@ -147,7 +149,9 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
     look_.factor = facts.factor;
     look_.moment_scale = facts.moment_scale;
     place_camera();
-    note_extent();
+    FreeRoom room = still_room();
+    note_extent(room);
+    place_words(std::move(room));
     find_flashes();
 }
 
@@ -175,13 +179,84 @@ void MechanismPanel::place_camera() {
     };
     as_deep_as(facts_.sight);
     if (look_.depth > problem().beam.depth) as_deep_as(sight_of(facts_, look_.depth));
+    marks_ = mark_unit(problem(), look_.camera, u_);
 }
 
-void MechanismPanel::note_extent() {
+void MechanismPanel::take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const {
+    for (std::size_t i = 0; i + 1 < face.size(); ++i) room.take(std::array{face[i], face[i + 1], back[i + 1], back[i]});
+}
+
+// What the motions leave free as far as their survey tells: the same for mechanisms that stand beside each other.
+FreeRoom MechanismPanel::still_room() const {
+    FreeRoom room(box_, std::max(2.0, 4 * u_));
+    const Sight& sight = facts_.sight;
+    for (const std::vector<Vec2>& strip : sight.strips) {
+        std::vector<Vec2> face, back;
+        for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
+            face.push_back(px(strip[i])), back.push_back(px(strip[i + 1]));
+        take_beam(room, face, back);
+    }
+    for (const sim::Problem* p : sight.problems) {
+        const Vec2 o = px({0, 0});
+        const double hub = hub_radius(*p, look_.camera, u_), half = support_half_width(hub, marks_);
+        room.take(o, hub + 4 * u_);
+        room.take(Box{o.x - half, o.y, 2 * half, support_reach(hub, marks_)});
+        room.take(Box{box_.x, o.y - 3 * u_, box_.w, 6 * u_});  // the horizontal
+        if (!p->cam || !problem().cam) continue;
+        const Vec2 axis = px(p->cam->centre);
+        const bool arrow = p->cam->speed != 0 && !small_;
+        room.take(axis, (p->cam->radius + p->cam->eccentricity) * look_.camera.scale + (arrow ? 34 : 4) * u_);
+        if (!small_) room.take(speed_box(axis, 150 * u_, nullptr));
+    }
+    for (const Sight::Push& push : sight.pushes) {
+        const Vec2 foot = px(push.foot), n{push.normal.x, -push.normal.y};
+        const double length = push_length(push.share, small_, marks_), half = 8 * marks_;
+        const Vec2 side = Vec2{-n.y, n.x} * half, tip = foot + n * length;
+        room.take(std::array{foot + side, tip + side, tip - side, foot - side});
+        if (small_) continue;
+        const Vec2 at = foot + n * push_label(length, look_.depth * look_.camera.scale, u_);
+        room.take(Box{at.x - 150 * u_, at.y - 16 * u_, 136 * u_, 28 * u_});  // its number
+    }
+    return room;
+}
+
+// In corners, or along edges, where nothing moving comes.
+void MechanismPanel::place_words(FreeRoom room) {
+    Image scratch(1, 1);
+    Canvas canvas(scratch, *facts_.fonts);
+    const double gap = std::min(4 * u_, 0.1 * std::min(box_.w, box_.h));
+    const auto choose = [&](Vec2 size, Corner first) {
+        const Box place = room.choose(places_along(box_.inset(gap), size, first));
+        room.take(place.inset(-gap));
+        return place;
+    };
+    if (facts_.members() > 1 && box_.w >= 160 * u_) {
+        double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
+        for (int m = 0; m < facts_.members(); ++m)
+            widest = std::max(widest, canvas.measure(label_words(canvas, m), label_style()).w);
+        const double lines = ghosts_ ? facts_.members() : 1;
+        label_ = choose({std::min(46 * u_ + widest, box_.w - 2 * gap), 34 * u_ * lines}, Corner::top_left);
+    }
+    if (box_.w < 300 * u_ || box_.h < 220 * u_ || !facts_.places.clock || facts_.setup->view.style == Style::solid)
+        return;
+    const double wide = std::max(scale_length() * look_.camera.scale,
+                                 canvas.measure(quantity(scale_length(), "m"), {.size = 17 * u_}).w);
+    bar_ = choose({wide + 2 * u_, 30 * u_}, Corner::bottom_right);
+}
+
+std::vector<Box> MechanismPanel::words() const {
+    std::vector<Box> out;
+    if (label_) out.push_back(*label_);
+    if (bar_) out.push_back(*bar_);
+    return out;
+}
+
+void MechanismPanel::note_extent(FreeRoom& room) {
     Bounds seen;
     for (int k = 0; k < facts_.frames(); ++k) {
         const MechanismShape shape = mechanism_shape(problem(), facts_.pose(member_, k), beam(k), look_, palette_);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        take_beam(room, shape.face, shape.back);
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
@@ -245,52 +320,61 @@ void MechanismPanel::draw_ground(Canvas& canvas) const {
     canvas.move_to({box_.x, o.y});
     canvas.line_to({box_.right(), o.y});
     canvas.stroke({palette_.faint, 1.5 * u_, {10 * u_, 8 * u_}, Cap::butt});
-    draw_support(canvas, o, hub_radius(problem(), look_.camera, u_), u_, palette_);
+    draw_support(canvas, o, hub_radius(problem(), look_.camera, u_), marks_, palette_);
     scale_bar(canvas);
     label(canvas);
 }
 
-// A round length near a seventh of the view, at the bottom right of the mechanism.
+// A round length near a seventh of the view [m].
+double MechanismPanel::scale_length() const { return round_down_125(0.17 * box_.w / look_.camera.scale); }
+
 void MechanismPanel::scale_bar(Canvas& canvas) const {
-    if (box_.w < 300 * u_ || box_.h < 220 * u_ || !facts_.places.clock) return;
-    const double length = round_down_125(0.17 * box_.w / look_.camera.scale), w = length * look_.camera.scale;
-    const double y = box_.bottom() - 8 * u_, x = box_.right() - w - 4 * u_;
+    if (!bar_) return;
+    const double w = scale_length() * look_.camera.scale, middle = bar_->x + bar_->w / 2, y = bar_->bottom() - 4 * u_;
+    const double x = middle - w / 2;
     canvas.move_to({x, y - 5 * u_});
     canvas.line_to({x, y});
     canvas.line_to({x + w, y});
     canvas.line_to({x + w, y - 5 * u_});
     canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
-    canvas.text({x + w / 2, y - 9 * u_}, quantity(length, "m"),
+    canvas.text({middle, y - 9 * u_}, quantity(scale_length(), "m"),
                 {.size = 17 * u_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+}
+
+TextStyle MechanismPanel::label_style() const {
+    return {.size = 24 * u_, .color = palette_.ink, .weight = Weight::semibold, .halo = palette_.paper};
+}
+
+std::string MechanismPanel::label_words(Canvas& canvas, int member) const {
+    return escape(canvas.drawable(facts_.motion(member).label));
 }
 
 // Which motion this is, where there are several; with ghosts, all of them.
 void MechanismPanel::label(Canvas& canvas) const {
-    if (facts_.members() == 1 || box_.w < 160 * u_) return;
-    double y = box_.y + 28 * u_;
+    if (!label_) return;
+    double y = label_->y + 24 * u_;
+    TextStyle style = label_style();
+    style.max_width = label_->w - 44 * u_;
     for (int m = 0; m < facts_.members(); ++m) {
         if (!ghosts_ && m != member_) continue;
-        const double x = box_.x + 6 * u_;
+        const double x = label_->x + 2 * u_;
         canvas.move_to({x, y - 8 * u_});
         canvas.line_to({x + 30 * u_, y - 8 * u_});
         canvas.stroke({facts_.member_color(m), 6 * u_, {}, Cap::butt});
-        canvas.text({x + 42 * u_, y}, escape(canvas.drawable(facts_.motion(m).label)),
-                    {.size = 24 * u_,
-                     .color = palette_.ink,
-                     .weight = Weight::semibold,
-                     .max_width = box_.w - 50 * u_,
-                     .halo = palette_.paper});
+        canvas.text({x + 42 * u_, y}, label_words(canvas, m), style);
         y += 34 * u_;
     }
 }
 
 // ---- what moves ------------------------------------------------------------------------------
 
-Vec2 MechanismPanel::Scene::on(Vec2 flat) const {
+Vec2 MechanismPanel::seen(Vec2 flat, const Perspective* view) const {
     if (!view) return flat;
-    const Vec2 middle = panel.box_.centre();
-    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, 0.5 * panel.wide_});
+    const Vec2 middle = box_.centre();
+    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, 0.5 * wide_});
 }
+
+Vec2 MechanismPanel::Scene::on(Vec2 flat) const { return panel.seen(flat, view); }
 
 void MechanismPanel::Scene::arc(Vec2 centre, double radius, double from, double to) const {
     if (!view) return canvas.arc(centre, radius, from, to);
@@ -490,19 +574,19 @@ void MechanismPanel::trail(const Scene& s) const {
 
 void MechanismPanel::angle_arc(const Scene& s) const {
     if (small_) return;
-    double radius = 92 * u_;
+    double radius = 92 * marks_;
     if (problem().cam) {
         const double free = norm(s.pose.cam_centre) - problem().cam->radius - problem().cam->eccentricity;
         radius = std::min(radius, 0.86 * free * look_.camera.scale);
     }
     const double hub = hub_radius(problem(), look_.camera, u_);
     const double angle = std::fmod(s.pose.theta, 2 * kPi);  // in the sense in which the hub has turned
-    if (radius < hub + 22 * u_ || std::abs(angle) < 0.02) return;
+    if (radius < hub + 22 * marks_ || std::abs(angle) < 0.02) return;
     s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
     // The letter stands in the middle of what the section leaves free; where that is too little it gives way to
     // beyond the horizontal.
-    const double out = radius - 17 * u_, need = 19 * u_ / out;
+    const double out = radius - 17 * marks_, need = 19 * marks_ / out;
     double free = std::abs(angle);
     const auto keep_off = [&](const auto& edge) {
         const double far = out / look_.camera.scale;
@@ -519,9 +603,9 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     keep_off([&](std::size_t i) { return s.beam.face(i); });
     keep_off([&](std::size_t i) { return s.beam.back(i); });
     const double at = std::min(free / 2, free - need);
-    if (radius > hub + 38 * u_)
-        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * u_}, math("θ"),
-                      {.size = 21 * u_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+    if (radius > hub + 38 * marks_ && 21 * marks_ >= kReadable)
+        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * marks_}, math("θ"),
+                      {.size = 21 * marks_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
 }
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
@@ -542,18 +626,18 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {palette_.muted, 2.6 * u_}, head);
     }
-    const Box at = speed_box(s, s.canvas.measure(label, style).w);
+    const Box at = speed_box(axis, s.canvas.measure(label, style).w, s.view);
     s.canvas.text({at.x, at.bottom()}, label, style);
 }
 
 // Room for the cam's speed, so wide: beside the arrow; where the panel ends there, below it. Its bottom is the
 // baseline.
-Box MechanismPanel::speed_box(const Scene& s, double w) const {
+Box MechanismPanel::speed_box(Vec2 axis, double w, const Perspective* view) const {
     const sim::Cam& cam = *problem().cam;
-    const Vec2 axis = px(s.pose.cam_centre);
     const double radius = (cam.radius + cam.eccentricity) * look_.camera.scale + 20 * u_;
-    Vec2 at = s.on(axis + down(-0.26 * kPi) * (radius + 16 * u_)) + Vec2{8 * u_, 12 * u_};
-    if (at.x + w > box_.right()) at = {box_.right() - w, s.on(axis + down(-0.5 * kPi) * (radius + 26 * u_)).y + 8 * u_};
+    Vec2 at = seen(axis + down(-0.26 * kPi) * (radius + 16 * u_), view) + Vec2{8 * u_, 12 * u_};
+    if (at.x + w > box_.right())
+        at = {box_.right() - w, seen(axis + down(-0.5 * kPi) * (radius + 26 * u_), view).y + 8 * u_};
     at.y = std::min(at.y, box_.bottom() - 34 * u_);
     return {at.x, at.y - 22 * u_, w, 22 * u_};
 }
@@ -597,39 +681,40 @@ void MechanismPanel::disc_marks(const Scene& s, const Trace& trace) const {
             s.canvas.stroke({colors[i], width, {}, Cap::butt});
         }
     }
-    if (d.radius < 26 * u_) return;
+    if (d.radius < 26 * marks_) return;
     const Color ink = facts_.setup->view.theme == Theme::dark && facts_.setup->view.style == Style::flat
                           ? palette_.paper
                       : facts_.setup->view.theme == Theme::dark ? rgb(0x14171D)
                                                                 : palette_.steel_edge;
-    const double apart = norm(d.centre - d.axis);
+    const double apart = norm(d.centre - d.axis), pen = std::max(marks_, 0.45);
     if (apart > d.bore + 2) {
         s.canvas.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
         s.canvas.line_to(d.centre);
-        s.canvas.stroke({ink, 1.8 * u_});
+        s.canvas.stroke({ink, 1.8 * pen});
     }
-    s.canvas.circle(d.centre, 4 * u_);
+    s.canvas.circle(d.centre, 4 * marks_);
     s.canvas.fill(ink);
     for (Vec2 arm : {Vec2{1, 0}, Vec2{0, 1}}) {
         s.canvas.move_to(d.axis - arm * (d.bore * 0.75));
         s.canvas.line_to(d.axis + arm * (d.bore * 0.75));
     }
-    s.canvas.stroke({palette_.ink, 1.6 * u_, {}, Cap::butt});
+    s.canvas.stroke({palette_.ink, 1.6 * pen, {}, Cap::butt});
     disc_letters(s, ink);
 }
 
 // B and C beyond the ends of the line between them, so that they keep off it at any angle, and within the disc.
 void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     const DiscShape& d = *s.shape.disc;
-    if (d.radius < 60 * u_) return;
+    const double size = 22 * marks_;
+    if (size < kReadable || d.radius < 60 * marks_) return;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
-    const TextStyle style{.size = 22 * u_, .color = ink, .align = Align::centre};
-    s.canvas.text(s.on(d.centre + along * (20 * u_)) + Vec2{0, 7 * u_}, math("B"), style);
+    const TextStyle style{.size = size, .color = ink, .align = Align::centre};
+    s.canvas.text(s.on(d.centre + along * (20 * marks_)) + Vec2{0, 7 * marks_}, math("B"), style);
     // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands beside.
-    const double off = d.bore + (s.view ? 24 : 16) * u_;
-    const Vec2 way = apart + off + 24 * u_ <= d.radius ? along * -1 : Vec2{along.y, -along.x};
-    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * u_}, math("C"), style);
+    const double off = d.bore + (s.view ? 24 : 16) * marks_;
+    const Vec2 way = apart + off + 24 * marks_ <= d.radius ? along * -1 : Vec2{along.y, -along.x};
+    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * marks_}, math("C"), style);
 }
 
 void MechanismPanel::beam_trace(const Scene& s, const Trace& trace) const {
@@ -669,8 +754,9 @@ void MechanismPanel::flash(const Scene& s) const {
         const double share = age / flash_frames();
         const Vec2 at =
             s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * problem().cam->radius);
-        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * u_);
-        s.canvas.stroke({palette_.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * u_});
+        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * marks_);
+        s.canvas.stroke(
+            {palette_.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(marks_, 0.45)});
     }
 }
 
@@ -678,12 +764,13 @@ void MechanismPanel::force_arrow(const Scene& s) const {
     if (!shows_force(s.pose, s.beam)) return;
     const Vec2 flat = px(s.beam.contact->on_disc), foot = s.on(flat),
                n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
-    s.canvas.circle(foot, 5 * u_);
+    s.canvas.circle(foot, 5 * marks_);
     s.canvas.fill(palette_.contact);
     // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
-    const double length = push_length(s.pose.nearest->force / facts_.arrow_scale, small_, u_);
+    const double length = push_length(s.pose.nearest->force / facts_.arrow_scale, small_, marks_);
     const Vec2 tip = s.on(flat + n * length);
-    if (length > 7 * u_) s.canvas.arrow(foot, tip, {palette_.contact, 4 * u_}, std::min(19 * u_, 0.7 * length));
+    if (length > 7 * marks_)
+        s.canvas.arrow(foot, tip, {palette_.contact, 4 * marks_}, std::min(19 * marks_, 0.7 * length));
     if (small_) return;
     const TextStyle style{.size = 22 * u_,
                           .color = palette_.contact,
@@ -727,7 +814,7 @@ void MechanismPanel::callout(const Scene& s) const {
         };
         keep_inside();
         if (problem().cam && !small_) {
-            const Box words = speed_box(s, 150 * u_);
+            const Box words = speed_box(px(s.pose.cam_centre), 150 * u_, s.view);
             if (plate.overlaps(words)) plate.y = words.bottom() + 12 * u_;  // below the cam's speed, else above it
             keep_inside();
             if (plate.overlaps(words)) plate.y = std::max(box_.y, words.y - 12 * u_ - plate.h);

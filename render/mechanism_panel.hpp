@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/free_room.hpp"
 #include "render/growing.hpp"
 #include "render/lit.hpp"
 #include "render/mechanism.hpp"
@@ -22,6 +23,8 @@ class MechanismPanel final : public Panel {
     bool plays(int frame) const override;
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
+    // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
+    std::vector<Box> words() const;
     const Camera& camera() const { return look_.camera; }
     DrawnBeam beam(int frame) const { return beam_of(member_, frame); }
 
@@ -56,12 +59,18 @@ class MechanismPanel final : public Panel {
     Vec2 px(Vec2 world) const { return look_.camera.to_pixels(world); }
 
     void place_camera();
-    void note_extent();
+    FreeRoom still_room() const;
+    void take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
+    void note_extent(FreeRoom& room);
+    void place_words(FreeRoom room);
     void note_path();
     void find_flashes();
     void draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const;
     void scale_bar(Canvas& canvas) const;
     void label(Canvas& canvas) const;
+    double scale_length() const;
+    TextStyle label_style() const;
+    std::string label_words(Canvas& canvas, int member) const;
 
     void ghosts(const Scene& s) const;
     void ghost_bodies(const Scene& s) const;
@@ -73,7 +82,8 @@ class MechanismPanel final : public Panel {
     void trail(const Scene& s) const;
     void angle_arc(const Scene& s) const;
     void turning_arrow(const Scene& s) const;
-    Box speed_box(const Scene& s, double w) const;
+    Vec2 seen(Vec2 flat, const Perspective* view) const;
+    Box speed_box(Vec2 axis, double w, const Perspective* view) const;
     void base_line(const Scene& s) const;
     void disc_marks(const Scene& s, const Trace& trace) const;
     void disc_letters(const Scene& s, Color ink) const;
@@ -90,7 +100,9 @@ class MechanismPanel final : public Panel {
     bool ghosts_;             // the other motions are drawn here as outlines
     std::vector<int> shown_;  // the motions that the camera has to show
     double u_;
+    double marks_ = 1;  // mark_unit
     bool small_;
+    std::optional<Box> label_, bar_;  // where they stand
     MechanismLook look_;
     Box lit_box_;             // what the lit mechanism ever covers, shadows included; whole pixels
     double wide_ = 0;         // of the beam across the plane of motion, in the solid view [px]

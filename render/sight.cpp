@@ -26,18 +26,21 @@ double push_label(double length, double depth, double u) { return std::max(lengt
 Bounds Sight::shown(double scale, double u, bool small) const {
     Bounds all = beams;
     const double pixel = scale > 0 ? 1 / scale : 0;  // [m]
+    double marks = 0;
     for (const sim::Problem* p : problems) {
         if (p->cam) {
             const double swept = p->cam->radius + p->cam->eccentricity;
             all.add(p->cam->centre, swept + (p->cam->speed != 0 ? 34 * u * pixel : 0));
         }
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]
-        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + 12 * u * pixel);
-        all.add({0, -support_reach(hub, u) * pixel});
+        const double own = mark_unit(*p, {scale, {}}, u);
+        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + 12 * own * pixel);
+        all.add({0, -support_reach(hub, own) * pixel});
+        marks = std::max(marks, own);
     }
     if (!(scale > 0)) return all;
     for (const Push& push : pushes) {
-        const double length = push_length(push.share, small, u);
+        const double length = push_length(push.share, small, marks);
         all.add(push.foot + push.normal * (length * pixel), 4 * u * pixel);
         if (!small)
             all.add(push.foot + push.normal * (push_label(length, push.depth * scale, u) * pixel), 12 * u * pixel);
@@ -73,8 +76,9 @@ Sight sight_of(const FilmFacts& facts, double least_depth) {
         const auto show = [&](const sim::Pose& pose, bool tip_only) {
             const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth);
             if (tip_only) return sight.beams.add(beam.line.back());
+            std::vector<Vec2>& strip = sight.strips.emplace_back();
             for (std::size_t i = 0; i < beam.line.size(); i += (i + 5 < beam.line.size() ? 4 : 1))
-                sight.beams.add(beam.face(i)), sight.beams.add(beam.back(i));
+                for (Vec2 p : {beam.face(i), beam.back(i)}) sight.beams.add(p), strip.push_back(p);
             if ((m == 0 || !ghosts) && shows_force(pose, beam))
                 sight.pushes.push_back({beam.contact->on_disc, beam.contact->normal,
                                         std::min(1.0, pose.nearest->force / facts.arrow_scale), depth});

@@ -26,6 +26,7 @@ struct Sight {
     Bounds beams;                               // of all drawn beams [m]
     std::vector<const sim::Problem*> problems;  // whose discs, hubs and supports are seen; none: a square of 1 m
     std::vector<Push> pushes;
+    std::vector<std::vector<Vec2>> strips;  // the beams themselves: face, back, face, back, … from the root on [m]
 
     // The largest camera that shows all of it in the middle of `box` [px], with a margin. `unit`: Layout::unit.
     Camera camera(const Box& box, double unit) const;
@@ -40,8 +41,8 @@ struct Sight {
 bool shows_force(const sim::Pose& pose, const DrawnBeam& beam);
 // A mechanism's box too small for words within it.
 bool is_small(const Box& box, double unit);
-// The arrow of a force with this share of the film's largest, in proportion to it [px].
-double push_length(double share, bool small, double unit);
+// The arrow of a force with this share of the film's largest, in proportion to it [px]. `marks`: mark_unit.
+double push_length(double share, bool small, double marks);
 // How far from the contact its label stands, clear of a beam so deep [px].
 double push_label(double length, double depth, double unit);
 

@@ -214,6 +214,24 @@ TEST(Mechanism, TheBeamsRootIsWithinItsHub) {
     }
 }
 
+// Small pictures: hub and support in proportion to the beam, but never too small to read.
+TEST(Mechanism, HubAndSupportShrinkWithTheBeam) {
+    const sim::Problem problem;
+    EXPECT_EQ(mark_unit(problem, {900, {}}, 1), 1);
+    EXPECT_EQ(mark_unit(problem, {1800, {}}, 2), 2);
+    EXPECT_DOUBLE_EQ(mark_unit(problem, {250, {}}, 0.5), 250.0 / 640);
+    EXPECT_DOUBLE_EQ(mark_unit(problem, {10, {}}, 0.5), 0.25);
+    FilmSetup setup = small_film(Style::flat, {.duration = 0.5});
+    setup.width = 320, setup.height = 180;
+    const sim::Problem filmed = setup.problem;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    const double hub = hub_radius(filmed, g.camera, g.layout.unit);
+    EXPECT_GE(hub, 4.5);
+    EXPECT_LE(hub, 6);
+    EXPECT_LT(support_reach(hub, mark_unit(filmed, g.camera, g.layout.unit)), 0.25 * g.camera.scale);
+}
+
 // The colour in the middle of the drawn section is the moment's, and beyond the face it is not.
 TEST(Film, FlatBeamIsDrawnWhereItsGeometrySays) {
     FilmSetup setup = small_film(Style::flat);

@@ -207,6 +207,9 @@ TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
                     if (const auto o = arranged(other, w, h, kAll, members, sight)) {
                         EXPECT_GE(scale_of(l, sight), scale_of(*o, sight)) << w << "x" << h;
                     }
+                if (members < 3) continue;
+                const Layout alone = *arranged(Arrangement::alone, w, h, kAll, members, sight);
+                EXPECT_GE(scale_of(l, sight), 0.6 * scale_of(alone, sight)) << w << "x" << h;
             }
     EXPECT_GT(columns, 100);
     EXPECT_GT(below, 100);
