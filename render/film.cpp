@@ -10,6 +10,7 @@
 
 #include "render/mechanism_panel.hpp"
 #include "render/panel.hpp"
+#include "render/parameter_line.hpp"
 #include "render/ticks.hpp"
 #include "render/tiles.hpp"
 
@@ -115,7 +116,7 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     const FilmSetup& setup = *facts.setup;
     const Layout& places = facts.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        TextStyle style{.size = 40 * u, .color = facts.palette->ink, .weight = Weight::semibold};
+        TextStyle style = title_style(u, facts.palette->ink);
         // A long title becomes smaller, down to two thirds; then it is cut.
         const std::string title = escape(canvas.drawable(setup.title));
         const double natural = canvas.measure(title, style).w;
@@ -123,27 +124,11 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
         style.max_width = b->w;
         canvas.text({b->x, b->y + 38 * u}, title, style);
     }
-    if (const auto& b = places.parameters) {
-        std::vector<const sim::Problem*> problems;
-        for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
-        const std::vector<std::string> pieces = common_pieces(problems);
-        // Whole pieces, as many as fit; closer and smaller where more of them do.
-        TextStyle best;
-        std::vector<double> lefts;
-        for (const auto& [size, gap] : {std::pair{21, 26}, {21, 16}, {19, 16}, {17, 14}}) {
-            const TextStyle style{.size = size * u, .color = facts.palette->muted};
-            std::vector<double> these;
-            double x = b->x;
-            for (const std::string& piece : pieces) {
-                const double w = canvas.measure(piece, style).w;
-                if (x + w > b->right()) break;
-                these.push_back(x);
-                x += w + gap * u;
-            }
-            if (these.size() > lefts.size()) best = style, lefts = std::move(these);
-        }
-        for (std::size_t i = 0; i < lefts.size(); ++i) canvas.text({lefts[i], b->y + 24 * u}, pieces[i], best);
-    }
+    std::vector<const sim::Problem*> problems;
+    for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
+    const ParameterLine line = parameter_line(canvas, places, setup.title, common_pieces(problems));
+    for (const ParameterLine::Piece& piece : line.pieces)
+        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(setup.accuracy_note),
                     {.size = 17 * u, .color = facts.palette->muted, .align = Align::right, .max_width = b->w});

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <set>
 
+#include "render/error.hpp"
+#include "render/parameter_line.hpp"
 #include "scenes/film_times.hpp"
 #include "scenes/motions.hpp"
 #include "scenes/time_map.hpp"
@@ -431,6 +433,33 @@ std::string no_room(const Size& size) {
     return fmt::format(
         "{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them", size.width,
         size.height);
+}
+
+std::string no_room_to_write(const Size& size) {
+    return fmt::format("{} × {} leaves no room to write them; a larger \"size\" would", size.width, size.height);
+}
+
+std::string unwritten(const Pictures& p, const Scene& scene) {
+    const Picture& picture = p.picture;
+    std::vector<const sim::Problem*> problems;
+    for (const Compared& each : picture.compare) problems.push_back(&each.problem);
+    if (problems.empty()) problems.push_back(&scene.problem);
+    const int members = picture.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
+    return fmt::format("{}", fmt::join(render::without_room(picture.size.width, picture.size.height, picture.layout,
+                                                            members, scene.title, problems),
+                                       "; "));
+}
+
+void note_unwritten(Plan& plan, const Scene& scene) {
+    std::vector<Skipped> notes;
+    try {
+        for (const Pictures& p : plan.pictures)
+            if (const std::string what = unwritten(p, scene); !what.empty())
+                notes.push_back({fmt::format("{} on {}", what, p.file), no_room_to_write(p.picture.size)});
+    } catch (const render::FontError&) {
+        return;  // told by whoever draws
+    }
+    plan.skipped.insert(plan.skipped.begin(), notes.begin(), notes.end());
 }
 
 bool is_slow_motion(const Pictures& p) {

@@ -76,11 +76,11 @@ struct Pictures {
     std::size_t output = 0;  // index into the scene's outputs
     std::string file;
     Picture picture;
-    FrameSpan span;         // of video and frames
-    Instant at;             // of a still
-    Encoding encoding;      // of video
+    FrameSpan span;           // of video and frames
+    Instant at;               // of a still
+    Encoding encoding;        // of video
     bool collisions = false;  // a strip of a film shows them one by one
-    bool settled = true;  // false: the instants of frames or of the charts' rows are not known before the impacts are
+    bool settled = true;    // false: the instants of frames or of the charts' rows are not known before the impacts are
     double end_time = 0;    // nothing is looked at beyond it [s]
     long first_frame = 0;   // number of the first frame; the others follow
     Ask ask;                // which of them are asked for
@@ -158,6 +158,14 @@ std::vector<sim::Request> requests_of(const Plan& plan);
 
 // Why a picture leaves out Pictures::too_small.
 std::string no_room(const Size& size);
+
+// The parameters, and the colour scales, for which the picture has no room: "R = 100 mm; colour scales"; empty: none.
+// Loads fonts. Throws render::FontError.
+std::string unwritten(const Pictures& p, const Scene& scene);
+// Why.
+std::string no_room_to_write(const Size& size);
+// Puts what pictures do not write among what the plan skips; nothing where fonts are missing.
+void note_unwritten(Plan& plan, const Scene& scene);
 
 // A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
 bool is_slow_motion(const Pictures& p);

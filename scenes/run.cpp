@@ -576,6 +576,9 @@ class Runner {
         stop_if_interrupted();
         if (!p.too_small.empty() && !capture_ && !options_.quiet)
             fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
+        if (options_.verbose && !capture_ && !options_.quiet)
+            if (const std::string what = unwritten(p, scene_); !what.empty())
+                fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));
         const auto begun = Clock::now();
         render::Film film = film_of(index);
         if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields() && !capture_ && !options_.quiet)
@@ -812,6 +815,7 @@ Plan plan_for(const Scene& scene, const RunOptions& options) {
     const Survey found =
         survey(scene, options.ask, options.directory, manifest, cache ? &*cache : nullptr, options.force);
     Plan made = plan(scene, options.ask, found.known);
+    note_unwritten(made, scene);
     if (cache) estimate(made, scene, History(cache->directory()), thread_count(options.threads));
     return made;
 }

@@ -146,6 +146,18 @@ skipped
 )");
 }
 
+TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
+    const Scene scene = scene_of(
+        R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
+    Plan p = plan(scene);
+    note_unwritten(p, scene);
+    EXPECT_THAT(
+        to_text(p, scene),
+        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10^8 N m^−1.5, c = 0.7; "
+                  "frictionless; colour scales on a.png: 320 × 180 leaves no room to write them; a larger \"size\" "
+                  "would\n  simulation from 0 s"));
+}
+
 TEST(PlanText, EveryOutputAtOnce) {
     EXPECT_EQ(
         text_of(

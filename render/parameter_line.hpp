@@ -1,0 +1,42 @@
+// The line below the title that says what is filmed: whole pieces, the most important first.
+//
+// Where they do not fit they stand closer, then smaller; then the rest of them beside the title, where it leaves room;
+// then the least important are left out, and can be named before anything is drawn.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/canvas.hpp"
+#include "render/layout.hpp"
+#include "sim/problem.hpp"
+
+namespace beamcam::render {
+
+struct ParameterLine {
+    struct Piece {
+        std::string markup;
+        Vec2 baseline;  // left [px]
+    };
+    double size = 0;  // of the letters [px]
+    std::vector<Piece> pieces;
+    std::vector<std::string> without_room;  // markup
+};
+
+// `canvas` measures only. `title`: plain text.
+ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::string& title,
+                             const std::vector<std::string>& pieces);
+
+// The title as it is drawn at full size.
+TextStyle title_style(double unit, Color color = {});
+
+// What of these a picture of this size, with this layout or the standard one of `members` mechanisms, has no room for,
+// in plain words:
+// parameters, then "colour scales". Loads fonts, unless there is no room for any parameter. Throws FontError.
+std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& layout, int members,
+                                      const std::string& title, const std::vector<const sim::Problem*>& problems);
+
+// Markup as people type it: "K = 10^8 N m^−1.5".
+std::string plain(const std::string& markup);
+
+}  // namespace beamcam::render
