@@ -30,7 +30,7 @@ Bounds Sight::shown(double scale, double u, bool small) const {
     for (const sim::Problem* p : problems) {
         if (p->cam) {
             const double swept = p->cam->radius + p->cam->eccentricity;
-            all.add(p->cam->centre, swept + (p->cam->speed != 0 ? 34 * u * pixel : 0));
+            all.add(p->cam->centre, swept + (p->cam->speed != 0 && !small ? 34 * u * pixel : 0));
         }
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]
         const double own = mark_unit(*p, {scale, {}}, u);
