@@ -22,7 +22,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
 constexpr double kFlash = 0.4;   // an impact's ring fades within so much of the film [s]
 constexpr double kTrail = 1.2;   // so much of the film is the tip's trail, what stands still not counted [s]
-constexpr double kReadable = 8;  // the least size of letters [px]
+constexpr double kReadable = 9;  // the least size of letters [px]
 constexpr double kArcStep = 6;   // of what is drawn of the tip's path [design px]
 
 // A box with room for shadows around it, in whole pixels, cut to the mechanism's.
@@ -182,8 +182,13 @@ void MechanismPanel::place_camera() {
     marks_ = mark_unit(problem(), look_.camera, u_);
 }
 
+// In pieces of a few stations, which the curve leaves by less than a pixel.
 void MechanismPanel::take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const {
-    for (std::size_t i = 0; i + 1 < face.size(); ++i) room.take(std::array{face[i], face[i + 1], back[i + 1], back[i]});
+    const std::size_t step = face.size() > 40 ? 4 : 1;
+    for (std::size_t i = 0; i + 1 < face.size(); i += step) {
+        const std::size_t next = std::min(i + step, face.size() - 1);
+        room.take(std::array{face[i], face[next], back[next], back[i]});
+    }
 }
 
 // What the motions leave free as far as their survey tells: the same for mechanisms that stand beside each other.
@@ -220,6 +225,11 @@ FreeRoom MechanismPanel::still_room() const {
     return room;
 }
 
+bool MechanismPanel::has_label() const { return facts_.members() > 1 && box_.w >= 160 * u_; }
+bool MechanismPanel::has_bar() const {
+    return box_.w >= 300 * u_ && box_.h >= 220 * u_ && facts_.places.clock && facts_.setup->view.style != Style::solid;
+}
+
 // In corners, or along edges, where nothing moving comes.
 void MechanismPanel::place_words(FreeRoom room) {
     Image scratch(1, 1);
@@ -230,15 +240,14 @@ void MechanismPanel::place_words(FreeRoom room) {
         room.take(place.inset(-gap));
         return place;
     };
-    if (facts_.members() > 1 && box_.w >= 160 * u_) {
+    if (has_label()) {
         double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
         for (int m = 0; m < facts_.members(); ++m)
             widest = std::max(widest, canvas.measure(label_words(canvas, m), label_style()).w);
         const double lines = ghosts_ ? facts_.members() : 1;
         label_ = choose({std::min(46 * u_ + widest, box_.w - 2 * gap), 34 * u_ * lines}, Corner::top_left);
     }
-    if (box_.w < 300 * u_ || box_.h < 220 * u_ || !facts_.places.clock || facts_.setup->view.style == Style::solid)
-        return;
+    if (!has_bar()) return;
     const double wide = std::max(scale_length() * look_.camera.scale,
                                  canvas.measure(quantity(scale_length(), "m"), {.size = 17 * u_}).w);
     bar_ = choose({wide + 2 * u_, 30 * u_}, Corner::bottom_right);
@@ -256,7 +265,7 @@ void MechanismPanel::note_extent(FreeRoom& room) {
     for (int k = 0; k < facts_.frames(); ++k) {
         const MechanismShape shape = mechanism_shape(problem(), facts_.pose(member_, k), beam(k), look_, palette_);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
-        take_beam(room, shape.face, shape.back);
+        if (has_label() || has_bar()) take_beam(room, shape.face, shape.back);
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
@@ -579,6 +588,7 @@ void MechanismPanel::angle_arc(const Scene& s) const {
         const double free = norm(s.pose.cam_centre) - problem().cam->radius - problem().cam->eccentricity;
         radius = std::min(radius, 0.86 * free * look_.camera.scale);
     }
+    const double letter = std::max(marks_, kReadable / 21);  // [px] of a design pixel of θ
     const double hub = hub_radius(problem(), look_.camera, u_);
     const double angle = std::fmod(s.pose.theta, 2 * kPi);  // in the sense in which the hub has turned
     if (radius < hub + 22 * marks_ || std::abs(angle) < 0.02) return;
@@ -586,7 +596,7 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
     // The letter stands in the middle of what the section leaves free; where that is too little it gives way to
     // beyond the horizontal.
-    const double out = radius - 17 * marks_, need = 19 * marks_ / out;
+    const double out = radius - 17 * letter, need = 19 * letter / out;
     double free = std::abs(angle);
     const auto keep_off = [&](const auto& edge) {
         const double far = out / look_.camera.scale;
@@ -603,9 +613,9 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     keep_off([&](std::size_t i) { return s.beam.face(i); });
     keep_off([&](std::size_t i) { return s.beam.back(i); });
     const double at = std::min(free / 2, free - need);
-    if (radius > hub + 38 * marks_ && 21 * marks_ >= kReadable)
-        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * marks_}, math("θ"),
-                      {.size = 21 * marks_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+    if (radius > hub + 38 * letter)
+        s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * letter}, math("θ"),
+                      {.size = 21 * letter, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
 }
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.

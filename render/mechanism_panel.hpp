@@ -62,6 +62,8 @@ class MechanismPanel final : public Panel {
     FreeRoom still_room() const;
     void take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
     void note_extent(FreeRoom& room);
+    bool has_label() const;
+    bool has_bar() const;
     void place_words(FreeRoom room);
     void note_path();
     void find_flashes();
