@@ -57,9 +57,13 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     };
     choose(rows);
     if (out.pieces.size() < pieces.size() && places.title) {
-        const double taken =
-            title.empty() ? 0 : canvas.measure(escape(canvas.drawable(title)), title_style(u)).w + 40 * u;
-        rows.push_back({b.x + taken, b.right(), places.title->y + 38 * u});
+        const Row above{b.x, b.right(), places.title->y + 38 * u};
+        if (title.empty()) {  // two lines in their order
+            rows.insert(rows.begin(), above);
+        } else {
+            rows.push_back(above);
+            rows.back().x += canvas.measure(escape(canvas.drawable(title)), title_style(u)).w + 40 * u;
+        }
         choose(rows);
     }
     out.without_room.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());

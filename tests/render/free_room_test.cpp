@@ -79,7 +79,7 @@ double nearest_to_words(FilmSetup setup, std::size_t words) {
 }
 
 TEST(FreeRoom, NoBeamEverComesToTheWordsOfAFilm) {
-    for (const auto [w, h] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1080}, {640, 640}}) {
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1080}, {640, 640}}) {
         FilmSetup setup = test::synthetic_film({.duration = 0.6});
         setup.width = w, setup.height = h;
         FilmSetup two = setup;

@@ -149,7 +149,8 @@ TEST(Layout, PanelsWithoutRoomAreNamed) {
 
 // The reach of a beam that swings between two angles, and of the paper's cam.
 Sight swinging(const sim::Problem& problem, double from, double to) {
-    Sight sight{.beams = {}, .problems = {&problem}, .pushes = {}};
+    Sight sight;
+    sight.problems = {&problem};
     for (double angle = from; angle <= to; angle += 0.01) sight.beams.add(sim::unit(angle) * problem.beam.length);
     sight.beams.add({0, 0}, problem.beam.depth);
     return sight;

@@ -64,6 +64,16 @@ TEST(ParameterLine, TheRestStandsBesideAShortTitle) {
     EXPECT_LE(end, 500);
 }
 
+TEST(ParameterLine, WithoutATitleThereAreTwoLinesInTheirOrder) {
+    const ParameterLine line = line_in(500, "");
+    ASSERT_GT(line.pieces.size(), 2U);
+    EXPECT_TRUE(line.without_room.empty());
+    EXPECT_EQ(line.pieces.front().baseline.x, 0);
+    for (std::size_t i = 1; i < line.pieces.size(); ++i)
+        EXPECT_GE(line.pieces[i].baseline.y, line.pieces[i - 1].baseline.y) << i;
+    EXPECT_GT(line.pieces.back().baseline.y, line.pieces.front().baseline.y);
+}
+
 TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     const sim::Problem problem;
     EXPECT_TRUE(without_room(1920, 1080, {}, 1, "Fall", {&problem}).empty());
