@@ -297,9 +297,14 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
         const TextStyle style = reading_style(u, i < c_.curves.size() ? c_.curves[i].color : p.contact);
         const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
                                        canvas.measure(fixed(shown_.low, digits_), style).w);
-        const std::string value = std::isnan(v) ? "" : fixed((v - scale_.offset) / scale_.scale, digits_);
-        if (!value.empty()) canvas.text({right, box_.y + 26 * u}, value, style);
+        if (!std::isnan(v))
+            canvas.text({right, box_.y + 26 * u}, fixed((v - scale_.offset) / scale_.scale, digits_), style);
         right -= widest;
+        if (std::isnan(v) && !label.empty()) {  // a name that nothing follows would look forgotten
+            TextStyle none = style;
+            none.align = Align::left;
+            canvas.text({right, box_.y + 26 * u}, "–", none);
+        }
         if (!label.empty()) {
             canvas.text({right, box_.y + 26 * u}, label + "\u2002", style);
             right -= canvas.measure(label + "\u2002", style).w;

@@ -556,8 +556,7 @@ class EnergyPanel final : public ChartPanel {
         const double u = facts_.unit;
         const Box plot = plot_area(box_, u);
         std::vector<Part> shown = parts(facts_);
-        if (!facts_.motion(member_).problem.cam)
-            std::erase_if(shown, [](const Part& p) { return p.channels.front() == ChannelKind::energy_contact; });
+        std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
         const double first = plot.x +
                              canvas
                                  .measure(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ",
@@ -585,6 +584,15 @@ class EnergyPanel final : public ChartPanel {
             canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, part.label, style);
             x += w + (chosen.swatch + chosen.gap) * u;
         }
+    }
+    // A rigid beam does not bend, impulses store nothing: a colour that is nowhere needs no name.
+    bool is_there(const Part& part) const {
+        const sim::Table& table = facts_.motion(member_).chart;
+        return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
+            const auto* v = column(table, {kind, 0});
+            const double zero = zero_of(table, {kind, 0});
+            return v && std::ranges::any_of(*v, [&](double value) { return value > zero; });
+        });
     }
     // Over the bands, which grow beneath it.
     void whose(Canvas& canvas) const {
