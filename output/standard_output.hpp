@@ -1,7 +1,10 @@
-// Data on standard output: all of it, or an error in words.
+// Data on standard output: all of it, or an error in words. Messages on standard error, as far as anybody reads them.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string_view>
+#include <utility>
 
 namespace beamcam::output {
 
@@ -10,5 +13,12 @@ void print_data(std::string_view text);
 
 // Ends what was written to std::cout. Throws IoError as print_data.
 void flush_data();
+
+// A full disk or a reader that has gone does not end the work: there is nobody left to tell.
+void print_message(std::string_view text) noexcept;
+template <typename... Values>
+void tell(fmt::format_string<Values...> words, Values&&... values) {
+    print_message(fmt::format(words, std::forward<Values>(values)...));
+}
 
 }  // namespace beamcam::output

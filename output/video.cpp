@@ -515,7 +515,7 @@ long concatenate(const std::vector<std::filesystem::path>& segments, const std::
     const std::string path = target.temporary_path().string();
     std::int64_t frames = 0;
     BeamcamVideoError error = {};
-    switch (module.concat(names.data(), path.c_str(), &frames, &error)) {
+    switch (module.concat(names.data(), path.c_str(), container_of(file.extension().string()), &frames, &error)) {
         case beamcam_video_ok:
             break;
         case beamcam_video_missing_codec:

@@ -58,12 +58,12 @@ struct BeamcamVideoModule {
     void (*close)(BeamcamVideoSession*);  // finished or not
     // One film out of several, packets as they are. `segments`: file names, null. `file` exists; it is overwritten.
     // What does not fit together is `beamcam_video_differs`. Fills in how many frames there are.
-    BeamcamVideoStatus (*concat)(const char* const* segments, const char* file, std::int64_t* frames,
-                                 BeamcamVideoError*);
+    BeamcamVideoStatus (*concat)(const char* const* segments, const char* file, const char* container,
+                                 std::int64_t* frames, BeamcamVideoError*);
 };
 
 // The one symbol of the module.
 const BeamcamVideoModule* beamcam_video_module();
 }
 
-constexpr int kBeamcamVideoModuleVersion = 2;
+constexpr int kBeamcamVideoModuleVersion = 3;

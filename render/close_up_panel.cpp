@@ -74,8 +74,13 @@ class CloseUpPanel final : public Panel {
         canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
         canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = Align::right});
-        if (canvas.measure(how, note).w < plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u)
-            canvas.text({plot_.x, y + 14 * u}, how, note);
+        const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
+        for (const std::string& words :
+             {how, fmt::format("heights in {}m", unit_.symbol), fmt::format("{}m", unit_.symbol)}) {
+            if (canvas.measure(words, note).w > left) continue;
+            canvas.text({plot_.x, y + 14 * u}, words, note);
+            break;
+        }
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {

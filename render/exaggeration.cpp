@@ -141,7 +141,7 @@ double largest_deflection(const Pose& pose, double base) {
 
 }  // namespace
 
-DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, double depth) {
+DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, double depth, const Problem* with) {
     DrawnBeam beam;
     beam.line = pose.centreline;
     const double weight = cam_weight(problem, pose), base = base_angle(problem, pose, weight);
@@ -164,7 +164,9 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
     }
     add_normals(beam);
     beam.side = cam_side(problem, pose);
-    beam.low = -depth / 2 + beam.side * (depth / 2 - offset);
+    const bool borrowed = !problem.cam && with && with->cam;
+    if (borrowed) beam.side = 1;
+    beam.low = -depth / 2 + beam.side * (depth / 2 - (borrowed ? sim::contact_offset(*with) : offset));
     beam.high = beam.low + depth;
     beam.root_angle = std::atan2(-beam.left.front().x, beam.left.front().y);
     if (problem.cam && pose.nearest) {

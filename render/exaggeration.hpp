@@ -46,8 +46,10 @@ struct DrawnBeam {
     Vec2 back(std::size_t i) const { return line[i] + left[i] * (side >= 0 ? high : low); }
 };
 
-// `depth` >= the beam's is the depth drawn (a thin beam gets a visible line weight). factor >= 1.
-DrawnBeam drawn_beam(const sim::Problem& problem, const sim::Pose& pose, double factor, double depth);
+// `depth` >= the beam's is the depth drawn (a thin beam gets a visible line weight). factor >= 1. Without a cam the
+// section lies about the centre line; or as that of the problem it is compared `with`, which has one.
+DrawnBeam drawn_beam(const sim::Problem& problem, const sim::Pose& pose, double factor, double depth,
+                     const sim::Problem* with = nullptr);
 
 // The one factor of a film: `wanted`, or the round number that makes the largest deflection about a tenth of the
 // length without tilting the contact by more than a quarter radian; 1 for a rigid beam or one that bends visibly.

@@ -162,19 +162,21 @@ std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
 DrawnBeam MechanismPanel::beam_of(int member, int frame) const {
     const Motion& one = facts_.motion(member);
     const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : look_.factor;
-    return drawn_beam(one.problem, facts_.pose(member, frame), factor, look_.depth);
+    return drawn_beam(one.problem, facts_.pose(member, frame), factor, look_.depth, facts_.with(member));
 }
 DrawnBeam MechanismPanel::surveyed_beam(int member, std::size_t k) const {
     const Motion& one = facts_.motion(member);
     const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : look_.factor;
-    return drawn_beam(one.problem, one.surveyed(k), factor, look_.depth);
+    return drawn_beam(one.problem, one.surveyed(k), factor, look_.depth, facts_.with(member));
 }
 
 // The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
 void MechanismPanel::place_camera() {
     // A beam thinner than a line gets the weight of one; it grows away from the cam.
     const auto as_deep_as = [&](const Sight& sight) {
-        look_.camera = sight.camera(box_, u_);
+        // Labels of mechanisms beside each other stand above them, all in one line.
+        const double label = facts_.members() > 1 && !ghosts_ && box_.h > 200 * u_ ? 38 * u_ : 0;
+        look_.camera = sight.camera({box_.x, box_.y + label, box_.w, box_.h - label}, u_);
         look_.depth = std::max(problem().beam.depth, 7 * u_ / look_.camera.scale);
     };
     as_deep_as(facts_.sight);
@@ -260,9 +262,27 @@ std::vector<Box> MechanismPanel::words() const {
     return out;
 }
 
+// As its arc shows it: in the sense in which the hub has turned, without whole turns [rad].
+static double drawn_angle(const Pose& pose) { return std::fmod(pose.theta, 2 * kPi); }
+
+// How large an arc about `centre` over these angles can be within the box.
+static double arc_room(Range angles, Vec2 centre, const Box& box) {
+    Bounds reach;  // of the unit arc [px]
+    constexpr int kSteps = 64;
+    for (int i = 0; i <= kSteps; ++i) reach.add(down(angles.low + (angles.high - angles.low) * i / kSteps));
+    const auto fits = [](double room, double need) {
+        return need > 1e-3 ? std::max(room, 0.0) / need : std::numeric_limits<double>::infinity();
+    };
+    return std::min({fits(centre.x - box.x, -reach.x0), fits(box.right() - centre.x, reach.x1),
+                     fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
+}
+
 void MechanismPanel::note_extent(FreeRoom& room) {
     Bounds seen;
+    Range turned{0, 0};  // [rad]
     for (int k = 0; k < facts_.frames(); ++k) {
+        const double angle = drawn_angle(facts_.pose(member_, k));
+        turned = {std::min(turned.low, angle), std::max(turned.high, angle)};
         const MechanismShape shape = mechanism_shape(problem(), facts_.pose(member_, k), beam(k), look_, palette_);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
         if (has_label() || has_bar()) take_beam(room, shape.face, shape.back);
@@ -273,6 +293,7 @@ void MechanismPanel::note_extent(FreeRoom& room) {
     wide_ = std::clamp(0.06 * motion().problem.beam.length * look_.camera.scale, 18 * u_, 80 * u_);
     for (int k = 0; k < facts_.frames(); ++k)
         moved_.push_back(k == 0 ? 0 : moved_.back() + (facts_.at(0, k) > facts_.at(0, k - 1) ? 1 : 0));
+    arc_room_ = arc_room(turned, px({0, 0}), box_.inset(4 * u_));
     if (facts_.setup->view.tip_path) note_path();
     lit_box_ = covered({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, box_, u_);
 }
@@ -583,14 +604,14 @@ void MechanismPanel::trail(const Scene& s) const {
 
 void MechanismPanel::angle_arc(const Scene& s) const {
     if (small_) return;
-    double radius = 92 * marks_;
+    double radius = std::min(92 * marks_, arc_room_);
     if (problem().cam) {
         const double free = norm(s.pose.cam_centre) - problem().cam->radius - problem().cam->eccentricity;
         radius = std::min(radius, 0.86 * free * look_.camera.scale);
     }
     const double letter = std::max(marks_, kReadable / 21);  // [px] of a design pixel of θ
     const double hub = hub_radius(problem(), look_.camera, u_);
-    const double angle = std::fmod(s.pose.theta, 2 * kPi);  // in the sense in which the hub has turned
+    const double angle = drawn_angle(s.pose);
     if (radius < hub + 22 * marks_ || std::abs(angle) < 0.02) return;
     s.arc(px({0, 0}), radius, 0, angle);
     s.canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
@@ -654,9 +675,10 @@ Box MechanismPanel::speed_box(Vec2 axis, double w, const Perspective* view) cons
 
 // The straight line that deflection is drawn about.
 void MechanismPanel::base_line(const Scene& s) const {
-    const Vec2 base = sim::unit(s.beam.base_angle);
+    const bool led = sim::is_prescribed(problem().hub.drive);
+    const Vec2 base = sim::unit(look_.factor == 1 && led ? s.pose.theta : s.beam.base_angle);
     // True deflection is seen against the direction of a led hub, unless the horizontal is drawn there already.
-    if (look_.factor == 1 && !(sim::is_prescribed(problem().hub.drive) && std::abs(base.y) > 0.01)) return;
+    if (look_.factor == 1 && !(led && std::abs(base.y) > 0.01)) return;
     const double clear = 4 * u_ / look_.camera.scale;
     std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
     for (Vec2 p : s.beam.line) {
@@ -721,7 +743,8 @@ void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = size, .color = ink, .align = Align::centre};
     s.canvas.text(s.on(d.centre + along * (20 * marks_)) + Vec2{0, 7 * marks_}, math("B"), style);
-    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands beside.
+    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands
+    // beside.
     const double off = d.bore + (s.view ? 24 : 16) * marks_;
     const Vec2 way = apart + off + 24 * marks_ <= d.radius ? along * -1 : Vec2{along.y, -along.x};
     s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * marks_}, math("C"), style);

@@ -108,6 +108,7 @@ class MechanismPanel final : public Panel {
     MechanismLook look_;
     Box lit_box_;             // what the lit mechanism ever covers, shadows included; whole pixels
     double wide_ = 0;         // of the beam across the plane of motion, in the solid view [px]
+    double arc_room_ = 0;     // largest radius of the angle's arc that stays in the box at every frame [px]
     std::vector<Vec2> tips_;  // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box

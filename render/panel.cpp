@@ -106,6 +106,13 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
 }
 
+const sim::Problem* FilmFacts::with(int member) const {
+    if (motion(member).problem.cam) return nullptr;
+    for (int m = 0; m < members(); ++m)
+        if (motion(m).problem.cam) return &motion(m).problem;
+    return nullptr;
+}
+
 void FilmFacts::check() const {
     constexpr int kLargest = 16384;  // OSMesa's limit, and Cairo's is twice that
     const FilmSetup& s = *setup;

@@ -42,6 +42,8 @@ struct FilmFacts {
         return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
     }
     sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
+    // A motion with a cam, to one without: their sections lie alike. Else null.
+    const sim::Problem* with(int member) const;
     double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }

@@ -74,7 +74,7 @@ Sight sight_of(const FilmFacts& facts, double least_depth) {
         const double depth = std::max((ghosts ? facts.motion(0) : one).problem.beam.depth, least_depth);
         const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : facts.factor;
         const auto show = [&](const sim::Pose& pose, bool tip_only) {
-            const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth);
+            const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, facts.with(m));
             if (tip_only) return sight.beams.add(beam.line.back());
             std::vector<Vec2>& strip = sight.strips.emplace_back();
             for (std::size_t i = 0; i < beam.line.size(); i += (i + 5 < beam.line.size() ? 4 : 1))

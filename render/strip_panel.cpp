@@ -51,7 +51,7 @@ Name name_of(Channel channel) {
         case ChannelKind::energy_kinetic:
             return {"Kinetic energy ", "T"};
         case ChannelKind::energy_potential:  // above its least value
-            return {"Potential energy ", "V"};
+            return {"Potential energy ", "V − V", "min"};
         case ChannelKind::energy_elastic:
             return {"Bending energy ", "U"};
         case ChannelKind::energy_contact:
@@ -192,15 +192,25 @@ void force_rows(const FilmFacts& facts, int member, Curve& curve) {
             if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
     const std::vector<TraceSample>& samples = facts.samples[static_cast<std::size_t>(member)];
     for (const TraceSample& s : samples) rows.push_back({s.t, s.force});
-    // Only impacts that fall between the samples: a longer contact shows its own peak.
-    const double spacing = t && t->size() > 1 ? (t->back() - t->front()) / static_cast<double>(t->size() - 1) : 0;
+    std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });
+    // Rows between which an impact falls miss it, or its peak: a triangle stands for the one; for the other the row
+    // that is nearest it, which is less than a row's distance away.
+    const auto sampled = static_cast<std::ptrdiff_t>(rows.size());
     for (const sim::Impact& i : one.impacts) {
-        if (!i.t_end || !i.force_peak || *i.t_end - i.t_start > 4 * spacing) continue;
-        const auto inside = t ? std::ranges::upper_bound(*t, *i.t_end) - std::ranges::lower_bound(*t, i.t_start) : 0;
-        if (inside > 4) continue;
-        rows.push_back({i.t_start, 0});
-        rows.push_back({(i.t_start + *i.t_end) / 2, *i.force_peak});
-        rows.push_back({*i.t_end, 0});
+        if (!i.force_peak) continue;
+        const double end = i.t_end.value_or(facts.span.high);
+        const auto first = std::ranges::lower_bound(rows.begin(), rows.begin() + sampled, i.t_start, {},
+                                                    [](const auto& r) { return r[0]; });
+        const auto last =
+            std::ranges::upper_bound(first, rows.begin() + sampled, end, {}, [](const auto& r) { return r[0]; });
+        const auto highest = std::max_element(first, last, [](const auto& p, const auto& q) { return p[1] < q[1]; });
+        if (highest != last && (*highest)[1] > 0) {
+            (*highest)[1] = std::max((*highest)[1], *i.force_peak);
+        } else if (i.t_end) {
+            rows.push_back({i.t_start, 0});
+            rows.push_back({(i.t_start + *i.t_end) / 2, *i.force_peak});
+            rows.push_back({*i.t_end, 0});
+        }
     }
     std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });
     std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });
@@ -502,19 +512,21 @@ class EnergyPanel final : public ChartPanel {
   private:
     struct Part {
         const char* label;
+        std::string symbol;  // where words find no room
         std::vector<ChannelKind> channels;
         Color color;
     };
     static std::vector<Part> parts(const FilmFacts& facts) {
         const Palette& p = *facts.palette;
         using K = ChannelKind;
-        const auto part = [&](const char* label, std::vector<K> channels) {
+        const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
             const Color color = *energy_color(p, channels.front());
-            return Part{label, std::move(channels), color};
+            return Part{label, std::move(symbol), std::move(channels), color};
         };
-        return {part("potential", {K::energy_potential}), part("kinetic", {K::energy_kinetic}),
-                part("bending", {K::energy_elastic}), part("contact", {K::energy_contact}),
-                part("lost", {K::loss_structural, K::loss_contact, K::loss_friction})};
+        return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
+                part("bending", math("U"), {K::energy_elastic}),
+                part("contact", math("U") + "<sub>c</sub>", {K::energy_contact}),
+                part("lost", math("D"), {K::loss_structural, K::loss_contact, K::loss_friction})};
     }
 
     static ChartContent content(const FilmFacts& facts, const PanelSlot& slot) {
@@ -565,23 +577,25 @@ class EnergyPanel final : public ChartPanel {
                              20 * u;
         struct Step {
             double size, swatch, gap;
+            bool in_symbols = false;
         } chosen{};
-        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {12.5, 13, 6}}) {
+        const auto words = [&](const Part& part) { return chosen.in_symbols ? part.symbol : std::string(part.label); };
+        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {16, 19, 12, true}, {16, 17, 6, true}}) {
             chosen = step;
             double end = first - step.gap * u;
             for (const Part& part : shown)
-                end += (step.gap + step.swatch) * u + canvas.measure(part.label, {.size = step.size * u}).w;
+                end += (step.gap + step.swatch) * u + canvas.measure(words(part), {.size = step.size * u}).w;
             if (end <= box_.right()) break;
         }
         const TextStyle style{.size = chosen.size * u, .color = facts_.palette->muted};
         const double side = 0.8 * chosen.size * u;
         double x = first;
         for (const Part& part : shown) {
-            const double w = canvas.measure(part.label, style).w;
+            const double w = canvas.measure(words(part), style).w;
             if (x + w + chosen.swatch * u > box_.right() + 1) break;
             canvas.rounded({x, box_.y + 26.5 * u - side, side, side}, 3 * u);
             canvas.fill(part.color);
-            canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, part.label, style);
+            canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, words(part), style);
             x += w + (chosen.swatch + chosen.gap) * u;
         }
     }

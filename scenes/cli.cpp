@@ -10,6 +10,7 @@
 
 #include "output/errors.hpp"
 #include "output/interrupt.hpp"
+#include "output/standard_output.hpp"
 #include "render/error.hpp"
 #include "scenes/capabilities.hpp"
 #include "scenes/commands/commands.hpp"
@@ -66,7 +67,7 @@ int parse_and_run(int argc, const char* const* argv) {
 }
 
 int fail(int code, const std::string& text) {
-    if (!text.empty()) fmt::print(stderr, "{}{}", text, text.ends_with('\n') ? "" : "\n");
+    if (!text.empty()) output::tell("{}{}", text, text.ends_with('\n') ? "" : "\n");
     return code;
 }
 

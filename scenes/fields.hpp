@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <set>
 #include <string>
@@ -198,12 +199,20 @@ class Fields {
     }
 
     // Tells of every key that was not asked for.
-    void finish(std::string_view planned_as = {}) {
+    // `elsewhere` may tell where such a key belongs.
+    void finish(std::string_view planned_as = {},
+                const std::function<std::string(const std::string& key)>& elsewhere = {}) {
         if (!object_) return;
         for (const Member& member : object_->members) {
             if (member.key.starts_with("x-") || std::find(known_.begin(), known_.end(), member.key) != known_.end())
                 continue;
             const auto planned = not_available(planned_as, member.key);
+            if (const std::string where = elsewhere ? elsewhere(member.key) : ""; !where.empty()) {
+                findings_.error(
+                    member.key_place, path(member.key),
+                    fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), what(), where));
+                continue;
+            }
             findings_.error(member.key_place, path(member.key),
                             planned ? fmt::format("{}: {}", what(), *planned)
                                     : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),

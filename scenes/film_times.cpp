@@ -164,7 +164,7 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     return out;
 }
 
-FilmTimes still_times(const Instant& at, const sim::Result& motion, double until) {
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions) {
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
@@ -175,6 +175,7 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;
+    if (collisions) merge(out.chart, rows_of_collisions(motion, 0, std::max(t, ahead)));
     out.survey = surveyed(0, std::max(t, until));
     return out;
 }

@@ -16,7 +16,7 @@ struct FilmTimes {
     long first = 0;              // number of the first frame
     std::vector<double> speeds;  // of each frame; empty in real time
     std::vector<render::Callout> callouts;
-    std::optional<int> poster;  // index into frames
+    std::optional<int> poster;         // index into frames
     std::vector<double> chart, trace;  // rows [s], increasing
     // Evenly over the time that is shown, whatever the frames: what scales are chosen by [s].
     std::vector<double> survey;
@@ -27,7 +27,7 @@ struct FilmTimes {
 // `collisions`: the charts get more rows within each of the motion's.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
 // `until`: how far the motion goes that gives the still its scales [s].
-FilmTimes still_times(const Instant& at, const sim::Result& motion, double until);
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
 
 // k / rate from `from`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);

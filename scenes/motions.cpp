@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "output/interrupt.hpp"
+#include "output/standard_output.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/identity.hpp"
 #include "scenes/spooled.hpp"
@@ -138,13 +139,13 @@ void Motions::tell(const Group& group) const {
     const sim::Result& run = first.results.front();
     if (!options_.quiet)
         for (const std::string& warning : run.warnings)
-            fmt::print(stderr, "warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
+            output::tell("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
     if (options_.verbose)
-        fmt::print(stderr,
-                   "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
-                   "{:.3g} J\n",
-                   first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
-                   run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
+        output::tell(
+            "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
+            "{:.3g} J\n",
+            first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
+            run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
 }
 
 sim::Result Motions::find(const sim::Problem& problem, const sim::Request& request, double far) {
@@ -232,7 +233,7 @@ std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress&
     if (entry->commit(job.until, writer.steps(), words_about(job.problem)))
         ++kept_;
     else if (options_.verbose)
-        fmt::print(stderr, "the motion was not kept for later runs: {}\n", entry->why());
+        output::tell("the motion was not kept for later runs: {}\n", entry->why());
     return results;
 }
 

@@ -80,7 +80,7 @@ std::string too_small(const Picture& picture) {
 
 // One collision after the other, which takes more rows than the whole time does.
 bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
-    return p.kind != Pictures::Kind::still && p.picture.compare.empty() && problem.cam &&
+    return p.picture.compare.empty() && problem.cam &&
            std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
 }
 
@@ -88,7 +88,7 @@ bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
 double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
 
 FilmTimes times_of(const Pictures& p, double end_time, const sim::Result& motion) {
-    return p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p))
+    return p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p), p.collisions)
                                            : film_times(p.span, end_time, motion, p.collisions);
 }
 
@@ -185,7 +185,7 @@ class Planner {
         if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
         const bool still = p.kind == Pictures::Kind::still;
         p.collisions = shows_collisions(p, scene_.problem);
-        p.settled = still ? p.at.kind == Instant::Kind::time : !(p.span.looks_at_impacts() || p.collisions);
+        p.settled = !p.collisions && (still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts());
         p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
         p.too_small = too_small(p.picture);
         if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/film_times.hpp"
 #include "scenes/plan.hpp"
 
 namespace beamcam::scenes {
@@ -89,9 +90,17 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
 std::string span_words(const Pictures& p, const std::vector<double>& times) {
     const bool still = p.kind == Pictures::Kind::still;
     if (!p.settled) {
+        if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture of {:g} s", p.at.t);
         if (still)
             return fmt::format("one picture of {} {}", p.at.kind == Instant::Kind::impact ? "impact" : "collision",
                                p.at.number);
+        if (p.span.real_time()) {  // only its charts or its poster ask for the impacts
+            FrameSpan alone = p.span;
+            alone.poster.reset();
+            return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second",
+                               film_times(alone, p.end_time, {}).frames.size(), p.span.from, p.end_time,
+                               p.span.fps.value());
+        }
         return fmt::format("frames of {:g} s to {:g} s at {:g} a second, as many as the impacts ask for", p.span.from,
                            p.end_time, p.span.fps.value());
     }
@@ -112,7 +121,8 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
     if (p.picture.view.transparent) words += ", transparent";
     if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
     if (p.makes_poster())
-        words += fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
+        words +=
+            fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
     else if (!p.settled && !p.poster_file.empty())
         words += fmt::format("; one of its frames as {} too", p.poster_file);
     return words + file_cost(p.cost);
@@ -136,7 +146,8 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     }
     for (const Variant& variant : plan.variants)
         line("simulate", simulation_words(variant.simulation, variant.problem));
-    for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
+    for (const FigureFile& f : plan.figures)
+        line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const TableFile& t : plan.tables) {
         const sim::TableRequest& table = plan.simulation->request.tables[t.table];
         line("table", fmt::format("{}: {} rows of {} channels{}", t.file, table.times.size(), table.channels.size(),
@@ -144,7 +155,10 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     }
     for (const ImpactsFile& i : plan.impacts) line("impacts", i.file);
     for (const SummaryFile& s : plan.summaries) line("summary", s.file);
-    if (const auto cost = plan.cost()) line("in all", file_cost(cost).substr(2) + ", as past runs tell");
+    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.settled; });
+    if (const auto cost = plan.cost())
+        line("in all", fmt::format("{}{}, as past runs tell", some ? "besides pictures that look at impacts, " : "",
+                                   file_cost(cost).substr(2)));
     text += "skipped\n";
     for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
     return text;

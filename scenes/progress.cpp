@@ -116,16 +116,20 @@ void Progress::show_bar(double done, double elapsed, bool last) {
 
 void Progress::show_plain(double done, double elapsed) {
     const std::string left = done > 0 ? fmt::format(", {} left", clock_text(elapsed * (total_ - done) / done)) : "";
-    fmt::print(out_, "{}: {}/{} {} ({:.3g}/s{})\n", stage_, count_text(done, unit_), count_text(total_, unit_), unit_,
-               elapsed > 0 ? done / elapsed : 0, left);
+    std::fputs(fmt::format("{}: {}/{} {} ({:.3g}/s{})\n", stage_, count_text(done, unit_), count_text(total_, unit_),
+                           unit_, elapsed > 0 ? done / elapsed : 0, left)
+                   .c_str(),
+               out_);
 }
 
 void Progress::show_json(double done, double elapsed, bool last) {
     const double left = done > 0 ? elapsed * (total_ - done) / done : 0;
-    fmt::print(out_,
-               "{{\"stage\":\"{}\",\"done\":{:g},\"total\":{:g},\"unit\":\"{}\",\"elapsed\":{:.3f},\"left\":{},"
-               "\"finished\":{}}}\n",
-               stage_, done, total_, unit_, elapsed, done > 0 ? fmt::format("{:.3f}", left) : "null", last);
+    std::fputs(
+        fmt::format("{{\"stage\":\"{}\",\"done\":{:g},\"total\":{:g},\"unit\":\"{}\",\"elapsed\":{:.3f},\"left\":{},"
+                    "\"finished\":{}}}\n",
+                    stage_, done, total_, unit_, elapsed, done > 0 ? fmt::format("{:.3f}", left) : "null", last)
+            .c_str(),
+        out_);
 }
 
 }  // namespace beamcam::scenes

@@ -70,7 +70,14 @@ Scene read_tree(const Node& root, const Source& source, const std::string& scene
     read_physics(findings, f, scene);
     judge_physics(root, scene, findings, messages);
     read_outputs(findings, f.take("outputs"), root, source, scene);
-    f.finish();
+    f.finish({}, [](const std::string& key) {
+        static constexpr std::string_view kOfOutputs[] = {
+            "view",   "size",    "fps",        "from",   "to",    "at",  "speed",  "layout",     "theme",
+            "events", "compare", "comparison", "poster", "codec", "crf", "preset", "background", "camera"};
+        return std::ranges::find(kOfOutputs, key) == std::end(kOfOutputs)
+                   ? std::string()
+                   : fmt::format("into an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
+    });
     for (Message& message : findings.take()) messages.push_back(std::move(message));
     return scene;
 }

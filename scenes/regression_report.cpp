@@ -157,8 +157,9 @@ std::string to_text(const RegressionResult& result, bool failures_only) {
                                 frame.expected.empty() ? "no reference picture" : frame.expected.string());
             text += fmt::format("    actual      {}sha256 {}\n",
                                 frame.actual.empty() ? "" : frame.actual.string() + "  ", frame.sha256);
-            text += fmt::format("    difference  {}\n",
-                                frame.difference.empty() ? "(--report DIR draws it)" : frame.difference.string());
+            text += fmt::format("    difference  {}\n", !frame.difference.empty() ? frame.difference.string()
+                                                        : frame.expected.empty()  ? "none without a reference picture"
+                                                                                  : "(--report DIR draws it)");
         }
         if (entry.updated)
             text += entry.new_digest.empty()

@@ -281,14 +281,14 @@ class Runner {
             const std::string& file = file_of(scene_.outputs[output]);
             ++work_.files_left;
             if (!options_.quiet)
-                fmt::print(stderr, "left {} as it is: made from the same inputs (--force makes it anew)\n",
-                           path_of(file).string());
+                output::tell("left {} as it is: made from the same inputs (--force makes it anew)\n",
+                             path_of(file).string());
         }
         for (const auto& [output, frames] : found_.known.frames) {
             work_.frames_left += static_cast<long>(frames.size());
             if (!options_.quiet)
-                fmt::print(stderr, "left {} frames of {} as they are: made from the same inputs\n", frames.size(),
-                           path_of(file_of(scene_.outputs[output])).string());
+                output::tell("left {} frames of {} as they are: made from the same inputs\n", frames.size(),
+                             path_of(file_of(scene_.outputs[output])).string());
         }
     }
 
@@ -318,7 +318,7 @@ class Runner {
     void wrote(const fs::path& file, const std::string& what, const std::string& inputs) {
         record(file, inputs);
         progress_.end();
-        if (!options_.quiet) fmt::print(stderr, "wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
+        if (!options_.quiet) output::tell("wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
     }
 
     void record(const fs::path& file, const std::string& inputs) {
@@ -575,17 +575,17 @@ class Runner {
         if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
         stop_if_interrupted();
         if (!p.too_small.empty() && !capture_ && !options_.quiet)
-            fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
+            output::tell("warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
         if (options_.verbose && !capture_ && !options_.quiet)
             if (const std::string what = unwritten(p, scene_); !what.empty())
-                fmt::print(stderr, "warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));
+                output::tell("warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));
         const auto begun = Clock::now();
         render::Film film = film_of(index);
         if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields() && !capture_ && !options_.quiet)
-            fmt::print(stderr,
-                       "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
-                       "far from where it touches\n",
-                       p.file, film.exaggeration(), *wanted);
+            output::tell(
+                "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
+                "far from where it touches\n",
+                p.file, film.exaggeration(), *wanted);
         std::unique_ptr<output::VideoWriter> video;
         if (p.kind == Pictures::Kind::video && !capture_) {
             output::VideoOptions options = video_options(p);
@@ -701,9 +701,9 @@ class Runner {
         }
         progress_.end();
         if (!options_.quiet)
-            fmt::print(stderr, "wrote {} … {} ({} frames)\n",
-                       path_of(numbered_file(p.file, p.first_frame + p.draw.front())).string(),
-                       numbered_file(p.file, p.first_frame + p.draw.back()), count);
+            output::tell("wrote {} … {} ({} frames)\n",
+                         path_of(numbered_file(p.file, p.first_frame + p.draw.front())).string(),
+                         numbered_file(p.file, p.first_frame + p.draw.back()), count);
     }
 
     const Scene& scene_;
@@ -758,7 +758,7 @@ void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runner
         try {
             for (const auto& runner : runners) runner->keep_partial_tables();
         } catch (const output::IoError& also) {
-            fmt::print(stderr, "beamcam: {}\n", also.what());  // the solver's failure is the one to report
+            output::tell("beamcam: {}\n", also.what());  // the solver's failure is the one to report
         }
         throw;
     }
@@ -774,16 +774,16 @@ void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runner
 }
 
 void tell(const Shop& shop) {
-    fmt::print(stderr,
-               "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
-               "{:.2f} s, "
-               "encoding {:.2f} s, other files {:.2f} s\n",
-               seconds_since(shop.started), shop.times.simulate, shop.times.draw,
-               counted(static_cast<std::size_t>(shop.times.threads), "thread"), shop.times.read_back,
-               shop.times.convert, shop.times.encode, shop.times.write);
+    output::tell(
+        "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
+        "{:.2f} s, "
+        "encoding {:.2f} s, other files {:.2f} s\n",
+        seconds_since(shop.started), shop.times.simulate, shop.times.draw,
+        counted(static_cast<std::size_t>(shop.times.threads), "thread"), shop.times.read_back, shop.times.convert,
+        shop.times.encode, shop.times.write);
     std::string text;
     for_each_count(shop.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
-    fmt::print(stderr, "work:{}\n", text);
+    output::tell("work:{}\n", text);
 }
 
 }  // namespace

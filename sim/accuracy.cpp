@@ -279,13 +279,13 @@ class Assessment {
             ModelRow row;
             row.model = descending[i];
             const double limit = 10 * request_.longest_run;
-            if (!truth) truth = longest(variant, limit, row);
-            if (truth) {
-                if (row.note.empty())
-                    measure(row, variant, *truth, out_.models_until, limit,
-                            variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
-                if (out_.models.empty() || !out_.models.back().error) out_.best_model = descending[i];
+            if (!truth) {
+                truth = longest(variant, limit, row);
+                if (truth) out_.best_model = descending[i];
             }
+            if (truth && row.note.empty())
+                measure(row, variant, *truth, out_.models_until, limit,
+                        variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
             out_.models.push_back(std::move(row));
         }
         std::reverse(out_.models.begin(), out_.models.end());

@@ -207,6 +207,15 @@ void check_geometry(Findings& out, const Problem& p) {
                                              away, cam.eccentricity + cam.radius));
         return;
     }
+    if (a > nearest_axis) {
+        out.refuse(
+            "hub.radius",
+            fmt::format(
+                "the hub reaches {:g} m from its axis, into the circle that the cam sweeps, which comes as near as "
+                "{:g} m; make it smaller or move the cam away",
+                a, nearest_axis));
+        return;
+    }
     const double reach = a + p.beam.length + d;
     if (nearest_axis > reach) {
         out.warn(

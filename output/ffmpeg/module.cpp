@@ -396,10 +396,10 @@ BeamcamVideoStatus copy_packets(Segment& segment, BeamcamVideoSession& session, 
 }
 
 BeamcamVideoStatus start_joined(const std::vector<Segment>& segments, BeamcamVideoSession& session, const char* file,
-                                BeamcamVideoError* error) {
+                                const char* container, BeamcamVideoError* error) {
     const Segment &first = segments.front(), &last = segments.back();
     const std::string url = std::string("file:") + file;
-    int code = avformat_alloc_output_context2(&session.format, nullptr, "mp4", url.c_str());
+    int code = avformat_alloc_output_context2(&session.format, nullptr, container, url.c_str());
     if (code < 0) return fail(error, "setting up the film", code);
     session.packet = av_packet_alloc();
     session.stream = avformat_new_stream(session.format, nullptr);
@@ -423,12 +423,12 @@ BeamcamVideoStatus start_joined(const std::vector<Segment>& segments, BeamcamVid
                                  std::to_string(first.begin_of_all) + ":" + std::to_string(first.end_of_all);
         av_dict_set(&session.format->metadata, "beamcam-frames", part.c_str(), 0);
     }
-    // As in every MP4 of the program: index first, keys of our own.
+    // As in every MP4 of the program: index first, keys of our own. Other containers know no such flags.
     constexpr const char* kOptions[] = {"movflags", "+faststart+use_metadata_tags", nullptr};
     return write_header(session, kOptions, error);
 }
 
-BeamcamVideoStatus concat(const char* const* names, const char* file, std::int64_t* frames,
+BeamcamVideoStatus concat(const char* const* names, const char* file, const char* container, std::int64_t* frames,
                           BeamcamVideoError* error) noexcept try {
     av_log_set_level(AV_LOG_FATAL);
     std::vector<Segment> segments;
@@ -438,7 +438,8 @@ BeamcamVideoStatus concat(const char* const* names, const char* file, std::int64
     }
     if (const auto status = check_order(segments, error); status != beamcam_video_ok) return status;
     BeamcamVideoSession session;
-    if (const auto status = start_joined(segments, session, file, error); status != beamcam_video_ok) return status;
+    if (const auto status = start_joined(segments, session, file, container, error); status != beamcam_video_ok)
+        return status;
     *frames = 0;
     for (Segment& segment : segments)
         if (const auto status = copy_packets(segment, session, *frames, error); status != beamcam_video_ok)

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "output/standard_output.hpp"
 #include "scenes/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/reader.hpp"
@@ -16,7 +17,7 @@ int act(const Arguments& args) {
     bool fine = true;
     for (const std::string& path : args.scenes) {
         const Reading reading = read_scene(load_source(path), args.common.overrides);
-        fmt::print(stderr, "{}", reading.report());
+        output::tell("{}", reading.report());
         if (reading.scene)
             say(args.common, fmt::format("{}: fine", path));
         else

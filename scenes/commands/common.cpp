@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "output/errors.hpp"
+#include "output/standard_output.hpp"
 #include "scenes/capabilities.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/files.hpp"
@@ -43,13 +44,13 @@ void add_work(CLI::App& app, Common& common) {
 }
 
 void say(const Common& common, const std::string& text) {
-    if (!common.quiet) fmt::print(stderr, "{}\n", text);
+    if (!common.quiet) output::tell("{}\n", text);
 }
 
 Scene read_or_refuse(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
-    if (!common.quiet && !reading.messages.empty()) fmt::print(stderr, "{}", reading.report());
+    if (!common.quiet && !reading.messages.empty()) output::tell("{}", reading.report());
     return std::move(*reading.scene);
 }
 

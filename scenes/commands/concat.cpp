@@ -14,9 +14,13 @@ struct Arguments {
 };
 
 int act(const Arguments& args) {
-    if (args.file == "-") throw UsageError("-o -: films go to files; name one that ends in .mp4");
-    need_ending("-o", args.file, {".mp4"});
+    if (args.file == "-") throw UsageError("-o -: films go to files; name one that ends as the segments do");
+    const std::string ending = std::filesystem::path(args.file).extension().string();
+    need_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
     for (const std::string& segment : args.segments) {
+        if (std::filesystem::path(segment).extension() != ending)
+            throw UsageError(fmt::format("-o {}: {} is another kind of film; segments and film have one ending",
+                                         args.file, segment));
         std::error_code unreadable;
         if (std::filesystem::equivalent(segment, args.file, unreadable))
             throw UsageError(fmt::format("-o {}: it is one of the segments; name another file", args.file));
@@ -38,7 +42,9 @@ void add_concat(Grammar& grammar) {
     CLI::App* app =
         grammar.app.add_subcommand("concat", "Join segments of a film (--shard, --frames) without re-encoding");
     app->add_option("SEGMENT", args->segments, "Films, in order")->required()->type_name("");
-    app->add_option("-o,--output", args->file, "Film to make, .mp4")->required()->type_name("FILE");
+    app->add_option("-o,--output", args->file, "Film to make, with the segments' ending: .mp4, .mov, .webm or .mkv")
+        ->required()
+        ->type_name("FILE");
     app->add_flag("--force", args->common.force, "Replace a file that beamcam did not make");
     add_quiet(*app, args->common);
     grammar.bind(app, args, act);

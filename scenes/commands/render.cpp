@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "output/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/files.hpp"
 #include "scenes/plan.hpp"
@@ -107,9 +108,9 @@ void compare_scenes(const Arguments& args, Scene& scene, Picture& picture) {
         if (shown.size() != args.others.size() + 1) {
             picture.layout.reset();
             if (!args.common.quiet)
-                fmt::print(stderr,
-                           "note: the layout in {} does not show {} motions; they stand in the standard arrangement\n",
-                           args.scene, args.others.size() + 1);
+                output::tell(
+                    "note: the layout in {} does not show {} motions; they stand in the standard arrangement\n",
+                    args.scene, args.others.size() + 1);
         }
     }
     picture.compare = {entry(scene)};

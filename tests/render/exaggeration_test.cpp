@@ -212,6 +212,24 @@ TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
         EXPECT_TRUE(drawn_beam(film.problem, pose, n, film.problem.beam.depth).clear);
 }
 
+// Equal motions are drawn at one place, also where one of them has no cam.
+TEST(Exaggeration, ABeamWithoutACamLiesAsTheOneItIsComparedWith) {
+    const FilmSetup with = test::synthetic_film({.duration = 0.1});
+    sim::Problem without = with.problem;
+    without.cam.reset();
+    sim::Pose pose = with.poses.front(), free = pose;
+    free.nearest.reset();
+    const double depth = with.problem.beam.depth;
+    const DrawnBeam a = drawn_beam(with.problem, pose, 1, depth),
+                    b = drawn_beam(without, free, 1, depth, &with.problem), alone = drawn_beam(without, free, 1, depth);
+    ASSERT_EQ(a.side, 1);
+    for (std::size_t i = 0; i < a.line.size(); ++i) {
+        EXPECT_NEAR(norm(a.face(i) - b.face(i)), 0, 1e-12);
+        EXPECT_NEAR(norm(a.back(i) - b.back(i)), 0, 1e-12);
+    }
+    EXPECT_NEAR(alone.low, -depth / 2, 1e-15);
+}
+
 TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
     test::Synthetic how;
     how.amplitude = 6e-3;

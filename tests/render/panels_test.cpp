@@ -312,6 +312,48 @@ TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     EXPECT_EQ(empty.pixels, zero.pixels);
 }
 
+// Rows of the chart are coarser than an impact: its peak is told all the same, whatever else the chart shows.
+TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
+    const auto highest = [](double end) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 1280, setup.height = 720;
+        setup.view.style = Style::flat;
+        setup.impacts.clear();
+        for (auto& column : setup.trace.values) column.clear();
+        setup.chart.values.assign(setup.chart.channels.size(), {});
+        for (int i = 0; i <= 250; ++i) {  // three rows within the impact, none at its peak
+            const double t = end * i / 250;
+            const bool in = t > 0.02 && t < 0.03;
+            setup.chart.values[0].push_back(t);
+            setup.chart.values[1].push_back(0.5);
+            setup.chart.values[2].push_back(in ? 40 : 0);
+        }
+        sim::Impact impact;
+        impact.t_start = 0.02, impact.t_end = 0.03, impact.force_peak = 100;
+        setup.impacts.push_back(impact);
+        setup.layout = leaf(strip(ChannelKind::contact_force));
+        const Color faint = palette(setup.view.theme).contact_faint;
+        const std::size_t last = setup.poses.size() - 1;
+        setup.poses[last].t = end;
+        Film film(std::move(setup));
+        const Box box = film.geometry(0).layout.first(PanelKind::strip)->box;
+        const Image image = drawn(film, 0);
+        const double u = film.geometry(0).layout.unit;
+        for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
+            for (int x = int(box.x + 74 * u); x < int(box.right()); ++x) {
+                const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                if (std::abs((p >> 16 & 255) / 255.0 - faint.r) + std::abs((p >> 8 & 255) / 255.0 - faint.g) +
+                        std::abs((p & 255) / 255.0 - faint.b) <
+                    0.03)
+                    return (plot_area(box, u).bottom() - y) / plot_area(box, u).h;
+            }
+        return 0.0;
+    };
+    // The axis ends at 102, rounded up to 120 or 150.
+    EXPECT_GT(highest(1), 0.6);
+    EXPECT_GT(highest(0.5), 0.6);
+}
+
 // Twice the force, twice the arrow; in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
@@ -389,6 +431,11 @@ TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
         for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
         pose.theta = pose.root_slope = angle;
     }
+    // The first frame's beam points to the right, so that there is room.
+    sim::Pose& other = setup.poses.front();
+    for (std::size_t i = 0; i < other.centreline.size(); ++i)
+        other.centreline[i] = sim::unit(0.1) * (double(i) / double(other.centreline.size() - 1));
+    other.theta = other.root_slope = 0.1;
     setup.layout = leaf({.kind = PanelKind::mechanism});
     const Color muted = palette(setup.view.theme).muted;
     Film film(std::move(setup));

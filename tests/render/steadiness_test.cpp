@@ -201,11 +201,11 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
 // A horizontal beam whose end is moved by fractions of a pixel: what the end's rows of pixels cover moves as much.
 TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
     FilmSetup setup = film_of(Style::flat, {.duration = 0.5, .cam = false}, 1);
-    setup.problem.beam.model = sim::ModelKind::rigid;  // one colour
     const std::size_t n = setup.poses[0].centreline.size();
     for (std::size_t k = 0; k < setup.poses.size(); ++k) {
         sim::Pose& pose = setup.poses[k];
         pose.theta = 0;
+        std::ranges::fill(pose.moment, -1.0);  // one strong colour
         const double length = 1 + 0.0004 * std::sin(0.7 * double(k));
         for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = {length * double(i) / double(n - 1), 0};
     }

@@ -209,6 +209,20 @@ TEST(CommandLine, QuietSaysNothing) {
     EXPECT_THAT(finished.out, IsEmpty());
 }
 
+// The terminal that messages go to may be full or gone; the exit code tells all the same.
+TEST(CommandLine, UnreadMessagesChangeNothing) {
+    const Folder folder;
+    folder.write("bad.json", R"({"beam": {"lenght": 1}})");
+    folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory", "file": "t.csv"}]})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM check bad.json 2>/dev/full").code, 3);
+    EXPECT_EQ(shell(folder, "$BEAMCAM render 2>/dev/full").code, 2);
+    EXPECT_EQ(shell(folder, "{ $BEAMCAM check bad.json; echo $? > code; } 2>&1 | true; cat code").out, "3\n");
+    for (const char* progress : {"auto", "bar", "plain", "json"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM run s.json -v --force --progress {} 2>/dev/full", progress)).code,
+                  0);
+    EXPECT_GT(std::filesystem::file_size(folder / "t.csv"), 100u);
+}
+
 TEST(CommandLine, ProgressForProgramsIsAnObjectALine) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory"}]})");

@@ -165,6 +165,28 @@ TEST(Films, AStripWithoutChannelsIsToldToNameThem) {
     EXPECT_THAT(testing::messages(reading).front(), HasSubstr("needs channels"));
 }
 
+TEST(Films, KeysOfAnOutputAtTheTopAreToldWhereTheyBelong) {
+    const Reading reading = testing::read(R"({"speed": {"around": "impacts"}, "layuot": 1})");
+    ASSERT_EQ(testing::messages(reading).size(), 2u);
+    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("it belongs into an output"));
+    EXPECT_THAT(testing::messages(reading).back(), Not(HasSubstr("belongs")));
+}
+
+TEST(Films, AHubOverTheCamIsRefused) {
+    const Reading over = testing::read(R"({"hub": {"radius": 0.3}})"),
+                  beside = testing::read(R"({"hub": {"radius": 0.1}})");
+    EXPECT_FALSE(over.scene);
+    EXPECT_THAT(testing::messages(over).front(), HasSubstr("the circle that the cam sweeps"));
+    EXPECT_TRUE(beside.scene);
+}
+
+TEST(Films, APosterAtAnImpactLeavesTheNumberOfFramesKnown) {
+    const Reading reading =
+        testing::read(R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "fps": 30, "poster": "impact:1"}]})");
+    ASSERT_TRUE(reading.scene);
+    EXPECT_THAT(to_text(plan(*reading.scene), *reading.scene), HasSubstr("15 frames of 0 s to 0.5 s"));
+}
+
 TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": {"around": "impacts"}}]})");
     ASSERT_TRUE(reading.scene);

@@ -392,6 +392,29 @@ TEST(Skipping, JoinedSegmentsDecodeToThePicturesOfTheWholeFilm) {
     EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
 }
 
+TEST(Skipping, SegmentsOfOtherContainersAreJoinedToo) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}})");
+    for (const char* ending : {"webm", "mkv", "mov"}) {
+        for (const char* shard : {"1/2", "2/2"})
+            ASSERT_EQ(shell(folder,
+                            fmt::format("$BEAMCAM render s.json -o f.{} --size 160x90 --fps 24 --style flat --shard {}",
+                                        ending, shard))
+                          .code,
+                      0);
+        const Finished joined = shell(folder, fmt::format("$BEAMCAM concat f.1of2.{0} f.2of2.{0} -o j.{0}", ending));
+        ASSERT_EQ(joined.code, 0) << joined.err;
+        EXPECT_THAT(joined.err, HasSubstr("12 frames of 2 segments"));
+        EXPECT_EQ(
+            shell(folder,
+                  fmt::format("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 j.{}",
+                              ending))
+                .out,
+            "12\n");
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.webm f.2of2.webm -o k.mp4").code, 2);
+}
+
 TEST(Skipping, WhatMakesNoFilmIsRefusedInWords) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "video", "file": "f.mp4", "size": [320, 180],

@@ -144,6 +144,22 @@ TEST(FilmTimes, AStillOfAnImpactHasChartsToTheEndOfItsCollision) {
     EXPECT_EQ(still_times({.kind = Instant::Kind::time, .t = 0.3}, motion, 1).chart.back(), 0.3);
 }
 
+TEST(FilmTimes, StillsHaveRowsWithinTheCollisionsOfAStrip) {
+    sim::Result motion;
+    for (int i = 0; i < 3; ++i) {
+        sim::Impact& next = motion.impacts.emplace_back();
+        next.t_start = 0.2 + 0.2 * i, next.t_end = 0.21 + 0.2 * i, next.collision = i;
+    }
+    const Instant at{.kind = Instant::Kind::time, .t = 0.7};
+    const auto within = [&](const std::vector<double>& all, const sim::Impact& i) {
+        return std::lower_bound(all.begin(), all.end(), *i.t_end) - std::lower_bound(all.begin(), all.end(), i.t_start);
+    };
+    const FilmTimes plain = still_times(at, motion, 1), fine = still_times(at, motion, 1, true);
+    for (const sim::Impact& i : motion.impacts) EXPECT_GT(within(fine.chart, i), 300);
+    EXPECT_LT(within(plain.chart, motion.impacts[0]), 100);
+    EXPECT_EQ(fine.chart.back(), 0.7);
+}
+
 // A strip that turns from one collision to the next is smooth at any speed of the film.
 TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     sim::Result motion;
