@@ -71,7 +71,7 @@ Name name_of(Channel channel) {
         case ChannelKind::separation:
             return {"Separation ", "a", "n"};
         case ChannelKind::separation_paper:
-            return {"Separation, printed form ", "a", "n"};
+            return {"Separation, printed form ", "a", "p"};
     }
     return {"", ""};
 }

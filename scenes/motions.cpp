@@ -65,8 +65,9 @@ bool worth_keeping(const sim::Problem& problem, const sim::Request& request) {
     return dense && problem.solver.method != sim::Method::arkode_erk && end_of(request) > 0;
 }
 
-std::size_t Motions::want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label) {
-    wishes_.push_back({motion_key(problem), problem, std::move(requests), label, {}, {}});
+std::size_t Motions::want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label,
+                          bool may_fail) {
+    wishes_.push_back({motion_key(problem), problem, std::move(requests), label, may_fail, {}, {}});
     return wishes_.size() - 1;
 }
 
@@ -129,6 +130,12 @@ void Motions::make(const Group& group, const sim::Progress& progress) {
     try {
         hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
     } catch (const sim::SolverError& error) {
+        if (std::ranges::all_of(group, &Wish::may_fail)) {
+            sim::Result none;
+            none.warnings = {fmt::format("left out, {}, {} modes: {}", name(first.problem.beam.model),
+                                         first.problem.beam.modes, error.what())};
+            return hand_out(std::vector(requests.size(), none), &Wish::results);
+        }
         if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
         throw;
     }
@@ -140,7 +147,7 @@ void Motions::tell(const Group& group) const {
     if (!options_.quiet)
         for (const std::string& warning : run.warnings)
             output::tell("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
-    if (options_.verbose)
+    if (options_.verbose && run.counters.steps > 0)
         output::tell(
             "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
             "{:.3g} J\n",

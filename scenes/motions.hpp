@@ -29,8 +29,10 @@ class Motions {
     Motions(const Cache* cache, History* history, Progress& progress, const Options& options)
         : cache_(cache), history_(history), progress_(progress), options_(options) {}
 
-    // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number.
-    std::size_t want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {});
+    // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number. A motion that all
+    // who want it can do without may fail: that is told, and its results are empty.
+    std::size_t want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
+                     bool may_fail = false);
     // Fulfils all wishes. Throws what sim::simulate throws.
     void make();
     // One for each request; with the bits of the run that the request had been alone.
@@ -52,6 +54,7 @@ class Motions {
         sim::Problem problem;
         std::vector<sim::Request> requests;
         std::string label;
+        bool may_fail = false;
         std::vector<sim::Result> results, reached;
     };
     using Group = std::vector<Wish*>;  // of one motion

@@ -225,7 +225,8 @@ class Runner {
     void ask_for_others() {
         for (const FigureFile& f : plan_.figures)
             for (const Study& study : f.studies)
-                if (!study.of_scene) others_.push_back(shop_.motions.want(study.problem, {study.request}, f.file));
+                if (!study.of_scene)
+                    others_.push_back(shop_.motions.want(study.problem, {study.request}, f.file, study.may_fail));
         for (const Pictures& p : plan_.pictures) {
             compared_poses_.emplace_back();
             for (const ComparedMotion& each : p.compared) {

@@ -54,6 +54,29 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
             depth.x.push_back((time[i] - c->t_start) * 1e3);
             depth.y.push_back(-gap[i] * 1e6);
         }
+        // Rows that are coarser than an impact miss its peak, which lies next to the highest of them.
+        const auto reach = [&](Series& curve, const sim::Impact& hit, double peak) {
+            const double begin = (hit.t_start - c->t_start) * 1e3, over = (hit.t_end.value_or(end) - c->t_start) * 1e3;
+            std::size_t best = curve.x.size();
+            for (std::size_t i = 0; i < curve.x.size(); ++i)
+                if (curve.x[i] >= begin && curve.x[i] <= over && (best == curve.x.size() || curve.y[i] > curve.y[best]))
+                    best = i;
+            double at = (begin + over) / 2;
+            if (best < curve.x.size()) {
+                if (curve.y[best] >= 0.995 * peak) return;
+                const bool after = best + 1 < curve.x.size() && (best == 0 || curve.y[best + 1] > curve.y[best - 1]);
+                const std::size_t beside = after ? best + 1 : best == 0 ? 0 : best - 1;
+                at = std::clamp((2 * curve.x[best] + curve.x[beside]) / 3, begin, over);
+            }
+            const auto place = std::ranges::upper_bound(curve.x, at) - curve.x.begin();
+            curve.x.insert(curve.x.begin() + place, at);
+            curve.y.insert(curve.y.begin() + place, peak);
+        };
+        for (const sim::Impact& hit : result.impacts) {
+            if (hit.collision != 0 || hit.t_start > to) continue;
+            if (hit.force_peak) reach(force, hit, *hit.force_peak);
+            if (hit.penetration_peak > 0) reach(depth, hit, hit.penetration_peak * 1e6);
+        }
         Figure figure;
         figure.name = "collision";
         figure.title = en ? "One collision in close-up" : "一次碰撞的细部";

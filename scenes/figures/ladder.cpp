@@ -52,6 +52,7 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
             if (basis == Basis::cantilever && modes > 6) continue;
             runs.push_back({basis, modes, studies.of(p, scene.end_time, "apex-modes"), p});
             studies.turning_points(runs.back().study);
+            studies.may_fail(runs.back().study);
         }
     return [runs, lang, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
@@ -71,7 +72,7 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> used;
         for (const Run& run : runs) {
             const std::optional<double> apex = rebound(*results[run.study]);
-            if (!apex) continue;
+            if (!apex) continue;  // none, or no such motion
             Series& s = series[run.basis == Basis::hub_beam ? 0 : 1];
             s.x.push_back(run.modes);
             s.y.push_back(*apex);
@@ -110,6 +111,7 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
             if (p.beam.damping_ratio.size() > 1) p.beam.damping_ratio.clear();
         }
         where.push_back(studies.of(p, scene.end_time, "models"));
+        if (model != ModelKind::second_order) studies.may_fail(where.back());  // what the others are compared with
         tables.push_back(
             studies.table(where.back(), {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta}));
         problems.push_back(std::move(p));
@@ -131,6 +133,7 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
         const std::vector<double>& reference = column(results[where[0]]->tables[tables[0]], ChannelKind::theta);
         for (std::size_t k = 0; k < where.size(); ++k) {
+            if (!is_there(*results[where[k]])) continue;
             const sim::Table& t = results[where[k]]->tables[tables[k]];
             Series s;
             s.label = name(kLadder[k]);

@@ -13,6 +13,9 @@ struct Study {
     sim::Request request;
     std::string because;    // who looks furthest
     bool of_scene = false;  // the scene's own physics; told by the plan
+    // A physics of the figure's own choosing: where it cannot be integrated its result stays empty, and the figure does
+    // without.
+    bool may_fail = false;
 };
 
 // Equally spaced instants, both ends included.
@@ -31,6 +34,7 @@ class Studies {
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
     std::size_t point(std::size_t study, double x, const Instants& at);
     void turning_points(std::size_t study) { request(study).turning_points = true; }
+    void may_fail(std::size_t study) { all_[study].may_fail = true; }
     void horizon(std::size_t study) { request(study).horizon = true; }
 
     sim::Request& request(std::size_t i) { return all_[i].request; }
@@ -45,8 +49,9 @@ class Studies {
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 
-// By study. A figure reads only what it asked for.
+// By study. A figure reads only what it asked for, and of a study that may fail asks `is_there` first.
 using Results = std::vector<const sim::Result*>;
+inline bool is_there(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
 
 // A channel of a table; std::logic_error when it was not asked for.
 const std::vector<double>& column(const sim::Table& table, sim::ChannelKind channel);

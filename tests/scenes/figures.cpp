@@ -438,5 +438,41 @@ TEST(LongPaper, MakesEveryFigureThriceWithCaptionsAndFindings) {
     EXPECT_EQ(shell(folder, "echo mine > out/fig01-schematic.png; $BEAMCAM paper -o out -q").code, 6);
 }
 
+// A light steel beam: with four cantilever shapes and more it loses its inertia when it strikes.
+constexpr const char* kLight = R"({"beam": {"length": 0.5, "area": 1.5e-4, "second_moment": 3.125e-10, "density": 7850,
+    "youngs_modulus": 2.1e11, "depth": 5e-3, "modes": 6, "damping_ratio": 0.005},
+    "cam": {"centre": [0.2, 0], "radius": 0.05, "eccentricity": 0.01, "speed": 12.566},
+    "contact": {"stiffness": 3.4e10, "restitution": 0.6, "offset": "half-depth"}, "time": {"end": 0.5}})";
+
+TEST(Figures, DoWithoutTheMotionsThatTheyChoseThemselves) {
+    const Folder folder;
+    folder.write("s.json", kLight);
+    const Finished apex = shell(folder, "$BEAMCAM figure s.json apex-modes -o a.svg --data a.csv");
+    EXPECT_EQ(apex.code, 0) << apex.err;
+    EXPECT_THAT(apex.err, HasSubstr("left out, first-order, 6 modes"));
+    EXPECT_GT(std::filesystem::file_size(folder / "a.svg"), 1000u);
+}
+
+// 80 µs of contact among the rows of half a second.
+TEST(Figures, ACollisionReachesItsPeak) {
+    const Folder folder;
+    folder.write("s.json", kLight);
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json collision -o c.svg --data c.csv").code, 0);
+    const Finished told = shell(
+        folder, R"($BEAMCAM simulate s.json --impacts - | sed -n 's/.*"force_peak": \([0-9.e+-]*\).*/\1/p' | head -1)");
+    const double peak = std::stod(told.out);
+    // panel, series, quantity and value of x, quantity and value of y
+    double highest = 0;
+    std::istringstream rows(testing::slurp(folder / "c.csv"));
+    for (std::string line; std::getline(rows, line);) {
+        std::vector<std::string> cells;
+        std::istringstream in(line);
+        for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+        if (cells.size() >= 6 && cells[1] == "force") highest = std::max(highest, std::stod(cells[5]));
+    }
+    EXPECT_GT(peak, 1000);
+    EXPECT_GE(highest, 0.995 * peak);
+}
+
 }  // namespace
 }  // namespace beamcam::scenes
