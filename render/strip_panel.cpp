@@ -460,8 +460,16 @@ class CollisionPanel final : public Panel {
             c.time = {0, 0.01};
         } else {
             // A contact that lasts is no collision any more: its first tenth of a second is.
-            const double length = std::min(spans_[which].high - spans_[which].low, 0.1), m = margin(which);
-            c.time = {-std::min(m, 0.01), length + std::min(m, 0.01)};
+            constexpr double kLongest = 0.1;  // [s]
+            const Range& span = spans_[which];
+            const double length = std::min(span.high - span.low, kLongest), m = std::min(margin(which), 0.01);
+            c.time = {-m, length + m};
+            // One that was over that when the film began, or the instant of a still was reached, is seen as it goes on.
+            const double first = facts_.at(0, 0), shown_until = span.low + length + m;
+            if (facts_.frames() == 1 && first > shown_until && first <= span.high)
+                c.time = {first - kLongest - span.low, first - span.low};
+            else if (facts_.span.low > shown_until && span.high > facts_.span.low)
+                c.time = {facts_.span.low - span.low, std::min(span.high, facts_.span.high) - span.low};
             c.words = fmt::format("Collision {}, ", which + 1);
         }
         const Prefix prefix = prefix_for(c.time.high);

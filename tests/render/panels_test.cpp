@@ -354,6 +354,32 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     EXPECT_GT(highest(0.5), 0.6);
 }
 
+// A contact that lasts beyond the first tenth of a second, which a strip of collisions shows, when the picture begins.
+TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
+    for (const int frames : {1, 30}) {
+        FilmSetup setup = test::synthetic_film({.duration = 2});
+        setup.width = 1280, setup.height = 720;
+        setup.view.style = Style::flat;
+        setup.poses.erase(setup.poses.begin(), setup.poses.end() - frames);
+        if (frames > 1)  // charts begin with the film
+            for (auto& column : setup.chart.values) column.erase(column.begin(), column.begin() + 1500);
+        setup.impacts.clear();
+        sim::Impact open;
+        open.t_start = 0.3;
+        setup.impacts.push_back(open);
+        PanelSpec by_collision = strip(ChannelKind::contact_force);
+        by_collision.by_collision = true;
+        setup.layout = leaf(by_collision);
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(frames - 1);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        // The reading stands at the right end of the heading's line while the cursor is within the axes.
+        EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
+            return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
+        })) << frames;
+    }
+}
+
 // Twice the force, twice the arrow; in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
