@@ -294,7 +294,7 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
     for (std::size_t i = readings.size(); i-- > 0;) {
         const double v = readings[i].value;
         const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
-        const TextStyle style = reading_style(u, i < c_.curves.size() ? c_.curves[i].color : p.contact);
+        const TextStyle style = reading_style(u, readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
         const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
                                        canvas.measure(fixed(shown_.low, digits_), style).w);
         if (!std::isnan(v))

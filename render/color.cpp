@@ -75,6 +75,25 @@ const Palette& palette(Theme theme) {
     return kLight;
 }
 
+namespace {
+// Relative luminance and contrast of sRGB colours (WCAG 2.1).
+double luminance(const Color& c) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+}
+double contrast(const Color& a, const Color& b) {
+    const double x = luminance(a), y = luminance(b);
+    return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+}  // namespace
+
+Color readable(const Palette& palette, Color color) {
+    constexpr double kLeast = 3;
+    for (double ink = 0; ink <= 1; ink += 0.05)
+        if (const Color mixed = mix(color, palette.ink, ink); contrast(mixed, palette.paper) >= kLeast) return mixed;
+    return palette.ink;
+}
+
 Color series_color(const Palette& p, std::size_t i) {
     // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it
     // under every common colour deficiency: eight in all with the palette's own.

@@ -37,6 +37,9 @@ const Palette& palette(Theme theme);
 
 // Colours of curves and motions that stand beside each other; the first is `motion`, none is `contact`.
 Color series_color(const Palette& palette, std::size_t index);
+// For words in a colour: as it is where it stands out from the paper (contrast 3 : 1, WCAG 2.1 for large text), else
+// with as much ink as it takes.
+Color readable(const Palette& palette, Color color);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
 // Of a trace that fades to the metal's colour; ages >= 0 and half-lives > 0 in one unit.

@@ -91,6 +91,8 @@ Frame frame(int width, int height, bool beside) {
     return f;
 }
 
+void place_grid(Layout& out, const LayoutNode& node, const Box& box);
+
 // The children of a grid without those that would be too small to read, the last of them first: the others share
 // their room.
 std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, const Box& box) {
@@ -102,9 +104,11 @@ std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, cons
         double shares = 0;
         for (const LayoutNode& child : children) shares += child.share;
         const auto narrow = std::find_if(children.rbegin(), children.rend(), [&](const LayoutNode& child) {
-            if (child.kind != LayoutNode::Kind::panel) return false;
-            const Vec2 least = smallest(child.panel.kind);
-            return room * child.share / shares < (rows ? least.y : least.x) * unit;
+            const double size = room * child.share / shares;
+            Layout alone;
+            alone.unit = unit;
+            place_grid(alone, child, {0, 0, rows ? box.w : size, rows ? size : box.h});
+            return alone.panels.empty();
         });
         if (narrow == children.rend() || children.size() == 1) return children;
         children.erase(std::next(narrow).base());

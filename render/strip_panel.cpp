@@ -288,7 +288,8 @@ class StripPanel final : public ChartPanel {
         c.unit = unit_text(first, problem);
         for (std::size_t i = 0; i < spec.channels.size(); ++i) {
             std::string symbol = symbol_of(spec.channels[i]);
-            if (!single && facts.members() == 1) symbol = colored(symbol, curve_color(facts, spec.channels[i], i, 0));
+            if (!single && facts.members() == 1)
+                symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
             c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
             for (int m = 0; m < facts.members(); ++m) {
                 Curve curve = first.kind == ChannelKind::contact_x ? Curve{} : curve_of(facts, m, spec.channels[i]);
@@ -383,7 +384,8 @@ class CollisionPanel final : public Panel {
                                             : mix(p.paper, curve.color, 0.25);
             const std::string symbol = symbol_of(channel);
             if (!single) curve.label = symbol;
-            content_.symbol += fmt::format("{}{}", i > 0 ? ", " : "", single ? symbol : colored(symbol, curve.color));
+            content_.symbol +=
+                fmt::format("{}{}", i > 0 ? ", " : "", single ? symbol : colored(symbol, readable(p, curve.color)));
             curves_.push_back(std::move(curve));
         }
         content_.filled = single && is_force(first());

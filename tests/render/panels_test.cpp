@@ -499,6 +499,18 @@ TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
     for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, smallest(PanelKind::strip).y * l.unit - 1);
 }
 
+TEST(Layout, AGroupOfPanelsThatFindNoRoomLeavesItsOwn) {
+    using enum LayoutNode::Kind;
+    const LayoutNode wanted =
+        grid(columns, {leaf({.kind = PanelKind::mechanism}, 3),
+                       grid(rows, {leaf({.kind = PanelKind::energy}), leaf({.kind = PanelKind::phase})}, 1)});
+    const Layout large = layout(1920, 1080, wanted), small = layout(400, 400, wanted);
+    EXPECT_EQ(large.panels.size(), 3U);
+    ASSERT_EQ(small.panels.size(), 1U);
+    EXPECT_GT(small.panels[0].box.w, 0.85 * 400);
+    EXPECT_EQ(left_out(400, 400, wanted).size(), 2U);
+}
+
 TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
     using enum LayoutNode::Kind;
     const LayoutNode two = grid(columns, {leaf({.kind = PanelKind::mechanism}), leaf(strip(ChannelKind::theta))});
@@ -607,6 +619,22 @@ TEST(Colors, EightMotionsAreToldApartByEverybody) {
             for (std::size_t k = 0; k < i; ++k)
                 EXPECT_GT(seen_apart(series_color(palette(theme), i), series_color(palette(theme), k)), 15)
                     << i << " and " << k;
+}
+
+TEST(Colors, WordsStandOutFromThePaper) {
+    for (Theme theme : {Theme::light, Theme::dark, Theme::print}) {
+        const Palette& p = palette(theme);
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        const auto light = [&](Color c) {
+            return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b) + 0.05;
+        };
+        for (double share : {0.0, 0.2, 0.45, 0.7, 1.0}) {
+            const Color words = readable(p, mix(p.paper, p.motion, share));
+            EXPECT_GE(std::max(light(words), light(p.paper)) / std::min(light(words), light(p.paper)), 2.999) << share;
+        }
+        EXPECT_EQ(readable(p, p.ink).r, p.ink.r);
+        EXPECT_EQ(readable(p, p.contact).r, p.contact.r);  // strong enough as it is
+    }
 }
 
 TEST(Labels, SpeedsAreToldAsFractions) {
