@@ -89,8 +89,10 @@ double contrast(const Color& a, const Color& b) {
 
 Color readable(const Palette& palette, Color color) {
     constexpr double kLeast = 3;
-    for (double ink = 0; ink <= 1; ink += 0.05)
-        if (const Color mixed = mix(color, palette.ink, ink); contrast(mixed, palette.paper) >= kLeast) return mixed;
+    constexpr int kSteps = 20;
+    for (int k = 0; k < kSteps; ++k)
+        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps); contrast(mixed, palette.paper) >= kLeast)
+            return mixed;
     return palette.ink;
 }
 

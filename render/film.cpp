@@ -143,7 +143,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks,
                          std::array<double, 3> at) {
         const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
-        for (double i = 0; i < strip.w; ++i) {
+        for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
         }

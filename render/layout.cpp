@@ -178,7 +178,7 @@ void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sig
     std::vector<PanelSlot> slots;
     for (int i = 0; i < members; ++i) {
         const double x = box.x + (c.w + Cells::kAcross * u) * (i % c.columns),
-                     y = box.y + (c.h + Cells::kDown * u) * (i / c.columns);
+                     y = box.y + (c.h + Cells::kDown * u) * std::floor(static_cast<double>(i) / c.columns);
         slots.push_back({{.kind = PanelKind::mechanism, .member = i},
                          {std::round(x), std::round(y), std::max(1.0, c.w), std::max(1.0, c.h)}});
     }

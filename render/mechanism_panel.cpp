@@ -100,7 +100,10 @@ std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const
     };
     for (std::size_t at = 0; at < words.size() && lines.size() < kMost;) {
         const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
-        const std::string word = words.substr(at, end - at), longer = line.empty() ? word : line + " " + word;
+        const std::string word = words.substr(at, end - at);
+        std::string longer = line;
+        if (!line.empty()) longer += ' ';
+        longer += word;
         // The last line takes what is left; it is cut.
         const bool fits = lines.size() + 1 == kMost || canvas.measure(markup(longer), natural).w <= style.max_width;
         if (!fits && !line.empty()) end_line();
@@ -313,8 +316,8 @@ void MechanismPanel::note_path() {
             tips.push_back(
                 {motion().survey->time(k), px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5)});
     std::ranges::stable_sort(tips, {}, &Tip::t);
-    const auto again = std::ranges::unique(tips, {}, &Tip::t);
-    tips.erase(again.begin(), again.end());
+    tips.erase(std::unique(tips.begin(), tips.end(), [](const Tip& a, const Tip& b) { return a.t == b.t; }),
+               tips.end());
     std::vector<Vec2> all, inside;
     std::vector<double> times;
     for (const Tip& tip : tips) all.push_back(tip.at);
@@ -330,15 +333,16 @@ void MechanismPanel::note_path() {
 }
 
 void MechanismPanel::find_flashes() {
-    const auto frames = std::views::iota(0, facts_.frames());
-    const auto time = [&](int frame) { return facts_.at(member_, frame); };
+    std::vector<double> times;
+    for (int k = 0; k < facts_.frames(); ++k) times.push_back(facts_.at(member_, k));
     for (const sim::Impact& impact : motion().impacts) {
-        const auto at = std::ranges::lower_bound(frames, impact.t_start, {}, time);
-        if (at == frames.end() || (*at == 0 && time(0) > impact.t_start)) continue;
-        const DrawnBeam b = beam(*at);
+        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
+        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
+        const int at = static_cast<int>(first - times.begin());
+        const DrawnBeam b = beam(at);
         if (!b.contact) continue;
         flashes_.push_back(
-            {*at, std::atan2(b.contact->normal.y, b.contact->normal.x) - facts_.pose(member_, *at).cam_angle});
+            {at, std::atan2(b.contact->normal.y, b.contact->normal.x) - facts_.pose(member_, at).cam_angle});
     }
 }
 

@@ -140,7 +140,8 @@ std::vector<double> rows(double from, double to, double rate) {
     std::vector<double> times;
     const double first = std::ceil(from * rate), last = std::floor(to * rate);
     times.reserve(static_cast<std::size_t>(std::max(0.0, last - first)) + 2);
-    for (double k = first; k <= last; ++k) times.push_back(k / rate);
+    for (long k = 0; first + static_cast<double>(k) <= last; ++k)
+        times.push_back((first + static_cast<double>(k)) / rate);
     // k/rate and `to` may be one instant, written twice by rounding.
     if (!times.empty() && std::abs(times.back() - to) < 1e-9 / rate) times.back() = to;
     if (times.empty() || times.back() < to) times.push_back(to);

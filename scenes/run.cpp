@@ -250,8 +250,8 @@ class Runner {
     }
     static Kept keep_apart(sim::Request& request, std::size_t frames, std::size_t survey) {
         sim::PoseRequest &all = request.poses[frames], &some = request.poses[survey];
-        const Kept kept{std::make_shared<SpooledPoses>(all.times.size(), all.stations),
-                        std::make_shared<SurveyedPoses>(some.times.size(), some.contacts, some.stations)};
+        Kept kept{std::make_shared<SpooledPoses>(all.times.size(), all.stations),
+                  std::make_shared<SurveyedPoses>(some.times.size(), some.contacts, some.stations)};
         all.take = [to = kept.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
         some.take = [to = kept.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
         return kept;
@@ -413,7 +413,7 @@ class Runner {
         std::set<output::Codec> tried;
         for (const Pictures& p : plan_.pictures)
             if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
-                output::VideoWriter(path_of(p.file), video_options(p));
+                const output::VideoWriter trial(path_of(p.file), video_options(p));
                 work_.encoder_modules = 1;
                 ++work_.encoders;
             }

@@ -293,7 +293,7 @@ class Assessment {
 
     // As much of [0, until] as fits the time, at least a sixteenth.
     std::optional<Run> longest(const Problem& variant, double limit, AccuracyRow& row) {
-        for (double share = 1; share > 0.06; share /= 2) {
+        for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
             try {
                 Run run = simulate_until(variant, share * out_.until, limit, true);
                 out_.models_until = share * out_.until;

@@ -82,7 +82,7 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
         figure.title = en ? "One collision in close-up" : "一次碰撞的细部";
         Panel panel;
         panel.legend = Legend::box;
-        panel.x.label = en ? "($t$ − $t_{1}$) / ms" : "($t$ − $t_{1}$) / ms";
+        panel.x.label = "($t$ − $t_{1}$) / ms";
         panel.y.label = "$F$ / N";
         panel.right = Axis{.label = "$δ$ / µm"};
         depth.right = true;
@@ -348,7 +348,7 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         cam.title = en ? "on the cam" : "凸轮上";
         beam.x.label = cam.x.label = "$t$ / s";
         beam.y.label = "$x_{\\r{c}}$ / mm";
-        cam.y.label = en ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$/$R$ / °";
+        cam.y.label = "$s_{\\r{c}}$/$R$ / °";
         for (Panel* panel : {&beam, &cam}) {
             panel->x.from = 0;
             panel->x.to = end;
@@ -376,7 +376,7 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
 }
 
 std::optional<std::string> needs_force(const Scene& scene) {
-    if (const auto why = needs_cam(scene)) return why;
+    if (auto why = needs_cam(scene)) return why;
     if (scene.problem.contact.model == sim::ContactModel::compliant) return std::nullopt;
     return "contact by restitution has impulses but no force that lasts; set contact.model to \"compliant\"";
 }
