@@ -326,22 +326,41 @@ void Recorder::sweep(const std::vector<double>& times, Cursor& cursor, const Str
         const std::size_t row = cursor.order[cursor.next];
         const double t = times[row];
         if (s.last ? t > s.to : t >= s.to) return;
-        s.segment->value(std::max(t, s.from), y_.data());
-        eye_.look(t, y_.data());
-        eye_.system().search_again();
+        look(s, t);
         visit(row);
         ++cursor.next;
     }
 }
 
-void Recorder::sample(const Stretch& s) {
-    for (std::size_t i = 0; i < request_.tables.size(); ++i) {
-        const TableRequest& table = request_.tables[i];
-        sweep(table.times, table_cursors_[i], s, [&](std::size_t row) {
-            for (std::size_t c = 0; c < table.channels.size(); ++c)
-                result_.tables[i].values[c][row] = eye_.value(table.channels[c]);
-        });
+void Recorder::look(const Stretch& s, double t) {
+    s.segment->value(std::max(t, s.from), y_.data());
+    eye_.look(t, y_.data());
+    eye_.system().search_again();
+}
+
+// Charts and traces ask for the same instants: each is looked at once for all of them.
+void Recorder::sample_tables(const Stretch& s) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto next = [&](std::size_t i) {
+        const Cursor& cursor = table_cursors_[i];
+        return cursor.next < cursor.order.size() ? request_.tables[i].times[cursor.order[cursor.next]] : kNone;
+    };
+    for (;;) {
+        double t = kNone;
+        for (std::size_t i = 0; i < request_.tables.size(); ++i) t = std::min(t, next(i));
+        if (t == kNone || (s.last ? t > s.to : t >= s.to)) return;
+        look(s, t);
+        for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+            const std::vector<Channel>& channels = request_.tables[i].channels;
+            for (; next(i) == t; ++table_cursors_[i].next)
+                for (std::size_t c = 0; c < channels.size(); ++c)
+                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] = eye_.value(channels[c]);
+        }
     }
+}
+
+void Recorder::sample(const Stretch& s) {
+    sample_tables(s);
     for (std::size_t i = 0; i < request_.poses.size(); ++i) {
         const PoseRequest& poses = request_.poses[i];
         sweep(poses.times, pose_cursors_[i], s, [&](std::size_t row) {
@@ -374,9 +393,7 @@ void Recorder::contact_poses(const Stretch& s) {
         for (const double t : instants) {
             if (!(t >= std::max(s.from, from) && t <= std::min(s.to, to)) || contact_poses_[i] == poses.contacts)
                 continue;
-            s.segment->value(t, y_.data());
-            eye_.look(t, y_.data());
-            eye_.system().search_again();
+            look(s, t);
             if (poses.take)
                 poses.take(poses.times.size() + contact_poses_[i], eye_.pose(poses.stations));
             else

@@ -82,6 +82,8 @@ class Recorder {
         std::vector<std::size_t> order;  // indices of the times, ascending
         std::size_t next = 0;
     };
+    void look(const Stretch& s, double t);
+    void sample_tables(const Stretch& s);
     void sample(const Stretch& s);
     struct Turn {  // of the hub, and of the frame that the beam vibrates in
         double angle, rate, frame, frame_rate;

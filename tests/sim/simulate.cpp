@@ -2,6 +2,7 @@
 #include "sim/simulate.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -573,6 +574,29 @@ TEST_P(EveryMethod, ObservingNeverDisturbs) {
     expect_same_bits(plain, watched);
     EXPECT_EQ(plain.counters.steps, watched.counters.steps);
     EXPECT_EQ(plain.energy_residual_max, watched.energy_residual_max);
+}
+
+TEST_P(EveryMethod, TablesThatShareInstantsHoldWhatEachHoldsAlone) {
+    Problem p;
+    p.solver.method = GetParam();
+    const std::vector<Channel> channels = all_channels(p);
+    // Disordered, one instant twice, some of them the other's; within the first collision as well.
+    const TableRequest first{{0.31, 0.1, 0.2773, 0.2774, 0.1, 0.32, 0}, {channels.begin(), channels.begin() + 3}},
+        second{{0, 0.05, 0.1, 0.2773, 0.29, 0.32}, channels};
+    Request request;
+    for (const TableRequest& alone : {first, second}) {
+        request.tables = {first, second};
+        const Result both = simulate(p, request);
+        request.tables = {alone};
+        const Result one = simulate(p, request);
+        const Table &expected = one.tables[0], &shared = both.tables[alone.times.size() == first.times.size() ? 0 : 1];
+        ASSERT_EQ(shared.channels, expected.channels);
+        for (std::size_t c = 0; c < expected.values.size(); ++c)
+            for (std::size_t row = 0; row < alone.times.size(); ++row)
+                EXPECT_EQ(std::bit_cast<std::uint64_t>(shared.values[c][row]),
+                          std::bit_cast<std::uint64_t>(expected.values[c][row]))
+                    << c << " at " << alone.times[row];
+    }
 }
 
 TEST_P(EveryMethod, AShorterRunIsAPrefixOfALongerOne) {
