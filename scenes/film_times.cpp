@@ -54,10 +54,24 @@ FilmTimes real_time(const FrameSpan& span, double to) {
 // Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
 FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, std::vector<double>& fine) {
     TimeMap map(span.from, to, span.speed, motion.impacts);
-    std::vector<double> instants;
+    FilmTimes out;
+    struct Shown {
+        const FilmEvent* event;
+        double t;
+    };
+    std::vector<Shown> shown;
     for (const FilmEvent& event : span.events) {
-        instants.push_back(instant_of(event.at, motion));
-        if (event.freeze > 0) map.freeze(instants.back(), event.freeze);
+        if (span.to && !happens(event.at, motion)) {
+            out.unshown.push_back(name_of(event.at));
+            continue;
+        }
+        const double t = instant_of(event.at, motion);
+        if (t < span.from || t > to) {
+            if (event.at.kind != Instant::Kind::time) out.unshown.push_back(name_of(event.at));
+            continue;
+        }
+        shown.push_back({&event, t});
+        if (event.freeze > 0) map.freeze(t, event.freeze);
     }
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
     if (count > kMostFrames)
@@ -67,7 +81,6 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
                         "a second",
                         count, kMostFrames));
     if (!(count >= 1)) throw render::PictureError("the film has no frame at that speed; lower it, or raise \"fps\"");
-    FilmTimes out;
     const int steps = std::clamp(static_cast<int>(kFinePoints / count), 1, kFineSteps);
     double previous = span.from;
     for (long k = 0; k < static_cast<long>(count); ++k) {
@@ -79,15 +92,15 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
     }
-    for (std::size_t i = 0; i < instants.size(); ++i) {
-        const FilmEvent& event = span.events[i];
-        if (event.text.empty()) continue;
-        double from = map.film_time(instants[i]);  // one after the other where several are of one instant
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto& [event, t] = shown[i];
+        if (event->text.empty()) continue;
+        double from = map.film_time(t);  // one after the other where several are of one instant
         for (std::size_t j = 0; j < i; ++j)
-            if (instants[j] == instants[i]) from += span.events[j].freeze;
+            if (shown[j].t == t) from += shown[j].event->freeze;
         const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
-                  last = static_cast<int>(std::floor((from + std::max(event.show, event.freeze)) * fps + 1e-6));
-        out.callouts.push_back({first, last, event.text});
+                  last = static_cast<int>(std::floor((from + std::max(event->show, event->freeze)) * fps + 1e-6));
+        out.callouts.push_back({first, last, event->text});
     }
     return out;
 }
@@ -152,7 +165,10 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, fine);
-    if (span.poster) out.poster = first_at(out.frames, instant_of(*span.poster, motion));
+    if (span.poster && span.to && !happens(*span.poster, motion))
+        out.unshown.push_back(name_of(*span.poster) + ", its poster");
+    else if (span.poster)
+        out.poster = first_at(out.frames, instant_of(*span.poster, motion));
     out.chart = rows(span.from, to, chart_rate(to - span.from));
     out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
     if (!fine.empty()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/film.hpp"
@@ -16,6 +17,7 @@ struct FilmTimes {
     long first = 0;              // number of the first frame
     std::vector<double> speeds;  // of each frame; empty in real time
     std::vector<render::Callout> callouts;
+    std::vector<std::string> unshown;  // events that the film does not reach or begins after: "impact 3"
     std::optional<int> poster;         // index into frames
     std::vector<double> chart, trace;  // rows [s], increasing
     // Evenly over the time that is shown, whatever the frames: what scales are chosen by [s].
@@ -23,7 +25,7 @@ struct FilmTimes {
 };
 
 // `motion` has the impacts and collisions until the span's end where the span looks at them; else it may be empty.
-// Throws render::PictureError for an impact that does not exist and for a film of too many frames.
+// Throws render::PictureError for an impact that the whole motion does not have and for a film of too many frames.
 // `collisions`: the charts get more rows within each of the motion's.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
 // `until`: how far the motion goes that gives the still its scales [s].

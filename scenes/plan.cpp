@@ -47,6 +47,7 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     choose_frames(p, static_cast<long>(times.frames.size()));
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
+    p.unshown.insert(p.unshown.end(), times.unshown.begin(), times.unshown.end());
     p.poster = times.poster;
     for (ComparedMotion& other : p.compared) {
         other.request.poses.front().times = times.frames;
@@ -490,7 +491,14 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
         std::ranges::stable_sort(all.impacts, {}, &sim::Impact::t_start);
         FrameSpan span = p.span;
         const auto fix = [&](Instant& at) { at = {.kind = Instant::Kind::time, .t = instant_of(at, first)}; };
+        const auto reached = [&](const Instant& at, const char* what) {
+            const bool there = !span.to || happens(at, first);
+            if (!there) p.unshown.push_back(name_of(at) + what);
+            return there;
+        };
+        std::erase_if(span.events, [&](const FilmEvent& event) { return !reached(event.at, ""); });
         for (FilmEvent& event : span.events) fix(event.at);
+        if (span.poster && !reached(*span.poster, ", its poster")) span.poster.reset();
         if (span.poster) fix(*span.poster);
         sim::Request none;
         if (p.kind == Pictures::Kind::still)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "render/error.hpp"
 
@@ -147,6 +148,24 @@ double TimeMap::film_time(double t) const {
     for (const Freeze& f : freezes_)
         if (f.t < t) film += f.seconds;
     return film;
+}
+
+bool happens(const Instant& instant, const sim::Result& motion) {
+    const auto has = [&](const auto& all) { return instant.number >= 1 && std::cmp_less_equal(instant.number, all.size()); };
+    return instant.kind == Instant::Kind::time ||
+           (instant.kind == Instant::Kind::impact ? has(motion.impacts) : has(motion.collisions));
+}
+
+std::string name_of(const Instant& instant) {
+    switch (instant.kind) {
+        case Instant::Kind::time:
+            break;
+        case Instant::Kind::impact:
+            return fmt::format("impact {}", instant.number);
+        case Instant::Kind::collision:
+            return fmt::format("collision {}", instant.number);
+    }
+    return fmt::format("{:g} s", instant.t);
 }
 
 double instant_of(const Instant& instant, const sim::Result& motion) {

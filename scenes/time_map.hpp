@@ -49,6 +49,10 @@ class TimeMap {
     double length_ = 0;  // freezes apart [s]
 };
 
+// Whether the motion has the impact or collision; times are always there.
+bool happens(const Instant& instant, const sim::Result& motion);
+// "impact 3", "collision 1", "0.5 s"
+std::string name_of(const Instant& instant);
 // The instant that a scene names: a time, or the touch of an impact or collision, counted from 1. Throws
 // render::PictureError with the count in words when there are not so many.
 double instant_of(const Instant& instant, const sim::Result& motion);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "render/exaggeration.hpp"
 #include "scenes/film_times.hpp"
@@ -114,6 +115,32 @@ TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
     const Finished none = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:99");
     EXPECT_EQ(none.code, 3);
     EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
+}
+
+// The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
+TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 1}, "outputs": [{"type": "video", "file": "f.mp4", "size": [320, 180],
+        "fps": 20, "poster": "impact:4", "view": {"style": "flat"},
+        "events": [{"at": "impact:1", "freeze": 0.2}, {"at": "collision:2", "freeze": 0.4, "text": "again"}]}]})");
+    const auto run = [&](const char* more) {
+        const Finished finished = shell(folder, fmt::format("rm -f f.*; $BEAMCAM run s.json {}", more));
+        EXPECT_EQ(finished.code, 0) << finished.err;
+        return finished.err;
+    };
+    const std::string whole = run("");
+    EXPECT_THAT(whole, ::testing::AllOf(HasSubstr("32 frames"), ::testing::Not(HasSubstr("warning"))));
+    EXPECT_TRUE(std::filesystem::exists(folder / "f.png"));
+    const std::string early = run("--set outputs.0.to=0.5");
+    EXPECT_THAT(early, ::testing::AllOf(HasSubstr("14 frames"), HasSubstr("does not show collision 2 or impact 4, its poster")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "f.png"));
+    const std::string late = run("--set outputs.0.from=0.5 --set outputs.0.to=1");
+    EXPECT_THAT(late, ::testing::AllOf(HasSubstr("18 frames"), HasSubstr("does not show impact 1:")));
+    const std::string compared =
+        run(R"(--set outputs.0.to=0.5 --set 'outputs.0.compare=[{"label":"a"},{"label":"b","set":{"cam.speed":5}}]')");
+    EXPECT_THAT(compared, HasSubstr("does not show collision 2 or impact 4, its poster"));
+    // The whole motion without such an impact is a mistake.
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --set 'outputs.0.events.0.at=\"impact:99\"'").code, 3);
 }
 
 TEST(Films, ScenesOfTheCommandLineAreCompared) {
