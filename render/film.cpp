@@ -116,13 +116,8 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     const FilmSetup& setup = *facts.setup;
     const Layout& places = facts.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        TextStyle style = title_style(u, facts.palette->ink);
-        // A long title becomes smaller, down to two thirds; then it is cut.
         const std::string title = escape(canvas.drawable(setup.title));
-        const double natural = canvas.measure(title, style).w;
-        if (natural > b->w) style.size *= std::max(2.0 / 3, 0.999 * b->w / natural);
-        style.max_width = b->w;
-        canvas.text({b->x, b->y + 38 * u}, title, style);
+        canvas.text({b->x, b->y + 38 * u}, title, fitted_title(canvas, title, *b, u, facts.palette->ink).style);
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);

@@ -66,7 +66,8 @@ enum class Arrangement { alone, column, row, stack };
 // width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
 // with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable:
 // where that leaves the mechanisms the larger scale for their `sight`. Room that they do not need goes to the panels.
-// The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a motion.
+// The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a
+// motion.
 Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {});
 // One of them; none where the picture is too small for it.
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,

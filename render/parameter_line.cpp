@@ -35,6 +35,16 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
 
 TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
 
+FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
+    constexpr double kSmallest = 2.0 / 3;
+    FittedTitle out{.style = title_style(u, color)};
+    const double natural = canvas.measure(title, out.style).w;
+    if (natural > box.w) out.style.size *= std::max(kSmallest, 0.999 * box.w / natural);
+    out.style.max_width = box.w;
+    out.cut = kSmallest * natural > box.w;
+    return out;
+}
+
 ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::string& title,
                              const std::vector<std::string>& pieces) {
     ParameterLine out;
@@ -93,10 +103,14 @@ std::vector<std::string> without_room(int width, int height, const std::optional
         grid ? layout(width, height, *grid) : layout(width, height, std::vector<PanelSpec>{}, members);
     std::vector<std::string> out;
     std::vector<std::string> missing = common_pieces(problems);
-    if (places.parameters) {
+    if (!title.empty() && !places.title) out.emplace_back("the title");
+    if (places.parameters || (places.title && !title.empty())) {
         const Fonts fonts(needs_cjk(title));
         Image scratch(1, 1);
         Canvas canvas(scratch, fonts);
+        if (places.title && !title.empty() &&
+            fitted_title(canvas, escape(canvas.drawable(title)), *places.title, places.unit).cut)
+            out.emplace_back("the end of the title");
         missing = parameter_line(canvas, places, title, missing).without_room;
     }
     for (const std::string& piece : missing) out.push_back(plain(piece));

@@ -29,10 +29,16 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
 
 // The title as it is drawn at full size.
 TextStyle title_style(double unit, Color color = {});
+// A long title (markup) becomes smaller, down to two thirds; then it is cut where the box ends.
+struct FittedTitle {
+    TextStyle style;
+    bool cut = false;
+};
+FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double unit, Color color = {});
 
 // What of these a picture of this size, with this layout or the standard one of `members` mechanisms, has no room for,
-// in plain words:
-// parameters, then "colour scales". Loads fonts, unless there is no room for any parameter. Throws FontError.
+// in plain words: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no
+// room for title and parameters. Throws FontError.
 std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& layout, int members,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems);
 

@@ -287,7 +287,8 @@ void read_figure_name(const OutputContext& context, Fields& f, std::string& out)
     const Node* node = f.require("figure", "\"free-fall\"");
     if (!node) return;
     if (node->kind != Node::Kind::string)
-        return f.fail(*node, "figure", fmt::format("{} must be a figure's name in quotes, not {}", f.path("figure"), shown(*node)));
+        return f.fail(*node, "figure",
+                      fmt::format("{} must be a figure's name in quotes, not {}", f.path("figure"), shown(*node)));
     const Recipe* recipe = recipe_named(node->text);
     if (!recipe) {
         std::vector<std::string> known;
@@ -319,16 +320,18 @@ FigureOutput read_figure(const OutputContext& context, Fields& f) {
     double width = 0;
     if (const Node* node = f.take("width"); node && f.value(*node, "width", dim::kLength, width)) {
         if (!(width >= kNarrowestFigure && width <= kWidestFigure))
-            f.fail(*node, "width",
-                   fmt::format("{} = {} is outside {:g} … {:g} mm; a plain number is in metres, \"90 mm\" says its unit",
-                               f.path("width"), shown(*node), kNarrowestFigure * 1e3, kWidestFigure * 1e3));
+            f.fail(
+                *node, "width",
+                fmt::format("{} = {} is outside {:g} … {:g} mm; a plain number is in metres, \"90 mm\" says its unit",
+                            f.path("width"), shown(*node), kNarrowestFigure * 1e3, kWidestFigure * 1e3));
         else
             figure.width = width;
     }
     if (const Node* node = f.take("dpi")) {
         if (node->kind != Node::Kind::number || !(node->number >= kCoarsest && node->number <= kFinest))
             f.fail(*node, "dpi",
-                   fmt::format("{} = {} must be a number in {:g} … {:g}", f.path("dpi"), shown(*node), kCoarsest, kFinest));
+                   fmt::format("{} = {} must be a number in {:g} … {:g}", f.path("dpi"), shown(*node), kCoarsest,
+                               kFinest));
         else
             figure.dpi = node->number;
     }

@@ -94,7 +94,7 @@ struct Pictures {
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<std::string> unshown;  // events of a film that it does not reach: "impact 3"
-    std::string too_small;  // names of the wanted panels that do not fit: "phase, energy"
+    std::string too_small;             // names of the wanted panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
     std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
     // Of the one simulation, unless the picture compares motions:

@@ -578,8 +578,7 @@ class Runner {
         if (!p.too_small.empty() && !capture_ && !options_.quiet)
             output::tell("warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
         if (!p.unshown.empty() && !capture_ && !options_.quiet)
-            output::tell("warning: {} does not show {}: not within the film\n", p.file,
-                         fmt::join(p.unshown, " or "));
+            output::tell("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
         if (options_.verbose && !capture_ && !options_.quiet)
             if (const std::string what = unwritten(p, scene_); !what.empty())
                 output::tell("warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));

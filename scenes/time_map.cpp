@@ -151,7 +151,9 @@ double TimeMap::film_time(double t) const {
 }
 
 bool happens(const Instant& instant, const sim::Result& motion) {
-    const auto has = [&](const auto& all) { return instant.number >= 1 && std::cmp_less_equal(instant.number, all.size()); };
+    const auto has = [&](const auto& all) {
+        return instant.number >= 1 && std::cmp_less_equal(instant.number, all.size());
+    };
     return instant.kind == Instant::Kind::time ||
            (instant.kind == Instant::Kind::impact ? has(motion.impacts) : has(motion.collisions));
 }

@@ -1,6 +1,6 @@
-// Eight numbers side by side, one for each node of a collocation step. Written with the compiler's vector types, in parts
-// as wide as every machine's registers (wider vector types are taken apart through memory): every lane sees the same
-// operations in the same order, so results have the same bits with two, four or eight lanes an instruction.
+// Eight numbers side by side, one for each node of a collocation step. Written with the compiler's vector types, in
+// parts as wide as every machine's registers (wider vector types are taken apart through memory): every lane sees the
+// same operations in the same order, so results have the same bits with two, four or eight lanes an instruction.
 #pragma once
 
 #include <cmath>
@@ -21,20 +21,20 @@ struct Lanes {
 };
 
 // Lane by lane; a number stands for eight of it.
-#define BEAMCAM_LANES_OPERATOR(op)                                                            \
-    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, const Lanes& b) {                          \
-        for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = a.part[i] op b.part[i];           \
-        return a;                                                                             \
-    }                                                                                         \
-    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, double b) {                                \
-        for (Lanes::Part& part : a.part) part = part op b;                                    \
-        return a;                                                                             \
-    }                                                                                         \
-    BEAMCAM_INLINE Lanes operator op(Lanes a, const Lanes& b) { return a op##= b; }           \
-    BEAMCAM_INLINE Lanes operator op(Lanes a, double b) { return a op##= b; }                 \
-    BEAMCAM_INLINE Lanes operator op(double a, Lanes b) {                                     \
-        for (Lanes::Part& part : b.part) part = a op part;                                    \
-        return b;                                                                             \
+#define BEAMCAM_LANES_OPERATOR(op)                                                   \
+    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, const Lanes& b) {                 \
+        for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = a.part[i] op b.part[i];  \
+        return a;                                                                    \
+    }                                                                                \
+    BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, double b) {                       \
+        for (Lanes::Part & part : a.part) part = part op b;                          \
+        return a;                                                                    \
+    }                                                                                \
+    BEAMCAM_INLINE Lanes operator op(Lanes a, const Lanes& b) { return a op## = b; } \
+    BEAMCAM_INLINE Lanes operator op(Lanes a, double b) { return a op## = b; }       \
+    BEAMCAM_INLINE Lanes operator op(double a, Lanes b) {                            \
+        for (Lanes::Part & part : b.part) part = a op part;                          \
+        return b;                                                                    \
     }
 BEAMCAM_LANES_OPERATOR(+)
 BEAMCAM_LANES_OPERATOR(-)
@@ -47,9 +47,7 @@ BEAMCAM_INLINE Lanes operator-(Lanes a) {
 }
 
 BEAMCAM_INLINE void spread(double value, Lanes& out) { out = Lanes{} + value; }
-BEAMCAM_INLINE double sum(const Lanes& a) {
-    return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
-}
+BEAMCAM_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 BEAMCAM_INLINE double largest(const Lanes& a) {
     double m = 0;
     for (int k = 0; k < kNodes; ++k) m = a[k] > m ? a[k] : (-a[k] > m ? -a[k] : m);

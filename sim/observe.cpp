@@ -354,7 +354,8 @@ void Recorder::sample_tables(const Stretch& s) {
             const std::vector<Channel>& channels = request_.tables[i].channels;
             for (; next(i) == t; ++table_cursors_[i].next)
                 for (std::size_t c = 0; c < channels.size(); ++c)
-                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] = eye_.value(channels[c]);
+                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] =
+                        eye_.value(channels[c]);
         }
     }
 }

@@ -28,7 +28,7 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time, const std:
     const auto index = static_cast<std::size_t>(known - keys_.begin());
     if (known == keys_.end()) {
         keys_.push_back(wanted);
-        all_.push_back({.problem = problem, .request = {}});
+        all_.push_back({.problem = problem, .request = {}, .because = {}});
         all_.back().request.turning_points = false;
     }
     Study& study = all_[index];

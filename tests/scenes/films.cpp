@@ -132,7 +132,8 @@ TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
     EXPECT_THAT(whole, ::testing::AllOf(HasSubstr("32 frames"), ::testing::Not(HasSubstr("warning"))));
     EXPECT_TRUE(std::filesystem::exists(folder / "f.png"));
     const std::string early = run("--set outputs.0.to=0.5");
-    EXPECT_THAT(early, ::testing::AllOf(HasSubstr("14 frames"), HasSubstr("does not show collision 2 or impact 4, its poster")));
+    EXPECT_THAT(early, ::testing::AllOf(HasSubstr("14 frames"),
+                                        HasSubstr("does not show collision 2 or impact 4, its poster")));
     EXPECT_FALSE(std::filesystem::exists(folder / "f.png"));
     const std::string late = run("--set outputs.0.from=0.5 --set outputs.0.to=1");
     EXPECT_THAT(late, ::testing::AllOf(HasSubstr("18 frames"), HasSubstr("does not show impact 1:")));

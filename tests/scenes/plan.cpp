@@ -95,7 +95,7 @@ TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
 TEST(Plan, OneSimulationServesEveryOutput) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
-    EXPECT_EQ(p.simulation->request.poses.size(), 4U);  // of each its frames, and what its scales are chosen by
+    EXPECT_EQ(p.simulation->request.poses.size(), 4U);   // of each its frames, and what its scales are chosen by
     EXPECT_EQ(p.simulation->request.tables.size(), 5u);  // chart and trace of each picture, and the table
     EXPECT_NE(p.pictures[0].poses, p.pictures[1].poses);
 }

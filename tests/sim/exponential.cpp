@@ -379,7 +379,7 @@ TEST(ExponentialContact, WhatItDoesNotCoverStepsOverStrongDampingToo) {
     lean([](Problem& p) { p.beam.model = ModelKind::second_order; });
     lean([](Problem& p) { p.beam.model = ModelKind::exact; });
     lean([](Problem& p) { p.beam.basis = Basis::cantilever; });
-    lean([](Problem& p) { p.contact.friction = StickSlipFriction{0.3}; });
+    lean([](Problem& p) { p.contact.friction = StickSlipFriction{0.3, {}, {}, {}}; });
 }
 
 // A valid scene of any kind that the method covers in contact too.
