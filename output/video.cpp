@@ -25,6 +25,7 @@ namespace {
 
 // ---- options -----------------------------------------------------------------------------------
 
+constexpr double kLongestHold = 5;  // [s]
 constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
                                  "medium",    "slow",      "slower",   "veryslow", "placebo"};
 std::string presets_in_words() {
@@ -243,7 +244,13 @@ struct VideoWriter::Impl {
     std::condition_variable changed;
     std::deque<Slot> slots;
     Slot* latest = nullptr;  // queued last; kept for `repeat`
-    std::deque<Slot*> queue;
+    struct Shown {
+        Slot* slot;
+        bool again;  // the picture before, once more
+    };
+    std::deque<Shown> queue;
+    long waiting = 0;  // of the worker: times that the picture coded last is to be shown again
+    long longest_hold = 0;
     bool closing = false;    // nothing more will come
     bool abandoned = false;  // and what waits is dropped
     std::exception_ptr failure;
@@ -262,8 +269,20 @@ struct VideoWriter::Impl {
     }
 
     void open() {
-        const Recipe recipe = recipe_of(options, file.target().extension().string());
+        Recipe recipe = recipe_of(options, file.target().extension().string());
         layout = recipe.layout;
+        const FrameRate fps = frame_rate(options.fps);
+        if (options.variable_rate) {
+            longest_hold = std::lround(kLongestHold * options.fps);
+            // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
+            if (options.codec == Codec::h264) recipe.encoder_options.emplace_back("bf", "0");
+            // Else their last picture would last as long as the one before.
+            if (options.codec == Codec::gif)
+                recipe.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / options.fps)));
+            if (options.codec == Codec::apng)
+                recipe.container_options.emplace_back("final_delay",
+                                                      std::to_string(fps.base) + "/" + std::to_string(fps.rate));
+        }
         std::vector<const char*> metadata, encoders, encoder_options, container_options;
         for (const auto& [key, value] : options.metadata) metadata.insert(metadata.end(), {key.c_str(), value.c_str()});
         for (const auto& [key, value] : recipe.encoder_options)
@@ -275,7 +294,6 @@ struct VideoWriter::Impl {
         std::vector<std::uint32_t> colors = options.palette;
         if (!colors.empty()) table.emplace(colors);
         colors.resize(256, 0xff000000U);
-        const FrameRate fps = frame_rate(options.fps);
         const std::string path = file.temporary_path().string();
         const BeamcamVideoSettings settings = {path.c_str(),
                                                options.width,
@@ -339,22 +357,43 @@ struct VideoWriter::Impl {
             changed.wait(lock, [this] { return closing || !queue.empty(); });
             cost.idle_seconds += seconds_since(idle);
             if (abandoned || queue.empty()) return;
-            Slot* slot = queue.front();
-            lock.unlock();
-            const Clock::time_point start = Clock::now();
-            BeamcamVideoError error = {};
-            const BeamcamVideoStatus status = module.encode(session, slot->frame, &error);
-            const double spent = seconds_since(start);
-            lock.lock();
+            const auto [slot, again] = queue.front();
+            if (again && waiting + 1 < longest_hold) {
+                ++waiting;
+                ++cost.held;
+            } else {
+                encode(*slot, lock);
+            }
             queue.pop_front();
             --slot->uses;
-            cost.encode_seconds += spent;
-            if (status == beamcam_video_ok)
-                ++cost.frames;
-            else
-                give_up(status, error);
             changed.notify_all();
         }
+    }
+
+    // After what waits to be shown again has had its time.
+    void encode(Slot& slot, std::unique_lock<std::mutex>& lock) {
+        if (waiting > 0) module.hold(session, std::exchange(waiting, 0));
+        lock.unlock();
+        const Clock::time_point start = Clock::now();
+        BeamcamVideoError error = {};
+        const BeamcamVideoStatus status = module.encode(session, slot.frame, &error);
+        const double spent = seconds_since(start);
+        lock.lock();
+        cost.encode_seconds += spent;
+        if (status == beamcam_video_ok)
+            ++cost.frames;
+        else
+            give_up(status, error);
+    }
+
+    // A film that ends with a picture held ends with its last frame, so that it lasts as long as it should. After
+    // `stop`.
+    void end_hold() {
+        if (failure || waiting == 0) return;
+        --waiting;
+        --cost.held;
+        std::unique_lock lock(mutex);
+        encode(*latest, lock);
     }
 
     // Leaves the reason where the next `write` or `finish` finds it, and ends `work`.
@@ -426,10 +465,10 @@ struct VideoWriter::Impl {
         }
     }
 
-    void enqueue(Slot& slot) {
+    void enqueue(Slot& slot, bool again = false) {
         std::unique_lock lock(mutex);
         wait_until(lock, [this] { return queue.size() < kLongestQueue; });
-        queue.push_back(&slot);
+        queue.push_back({&slot, again});
         ++slot.uses;
         if (latest != &slot) {
             if (latest != nullptr) --latest->uses;
@@ -471,7 +510,7 @@ void VideoWriter::write(const render::Image& image) {
 
 void VideoWriter::repeat() {
     if (impl_->latest == nullptr) throw std::logic_error("VideoWriter: nothing to repeat");
-    impl_->enqueue(*impl_->latest);
+    impl_->enqueue(*impl_->latest, true);
 }
 
 VideoInput::VideoInput(VideoWriter& film) : film_(*film.impl_), slots_(film_.more_slots()) {}
@@ -491,6 +530,7 @@ void VideoInput::send() {
 void VideoWriter::finish() {
     if (impl_->latest == nullptr) throw std::logic_error("VideoWriter: a film needs at least one picture");
     impl_->stop(false);
+    impl_->end_hold();
     if (impl_->failure) std::rethrow_exception(impl_->failure);
     const Clock::time_point start = Clock::now();
     BeamcamVideoError error = {};

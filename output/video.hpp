@@ -41,6 +41,9 @@ struct VideoOptions {
     std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours, as PaletteMaker finds them
     int threads = 4;  // 1…4 of the encoder. Beyond 4 its bits depend on the number, and the default is
                       // the same on every machine for that reason.
+    // Variable frame rate: a picture that is repeated is coded once and shown longer, for up to 5 s; then, and at the
+    // film's end, it is coded again.
+    bool variable_rate = false;
     std::map<std::string, std::string> metadata;
 };
 // Everything about these options that a film cannot do, in words with the alternative. `ending` with the dot.
@@ -49,6 +52,7 @@ std::vector<std::string> problems(const VideoOptions& options, std::string_view 
 // What a film has cost so far, for progress lines and -v.
 struct VideoStatistics {
     long frames = 0;             // encoded
+    long held = 0;               // shown by the one before, which lasts longer
     double convert_seconds = 0;  // picture to film colours, summed over the threads that draw
     double encode_seconds = 0;   // inside the encoder, in the writer's thread
     double wait_seconds = 0;     // for the encoder, summed over the threads that draw
@@ -67,7 +71,8 @@ class VideoWriter {
     // The next picture; waits when the encoder is a few pictures behind. Transparent pixels show over black
     // unless the film is transparent itself.
     void write(const render::Image& image);
-    // The picture before, once more, without drawing or converting it again. Not the first.
+    // The picture before, once more, without drawing or converting it again; with a variable rate without encoding it
+    // either. Not the first.
     void repeat();
     // Encodes what is left and puts the film in its place.
     void finish();

@@ -54,6 +54,8 @@ struct BeamcamVideoModule {
     BeamcamVideoFrame* (*make_frame)(BeamcamVideoSession*);
     // Adds the frame to the film; the caller may change it again as soon as this returns.
     BeamcamVideoStatus (*encode)(BeamcamVideoSession*, BeamcamVideoFrame*, BeamcamVideoError*);
+    // The frame added last is shown for so many frames' time more.
+    void (*hold)(BeamcamVideoSession*, std::int64_t frames);
     BeamcamVideoStatus (*finish)(BeamcamVideoSession*, BeamcamVideoError*);
     void (*close)(BeamcamVideoSession*);  // finished or not
     // One film out of several, packets as they are. `segments`: file names, null. `file` exists; it is overwritten.
@@ -66,4 +68,4 @@ struct BeamcamVideoModule {
 const BeamcamVideoModule* beamcam_video_module();
 }
 
-constexpr int kBeamcamVideoModuleVersion = 3;
+constexpr int kBeamcamVideoModuleVersion = 4;

@@ -180,6 +180,7 @@ Json output_json(const Output& any) {
             out["codec"] = output::name(v.encoding.codec);
             if (v.encoding.crf) out["crf"] = *v.encoding.crf;
             if (v.encoding.codec == output::Codec::h264) out["preset"] = v.encoding.preset;
+            if (v.encoding.variable_rate) out["rate_mode"] = "variable";
             return out;
         }
         Json operator()(const FramesOutput& f) const {
@@ -290,6 +291,7 @@ std::string to_json(const Plan& plan, const Scene& scene) {
             stage["codec"] = output::name(p.encoding.codec);
             if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
             if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
+            if (p.encoding.variable_rate) stage["rate_mode"] = "variable";
             if (!p.poster_file.empty()) stage["poster"] = p.poster_file;
         }
         put_cost(stage, p.cost, "bytes");

@@ -236,6 +236,7 @@ void read_encoding(Fields& f, VideoOutput& video) {
                         {"veryslow", "veryslow"}},
                        chosen))
         encoding.preset = chosen;
+    f.choice<bool>("rate_mode", {{"constant", false}, {"variable", true}}, encoding.variable_rate);
     if (!encoding.crf)
         if (const auto quality = output::quality_scale(encoding.codec)) encoding.crf = quality->usual;
 }

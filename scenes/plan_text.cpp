@@ -37,6 +37,7 @@ std::string encoding_words(const Encoding& encoding) {
     std::string words = output::title(encoding.codec);
     if (encoding.crf) words += fmt::format(", crf {}", *encoding.crf);
     if (encoding.codec == output::Codec::h264) words += ", " + encoding.preset;
+    if (encoding.variable_rate) words += ", variable frame rate";
     return words;
 }
 

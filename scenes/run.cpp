@@ -374,7 +374,10 @@ class Runner {
                                                   {"beamcam-scene", to_json(scene_)},
                                                   {"beamcam-version", std::string(kVersion)},
                                                   {"beamcam-accuracy", accuracy_note(p)}};
-        if (!p.part.empty()) all["beamcam-frames"] = p.part;
+        if (!p.part.empty())
+            all["beamcam-frames"] = p.part;
+        else if (p.encoding.variable_rate)
+            all["beamcam-rate-mode"] = "variable";
         if (!scene_.title.empty()) all["title"] = scene_.title;
         return all;
     }
@@ -404,6 +407,7 @@ class Runner {
         video.transparent = p.picture.view.transparent;
         video.crf = p.encoding.crf;
         video.preset = p.encoding.preset;
+        video.variable_rate = p.encoding.variable_rate && p.part.empty();
         if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
         return video;
     }
@@ -637,7 +641,7 @@ class Runner {
                     gate.pass(k, [&] {
                         video->repeat();
                         ++work_.frames_repeated;
-                        progress_.reach(static_cast<double>(video->statistics().frames));
+                        progress_.reach(written(*video));
                     });
                     return;
                 }
@@ -655,7 +659,7 @@ class Runner {
                 input->convert(image, own->changed());
                 gate.pass(k, [&] {
                     input->send();
-                    progress_.reach(static_cast<double>(video->statistics().frames));
+                    progress_.reach(written(*video));
                 });
             };
         };
@@ -668,6 +672,11 @@ class Runner {
         finish(p, video.get(), count);
         if (!capture_)
             note(picture_work(p, thread_count(options_.threads)), static_cast<double>(count), begun, made_of(p));
+    }
+
+    static double written(const output::VideoWriter& video) {
+        const output::VideoStatistics now = video.statistics();
+        return static_cast<double>(now.frames + now.held);
     }
 
     // An encoder has its own threads; few have to draw to keep it busy.

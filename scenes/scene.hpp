@@ -34,6 +34,7 @@ struct Encoding {
     output::Codec codec = output::Codec::h264;
     std::optional<int> crf;           // 0 (best) …; absent: the codec's usual one, or it has none
     std::string preset = "veryfast";  // of x264
+    bool variable_rate = false;       // pictures that do not change are coded once and last longer
 };
 
 // An instant of the motion: a time, or the first touch of an impact or a collision, counted from 1.

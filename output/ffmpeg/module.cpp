@@ -257,6 +257,8 @@ BeamcamVideoStatus encode(BeamcamVideoSession* session, BeamcamVideoFrame* frame
     return status;
 }
 
+void hold(BeamcamVideoSession* session, std::int64_t frames) noexcept { session->next_frame += frames; }
+
 BeamcamVideoStatus finish(BeamcamVideoSession* session, BeamcamVideoError* error) noexcept {
     int code = avcodec_send_frame(session->codec, nullptr);
     if (code < 0) return fail(error, "encoding", code);
@@ -317,6 +319,10 @@ BeamcamVideoStatus open_segment(const char* name, Segment& segment, BeamcamVideo
                       segment.name +
                           " is not one of beamcam's films: it should hold one "
                           "stream of pictures and nothing else");
+    if (segment.tag("beamcam-rate-mode") == "variable")
+        return refuse(
+            error, beamcam_video_differs,
+            segment.name + " has a variable frame rate; parts of a film (--shard) keep every frame and can be joined");
     const std::string part = segment.tag("beamcam-frames");
     segment.numbered = std::sscanf(part.c_str(), "%ld:%ld of %ld:%ld", &segment.first, &segment.end,
                                    &segment.begin_of_all, &segment.end_of_all) == 4;
@@ -449,7 +455,8 @@ BeamcamVideoStatus concat(const char* const* names, const char* file, const char
     return fail(error, "joining films", AVERROR(ENOMEM));
 }
 
-constexpr BeamcamVideoModule kModule = {kBeamcamVideoModuleVersion, open, make_frame, encode, finish, close, concat};
+constexpr BeamcamVideoModule kModule = {
+    kBeamcamVideoModuleVersion, open, make_frame, encode, hold, finish, close, concat};
 
 }  // namespace
 

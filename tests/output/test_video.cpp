@@ -1,6 +1,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <cmath>
 
 #include "output/atomic_file.hpp"
@@ -109,6 +110,66 @@ TEST(Film, ARepeatedPictureIsTheSameAsOneWrittenAgain) {
         EXPECT_EQ(repeated.statistics().frames, 63);
     }
     EXPECT_EQ(sha256_of_file(scratch / "written.mp4"), sha256_of_file(scratch / "repeated.mp4"));
+}
+
+// Eight pictures' time of the first, one of the second, 151 of the third, which is more than may be held, five of the
+// last.
+TEST(Film, AVariableRateShowsTheSameAndCodesWhatIsHeldOnce) {
+    struct Kind {
+        const char* ending;
+        Codec codec;
+        bool tells_duration;
+    };
+    constexpr std::array<std::uint32_t, 4> kColours{0xff000000, 0xffc0392b, 0xff2c3e9f, 0xffffffff};
+    constexpr std::array kTimes{8, 1, 151, 5};
+    for (const Kind& kind :
+         {Kind{".mp4", Codec::h264, true}, Kind{".mov", Codec::prores, true}, Kind{".webm", Codec::vp9, true},
+          Kind{".mkv", Codec::ffv1, true}, Kind{".mp4", Codec::av1, true}, Kind{".gif", Codec::gif, true},
+          Kind{".apng", Codec::apng, false}}) {
+        Scratch scratch;
+        VideoOptions options = small_film();
+        options.height = 64;
+        options.fps = 20;
+        options.codec = kind.codec;
+        options.variable_rate = true;
+        if (kind.codec == Codec::gif) options.palette = {kColours.begin(), kColours.end()};
+        const std::filesystem::path file = (scratch / "f").string() + kind.ending;
+        VideoWriter film(file, options);
+        for (std::size_t i = 0; i < kColours.size(); ++i) {
+            film.write(flat_image(64, 64, kColours[i]));
+            for (int k = 1; k < kTimes[i]; ++k) film.repeat();
+        }
+        film.finish();
+        // The four, one after five seconds, and the last at the film's end.
+        EXPECT_EQ(film.statistics().frames, 6) << kind.ending;
+        EXPECT_EQ(film.statistics().held, 159) << kind.ending;
+        EXPECT_NE(probe(file, "-count_frames -show_streams").find("nb_read_frames=6\n"), std::string::npos)
+            << kind.ending;
+        if (kind.tells_duration) {
+            const std::string seen = probe(file, "-show_entries format=duration");
+            EXPECT_EQ(seen, "duration=8.250000\n") << kind.ending;
+        }
+        const std::string rgb = output_of("/usr/bin/ffmpeg -v error -i " + file.string() +
+                                          " -vf fps=20,crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int"
+                                          " -f rawvideo -pix_fmt rgb24 -");
+        ASSERT_EQ(rgb.size(), 3U * 165) << kind.ending;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < kColours.size(); ++i)
+            for (int k = 0; k < kTimes[i]; ++k, at += 3)
+                for (std::size_t c = 0; c < 3; ++c)
+                    EXPECT_NEAR(static_cast<unsigned char>(rgb[at + c]),
+                                static_cast<int>(kColours[i] >> (16 - 8 * c) & 0xff), 4)
+                        << kind.ending << " frame " << at / 3;
+    }
+}
+
+TEST(Film, OfVariableRateIsNotJoined) {
+    Scratch scratch;
+    VideoOptions options = small_film();
+    options.metadata = {{"beamcam-rate-mode", "variable"}};
+    write_film(scratch / "a.mp4", options, 3);
+    EXPECT_THROW(concatenate({scratch / "a.mp4", scratch / "a.mp4"}, scratch / "b.mp4"), Mismatch);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "b.mp4"));
 }
 
 // The tiles in which two pictures differ, and no more.

@@ -107,7 +107,7 @@ TEST(Reader, EveryKeyReachesItsPlace) {
 
 TEST(Reader, EveryOutputTypeIsRead) {
     const Reading reading = read(R"({"outputs": [
-        {"type": "video", "file": "a.mp4", "size": [640, 360], "fps": 29.97, "from": 0.1, "to": "200 ms", "view": {"style": "flat", "exaggeration": 50}, "theme": "dark", "crf": 20, "preset": "fast"},
+        {"type": "video", "file": "a.mp4", "size": [640, 360], "fps": 29.97, "from": 0.1, "to": "200 ms", "view": {"style": "flat", "exaggeration": 50}, "theme": "dark", "crf": 20, "preset": "fast", "rate_mode": "variable"},
         {"type": "frames", "file": "f/#.png", "size": [33, 35], "fps": "10"},
         {"type": "still", "at": "370 ms"},
         {"type": "trajectory", "file": "t.npz", "channels": ["q2", "theta"], "times": [1, 0.5]},

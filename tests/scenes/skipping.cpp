@@ -392,6 +392,34 @@ TEST(Skipping, JoinedSegmentsDecodeToThePicturesOfTheWholeFilm) {
     EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
 }
 
+TEST(Skipping, WithAVariableRateAFrozenPictureIsCodedOnce) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "f.mkv", "size": [320, 180],
+        "fps": 20, "view": {"style": "flat"}, "events": [{"at": 0.2, "freeze": 1}]}]})");
+    const auto run = [&](const char* file, const char* mode) {
+        return shell(folder, fmt::format("$BEAMCAM run -v s.json --set outputs.0.file={} --set outputs.0.rate_mode={}",
+                                         file, mode));
+    };
+    const Finished constant = run("c.mkv", "constant"), variable = run("v.mkv", "variable");
+    EXPECT_EQ(count(constant, "frames_encoded"), 28);
+    const long repeated = count(variable, "frames_repeated");
+    EXPECT_GE(repeated, 18);
+    EXPECT_EQ(count(variable, "frames_repeated"), count(constant, "frames_repeated"));
+    EXPECT_EQ(count(variable, "frames_encoded"), 28 - repeated);
+    const auto digests = [&](const char* file) {
+        return shell(folder, fmt::format("ffmpeg -v error -i {} -vf fps=20 -f framemd5 - | grep -v '^#'", file)).out;
+    };
+    EXPECT_EQ(std::ranges::count(digests("v.mkv"), '\n'), 28);
+    EXPECT_EQ(digests("v.mkv"), digests("c.mkv"));
+    // Parts keep every frame, so that they can be joined.
+    shell(folder, "for k in 1 2; do $BEAMCAM run -q s.json --set outputs.0.rate_mode=variable --shard $k/2; done");
+    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mkv f.2of2.mkv -o j.mkv").code, 0);
+    EXPECT_EQ(digests("j.mkv"), digests("c.mkv"));
+    const Finished refused = shell(folder, "$BEAMCAM concat v.mkv c.mkv -o no.mkv");
+    EXPECT_EQ(refused.code, 6);
+    EXPECT_THAT(refused.err, HasSubstr("v.mkv has a variable frame rate"));
+}
+
 TEST(Skipping, SegmentsOfOtherContainersAreJoinedToo) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.5}})");
