@@ -62,8 +62,10 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
 // Tiles that a round can touch in a picture of this height.
 void add_round(Tiles& tiles, int height, Vec2 centre, double radius) {
     constexpr double kRow = Tiles::kHeight;
-    const double from = std::max(0.0, centre.y - radius), to = std::min<double>(height, centre.y + radius);
-    for (double y = kRow * std::floor(from / kRow); y < to; y += kRow) {
+    const double from = std::min<double>(height, std::max(0.0, centre.y - radius)),
+                 to = std::min<double>(height, centre.y + radius);
+    for (int row = static_cast<int>(std::floor(from / kRow)); row * kRow < to; ++row) {
+        const double y = row * kRow;
         const double off = std::clamp(centre.y, y, y + kRow) - centre.y;
         const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
         tiles.add({centre.x - half, y, 2 * half, kRow - 1});

@@ -29,9 +29,9 @@ std::vector<Vec2> smooth_piece(std::span<const Vec2> points, std::size_t i, doub
     const Vec2 a = beyond(points, i, -1, c), d = beyond(points, i + 1, +1, b);
     // Knots at the square roots of the distances; Barry and Goldman's pyramid.
     const double t1 = std::sqrt(norm(b - a)), t2 = t1 + std::sqrt(length), t3 = t2 + std::sqrt(norm(d - c));
-    const double steps = std::min(std::ceil(length / step), kMostSteps);
+    const int steps = static_cast<int>(std::min(std::ceil(length / step), kMostSteps));
     std::vector<Vec2> out{b};
-    for (double k = 1; k < steps; ++k) {
+    for (int k = 1; k < steps; ++k) {
         const double t = t1 + (t2 - t1) * k / steps;
         const Vec2 ab = blend(a, b, 0, t1, t), bc = blend(b, c, t1, t2, t), cd = blend(c, d, t2, t3, t);
         out.push_back(blend(blend(ab, bc, 0, t2, t), blend(bc, cd, t1, t3, t), t1, t2, t));

@@ -168,8 +168,9 @@ Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressR
     for (std::size_t i = 0; i < campaign.plates.size(); ++i) {
         // The last plate takes what is left of its line.
         const bool last = i + 1 == campaign.plates.size();
-        const double x = kMargin + static_cast<double>(i % kColumns) * (width + 1.4 * kGap);
-        const Box box{x, kHead + static_cast<double>(i / kColumns) * line + 10, last ? kWidth - kMargin - x : width,
+        const std::size_t column = i % kColumns, row = i / kColumns;
+        const double x = kMargin + static_cast<double>(column) * (width + 1.4 * kGap);
+        const Box box{x, kHead + static_cast<double>(row) * line + 10, last ? kWidth - kMargin - x : width,
                       kTitle + kField + kFoot};
         Field(canvas, campaign.plates[i], cells[i], box).draw();
     }

@@ -39,7 +39,7 @@ Ticks ticks(double low, double high, int most) {
     for (;;) {
         const double first = std::ceil(low / out.step - kSlack), last = std::floor(high / out.step + kSlack);
         if (last - first + 1 <= most) {
-            for (double k = first; k <= last; ++k) out.values.push_back(k * out.step + 0.0);
+            for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * out.step + 0.0);
             break;
         }
         out.step = round_up_125(out.step * 1.5);

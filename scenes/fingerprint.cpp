@@ -11,7 +11,7 @@ namespace beamcam::scenes {
 
 std::string Fingerprint::id() const {
     output::Sha256 hash;
-    for (const auto& [part, version] : parts) hash.update(part + "=" + version + "\n");
+    for (const auto& [part, version] : parts) hash.update(fmt::format("{}={}\n", part, version));
     return hash.hex().substr(0, 12);
 }
 

@@ -22,6 +22,7 @@ int add_build_id(dl_phdr_info* info, std::size_t, void* out) {
     for (int i = 0; i < info->dlpi_phnum; ++i) {
         const ElfW(Phdr)& part = info->dlpi_phdr[i];
         if (part.p_type != PT_NOTE) continue;
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
         const char* at = reinterpret_cast<const char*>(info->dlpi_addr + part.p_vaddr);
         const char* end = at + part.p_memsz;
         while (at + sizeof(ElfW(Nhdr)) <= end) {

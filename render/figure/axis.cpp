@@ -104,7 +104,8 @@ void AxisMap::linear(const Axis& axis, int most) {
     Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
     if (whole && marks.step < 1) {
         marks = {.step = 1, .decimals = 0, .values = {}};
-        for (double v = std::ceil(scaled_low_); v <= scaled_high_; ++v) marks.values.push_back(v);
+        const double lowest = std::ceil(scaled_low_);
+        for (int k = 0; lowest + k <= scaled_high_; ++k) marks.values.push_back(lowest + k);
     }
     const double range = scaled_high_ - scaled_low_;
     const auto at = [&](double v) { return reversed_ ? (scaled_high_ - v) / range : (v - scaled_low_) / range; };

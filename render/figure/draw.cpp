@@ -144,7 +144,7 @@ void append(std::string& out, double value) {
 
 // A CSV cell; quotes where commas or quotes demand them.
 std::string cell_text(const std::string& markup) {
-    const std::string plain = to_plain(markup);
+    std::string plain = to_plain(markup);
     if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
     std::string out = "\"";
     for (const char c : plain) out += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -830,8 +830,8 @@ void PanelDrawing::draw_legend() {
     l.up = Up::middle;
     int k = 0;
     const auto next = [&] {
-        const Vec2 at{legend_box_->x + (k % legend_columns_) * (legend_entry_ + 2 * style_.gap),
-                      legend_box_->y + (k / legend_columns_ + 0.5) * row};
+        const int column = k % legend_columns_, line = k / legend_columns_;
+        const Vec2 at{legend_box_->x + column * (legend_entry_ + 2 * style_.gap), legend_box_->y + (line + 0.5) * row};
         ++k;
         return at;
     };

@@ -6,7 +6,7 @@
 #define GL_GLEXT_PROTOTYPES  // Debian's libOSMesa exports the modern entry points itself
 #include <GL/glcorearb.h>
 // glcorearb.h and gl.h cannot be had together; osmesa.h wants only gl.h's types, which are declared above.
-#define __gl_h_
+#define __gl_h_  // NOLINT(bugprone-reserved-identifier): gl.h's own guard
 #define GLAPIENTRY
 #include <GL/osmesa.h>
 #include <fmt/format.h>
@@ -425,8 +425,9 @@ class OsmesaRenderer final : public LitRenderer {
         std::size_t offset = 0;
         for (GLuint i = 0; i < 3; ++i) {
             glEnableVertexAttribArray(i);
-            glVertexAttribPointer(i, counts[i], GL_FLOAT, GL_FALSE, sizeof(SolidVertex),
-                                  reinterpret_cast<const void*>(offset));
+            glVertexAttribPointer(
+                i, counts[i], GL_FLOAT, GL_FALSE, sizeof(SolidVertex),
+                reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL has it
             offset += sizeof(float) * static_cast<std::size_t>(counts[i]);
         }
         GLuint buffers[2] = {0, 0};
@@ -489,8 +490,9 @@ class OsmesaRenderer final : public LitRenderer {
         std::size_t offset = 0;
         for (GLuint i = 0; i < 4; ++i) {
             glEnableVertexAttribArray(i);
-            glVertexAttribPointer(i, counts[i], GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                                  reinterpret_cast<const void*>(offset));
+            glVertexAttribPointer(
+                i, counts[i], GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL has it
             offset += sizeof(float) * static_cast<std::size_t>(counts[i]);
         }
         glEnable(GL_BLEND);

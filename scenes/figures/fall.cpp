@@ -92,7 +92,7 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
         if (f.close) {
             // Microseconds about the closed form, microradians about zero.
             Panel close_up;
-            close_up.x.label = filled(en ? "($t$ − {} s) / µs" : "($t$ − {} s) / µs", grouped(*exact, 6));
+            close_up.x.label = filled("($t$ − {} s) / µs", grouped(*exact, 6));
             close_up.y.label = "$θ$ / µrad";
             close_up.legend = Legend::none;
             close_up.rules.push_back({.at = 0});

@@ -74,7 +74,7 @@ std::string number(double value, int digits) {
 }
 
 std::string grouped(double value, int decimals) {
-    const std::string text = render::fixed(value, decimals);
+    std::string text = render::fixed(value, decimals);
     const std::size_t point = text.find('.');
     if (point == std::string::npos) return text;
     std::string out = text.substr(0, point + 1);

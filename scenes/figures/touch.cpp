@@ -30,7 +30,8 @@ std::vector<double> trial_points(const sim::Problem& p) {
     const double spacing = p.beam.length / 100;
     const double middle = std::clamp(std::round(x1 / spacing), 2.0, 98.0) * spacing;
     std::vector<double> points;
-    for (int k = 0; k < kTrial; ++k) points.push_back(middle + (k - kTrial / 2) * spacing);
+    constexpr int kMiddle = kTrial / 2;
+    for (int k = 0; k < kTrial; ++k) points.push_back(middle + (k - kMiddle) * spacing);
     return points;
 }
 
