@@ -216,7 +216,7 @@ class EntryTest {
         found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
     }
     fs::path put(long frame, const char* what, const output::Raster& picture) {
-        const fs::path file = *options_.report / entry_.name / fmt::format("{:04}-{}.png", frame, what);
+        fs::path file = *options_.report / entry_.name / fmt::format("{:04}-{}.png", frame, what);
         const std::string bytes = output::encode_png(output::to_image(picture));
         const std::lock_guard lock(mutex_);
         output::ensure_directory(file.parent_path());

@@ -23,6 +23,7 @@ struct Place {
     std::size_t offset = 0;  // byte in Source::text
 
     bool operator==(const Place&) const = default;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the comparison for a pointer
     auto operator<=>(const Place&) const = default;
 };
 

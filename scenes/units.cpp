@@ -21,8 +21,8 @@ constexpr double kPi = std::numbers::pi;
 struct NamedUnit {
     std::string_view name;
     double factor;  // to SI, together with `decades`
-    int decades;    // powers of ten, kept apart so that "36.8 mm" is the very number 0.0368
     Dimension dimension;
+    int decades;  // powers of ten, kept apart so that "36.8 mm" is the very number 0.0368
     bool takes_prefix = false;
 };
 
@@ -35,29 +35,29 @@ struct Scaled {
 
 // Factors are exact by definition (SI brochure, 9th ed.; inch and pound: the 1959 yard and pound agreement).
 constexpr NamedUnit kUnits[] = {
-    {"m", 1, 0, {1, 0, 0, 0}, true},
-    {"in", 0.0254, 0, {1, 0, 0, 0}},
-    {"ft", 0.3048, 0, {1, 0, 0, 0}},
-    {"g", 1, -3, {0, 1, 0, 0}, true},
-    {"t", 1, 3, {0, 1, 0, 0}},
-    {"lb", 0.45359237, 0, {0, 1, 0, 0}},
-    {"s", 1, 0, {0, 0, 1, 0}, true},
-    {"min", 60, 0, {0, 0, 1, 0}},
-    {"h", 3600, 0, {0, 0, 1, 0}},
-    {"Hz", 1, 0, {0, 0, -1, 0}, true},
-    {"rad", 1, 0, {0, 0, 0, 1}, true},
-    {"deg", kPi / 180, 0, {0, 0, 0, 1}},
-    {"°", kPi / 180, 0, {0, 0, 0, 1}},
-    {"rev", 2 * kPi, 0, {0, 0, 0, 1}},
-    {"turn", 2 * kPi, 0, {0, 0, 0, 1}},
-    {"rpm", 2 * kPi / 60, 0, {0, 0, -1, 1}},
-    {"N", 1, 0, {1, 1, -2, 0}, true},
-    {"lbf", 4.4482216152605, 0, {1, 1, -2, 0}},
-    {"Pa", 1, 0, {-1, 1, -2, 0}, true},
-    {"bar", 1, 5, {-1, 1, -2, 0}},
-    {"psi", 6894.757293168361, 0, {-1, 1, -2, 0}},
-    {"J", 1, 0, {2, 1, -2, 0}, true},
-    {"%", 1, -2, {}},
+    {"m", 1, {1, 0, 0, 0}, 0, true},
+    {"in", 0.0254, {1, 0, 0, 0}, 0},
+    {"ft", 0.3048, {1, 0, 0, 0}, 0},
+    {"g", 1, {0, 1, 0, 0}, -3, true},
+    {"t", 1, {0, 1, 0, 0}, 3},
+    {"lb", 0.45359237, {0, 1, 0, 0}, 0},
+    {"s", 1, {0, 0, 1, 0}, 0, true},
+    {"min", 60, {0, 0, 1, 0}, 0},
+    {"h", 3600, {0, 0, 1, 0}, 0},
+    {"Hz", 1, {0, 0, -1, 0}, 0, true},
+    {"rad", 1, {0, 0, 0, 1}, 0, true},
+    {"deg", kPi / 180, {0, 0, 0, 1}, 0},
+    {"°", kPi / 180, {0, 0, 0, 1}, 0},
+    {"rev", 2 * kPi, {0, 0, 0, 1}, 0},
+    {"turn", 2 * kPi, {0, 0, 0, 1}, 0},
+    {"rpm", 2 * kPi / 60, {0, 0, -1, 1}, 0},
+    {"N", 1, {1, 1, -2, 0}, 0, true},
+    {"lbf", 4.4482216152605, {1, 1, -2, 0}, 0},
+    {"Pa", 1, {-1, 1, -2, 0}, 0, true},
+    {"bar", 1, {-1, 1, -2, 0}, 5},
+    {"psi", 6894.757293168361, {-1, 1, -2, 0}, 0},
+    {"J", 1, {2, 1, -2, 0}, 0, true},
+    {"%", 1, {}, -2},
 };
 
 struct Prefix {

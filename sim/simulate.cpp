@@ -538,9 +538,8 @@ class Run {
     void change(const Event& event) {
         switch (event.kind) {
             case EventKind::none:
+            case EventKind::clamp:  // same phase, new step: the kink lies between steps
                 break;
-            case EventKind::clamp:
-                break;  // same phase, new step: the kink lies between steps
             case EventKind::touch:
                 problem_.contact.model == ContactModel::restitution ? strike() : touch();
                 break;
