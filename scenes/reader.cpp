@@ -72,8 +72,8 @@ Scene read_tree(const Node& root, const Source& source, const std::string& scene
     read_outputs(findings, f.take("outputs"), root, source, scene);
     f.finish({}, [](const std::string& key) {
         static constexpr std::string_view kOfOutputs[] = {
-            "view",   "size",    "fps",        "from",   "to",    "at",  "speed",  "layout",     "theme",
-            "events", "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
+            "view",    "size",       "fps",    "from",  "to",  "at",     "speed",     "layout",     "theme", "events",
+            "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
         return std::ranges::find(kOfOutputs, key) == std::end(kOfOutputs)
                    ? std::string()
                    : fmt::format("into an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
