@@ -142,6 +142,18 @@ void add_encoder(Recipe& r, const VideoOptions& o) {
     }
 }
 
+// What makes a film whose pictures last unequally as long as they do together.
+void keep_durations(Recipe& r, const VideoOptions& o) {
+    const FrameRate fps = frame_rate(o.fps);
+    // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
+    if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
+    // Else their last picture would last as long as the one before.
+    if (o.codec == Codec::gif)
+        r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));
+    if (o.codec == Codec::apng)
+        r.container_options.emplace_back("final_delay", std::to_string(fps.base) + "/" + std::to_string(fps.rate));
+}
+
 Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
     Recipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
     add_encoder(r, o);
@@ -153,6 +165,7 @@ Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
     // use_metadata_tags: keys of our own are kept.
     if (ending == ".mp4" || ending == ".mov")
         r.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
+    if (o.variable_rate) keep_durations(r, o);
     return r;
 }
 
@@ -269,19 +282,11 @@ struct VideoWriter::Impl {
     }
 
     void open() {
-        Recipe recipe = recipe_of(options, file.target().extension().string());
+        const Recipe recipe = recipe_of(options, file.target().extension().string());
         layout = recipe.layout;
-        const FrameRate fps = frame_rate(options.fps);
         if (options.variable_rate) {
             longest_hold = std::lround(kLongestHold * options.fps);
-            // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
-            if (options.codec == Codec::h264) recipe.encoder_options.emplace_back("bf", "0");
-            // Else their last picture would last as long as the one before.
-            if (options.codec == Codec::gif)
-                recipe.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / options.fps)));
-            if (options.codec == Codec::apng)
-                recipe.container_options.emplace_back("final_delay",
-                                                      std::to_string(fps.base) + "/" + std::to_string(fps.rate));
+            options.metadata["beamcam-rate-mode"] = "variable";  // what `concat` looks for
         }
         std::vector<const char*> metadata, encoders, encoder_options, container_options;
         for (const auto& [key, value] : options.metadata) metadata.insert(metadata.end(), {key.c_str(), value.c_str()});
@@ -294,6 +299,7 @@ struct VideoWriter::Impl {
         std::vector<std::uint32_t> colors = options.palette;
         if (!colors.empty()) table.emplace(colors);
         colors.resize(256, 0xff000000U);
+        const FrameRate fps = frame_rate(options.fps);
         const std::string path = file.temporary_path().string();
         const BeamcamVideoSettings settings = {path.c_str(),
                                                options.width,

@@ -103,13 +103,13 @@ std::vector<std::string> without_room(int width, int height, const std::optional
         grid ? layout(width, height, *grid) : layout(width, height, std::vector<PanelSpec>{}, members);
     std::vector<std::string> out;
     std::vector<std::string> missing = common_pieces(problems);
-    if (!title.empty() && !places.title) out.emplace_back("the title");
-    if (places.parameters || (places.title && !title.empty())) {
+    const bool titled = places.title && !title.empty();
+    if (!title.empty() && !titled) out.emplace_back("the title");
+    if (places.parameters || titled) {
         const Fonts fonts(needs_cjk(title));
         Image scratch(1, 1);
         Canvas canvas(scratch, fonts);
-        if (places.title && !title.empty() &&
-            fitted_title(canvas, escape(canvas.drawable(title)), *places.title, places.unit).cut)
+        if (titled && fitted_title(canvas, escape(canvas.drawable(title)), *places.title, places.unit).cut)
             out.emplace_back("the end of the title");
         missing = parameter_line(canvas, places, title, missing).without_room;
     }

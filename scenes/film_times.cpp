@@ -51,9 +51,19 @@ FilmTimes real_time(const FrameSpan& span, double to) {
     return out;
 }
 
+// Absent where the film is cut short before it; the whole motion has to have it.
+std::optional<double> reached(const Instant& at, const FrameSpan& span, const sim::Result& motion) {
+    return span.to ? find_instant(at, motion) : instant_of(at, motion);
+}
+
+std::string name_of(const Instant& at) {
+    return fmt::format("{} {}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number);
+}
+
 // Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
-FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, std::vector<double>& fine) {
-    TimeMap map(span.from, to, span.speed, motion.impacts);
+FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
+                 std::vector<double>& fine) {
+    TimeMap map(span.from, to, span.speed, slowed);
     FilmTimes out;
     struct Shown {
         const FilmEvent* event;
@@ -61,17 +71,13 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, st
     };
     std::vector<Shown> shown;
     for (const FilmEvent& event : span.events) {
-        if (span.to && !happens(event.at, motion)) {
+        const std::optional<double> t = reached(event.at, span, motion);
+        if (t && *t >= span.from && *t <= to) {
+            shown.push_back({&event, *t});
+            if (event.freeze > 0) map.freeze(*t, event.freeze);
+        } else if (event.at.kind != Instant::Kind::time) {  // the reader has told of those
             out.unshown.push_back(name_of(event.at));
-            continue;
         }
-        const double t = instant_of(event.at, motion);
-        if (t < span.from || t > to) {
-            if (event.at.kind != Instant::Kind::time) out.unshown.push_back(name_of(event.at));
-            continue;
-        }
-        shown.push_back({&event, t});
-        if (event.freeze > 0) map.freeze(t, event.freeze);
     }
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
     if (count > kMostFrames)
@@ -162,13 +168,20 @@ std::vector<double> rows(double from, double to, double rate) {
 }
 
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions) {
+    return film_times(span, end_time, motion, motion.impacts, collisions);
+}
+
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+                     const std::vector<sim::Impact>& slowed, bool collisions) {
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
-    FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, fine);
-    if (span.poster && span.to && !happens(*span.poster, motion))
-        out.unshown.push_back(name_of(*span.poster) + ", its poster");
-    else if (span.poster)
-        out.poster = first_at(out.frames, instant_of(*span.poster, motion));
+    FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
+    if (span.poster) {
+        if (const std::optional<double> t = reached(*span.poster, span, motion))
+            out.poster = first_at(out.frames, *t);
+        else
+            out.unshown.push_back(name_of(*span.poster) + ", its poster");
+    }
     out.chart = rows(span.from, to, chart_rate(to - span.from));
     out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
     if (!fine.empty()) {

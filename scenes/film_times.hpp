@@ -28,6 +28,9 @@ struct FilmTimes {
 // Throws render::PictureError for an impact that the whole motion does not have and for a film of too many frames.
 // `collisions`: the charts get more rows within each of the motion's.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
+// `slowed`: the impacts that time slows around, of all the motions that a picture compares; "impact:3" is `motion`'s.
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+                     const std::vector<sim::Impact>& slowed, bool collisions = false);
 // `until`: how far the motion goes that gives the still its scales [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
 

@@ -47,7 +47,7 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     choose_frames(p, static_cast<long>(times.frames.size()));
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
-    p.unshown.insert(p.unshown.end(), times.unshown.begin(), times.unshown.end());
+    p.unshown = std::move(times.unshown);
     p.poster = times.poster;
     for (ComparedMotion& other : p.compared) {
         other.request.poses.front().times = times.frames;
@@ -482,29 +482,17 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
             continue;
         }
         // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
-        sim::Result first = find(p.compared.front().problem, p.end_time), all;
-        all = first;
+        const sim::Result first = find(p.compared.front().problem, p.end_time);
+        std::vector<sim::Impact> all = first.impacts;
         for (std::size_t i = 1; i < p.compared.size(); ++i) {
             const sim::Result other = find(p.compared[i].problem, p.end_time);
-            all.impacts.insert(all.impacts.end(), other.impacts.begin(), other.impacts.end());
+            all.insert(all.end(), other.impacts.begin(), other.impacts.end());
         }
-        std::ranges::stable_sort(all.impacts, {}, &sim::Impact::t_start);
-        FrameSpan span = p.span;
-        const auto fix = [&](Instant& at) { at = {.kind = Instant::Kind::time, .t = instant_of(at, first)}; };
-        const auto reached = [&](const Instant& at, const char* what) {
-            const bool there = !span.to || happens(at, first);
-            if (!there) p.unshown.push_back(name_of(at) + what);
-            return there;
-        };
-        std::erase_if(span.events, [&](const FilmEvent& event) { return !reached(event.at, ""); });
-        for (FilmEvent& event : span.events) fix(event.at);
-        if (span.poster && !reached(*span.poster, ", its poster")) span.poster.reset();
-        if (span.poster) fix(*span.poster);
+        std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
         sim::Request none;
-        if (p.kind == Pictures::Kind::still)
-            put_times(p, none, still_times(p.at, first, surveyed_until(p)));
-        else
-            put_times(p, none, film_times(span, p.end_time, all));
+        put_times(p, none,
+                  p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
+                                                  : film_times(p.span, p.end_time, first, all));
     }
     plan.impacts_until.reset();
 }

@@ -374,10 +374,7 @@ class Runner {
                                                   {"beamcam-scene", to_json(scene_)},
                                                   {"beamcam-version", std::string(kVersion)},
                                                   {"beamcam-accuracy", accuracy_note(p)}};
-        if (!p.part.empty())
-            all["beamcam-frames"] = p.part;
-        else if (p.encoding.variable_rate)
-            all["beamcam-rate-mode"] = "variable";
+        if (!p.part.empty()) all["beamcam-frames"] = p.part;
         if (!scene_.title.empty()) all["title"] = scene_.title;
         return all;
     }

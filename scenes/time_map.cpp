@@ -150,43 +150,28 @@ double TimeMap::film_time(double t) const {
     return film;
 }
 
-bool happens(const Instant& instant, const sim::Result& motion) {
-    const auto has = [&](const auto& all) {
-        return instant.number >= 1 && std::cmp_less_equal(instant.number, all.size());
+std::optional<double> find_instant(const Instant& instant, const sim::Result& motion) {
+    const auto pick = [&](const auto& all) -> std::optional<double> {
+        if (instant.number < 1 || std::cmp_greater(instant.number, all.size())) return std::nullopt;
+        return all[static_cast<std::size_t>(instant.number - 1)].t_start;
     };
-    return instant.kind == Instant::Kind::time ||
-           (instant.kind == Instant::Kind::impact ? has(motion.impacts) : has(motion.collisions));
-}
-
-std::string name_of(const Instant& instant) {
     switch (instant.kind) {
         case Instant::Kind::time:
             break;
         case Instant::Kind::impact:
-            return fmt::format("impact {}", instant.number);
+            return pick(motion.impacts);
         case Instant::Kind::collision:
-            return fmt::format("collision {}", instant.number);
+            return pick(motion.collisions);
     }
-    return fmt::format("{:g} s", instant.t);
+    return instant.t;
 }
 
 double instant_of(const Instant& instant, const sim::Result& motion) {
-    const auto pick = [&](const auto& all, const char* what) {
-        const auto n = static_cast<std::size_t>(std::max(instant.number, 0));
-        if (n < 1 || n > all.size())
-            throw render::PictureError(fmt::format("there is no {} {}: the motion has {} until {:g} s", what,
-                                                   instant.number, all.size(), motion.end_time));
-        return all[n - 1].t_start;
-    };
-    switch (instant.kind) {
-        case Instant::Kind::time:
-            return instant.t;
-        case Instant::Kind::impact:
-            return pick(motion.impacts, "impact");
-        case Instant::Kind::collision:
-            return pick(motion.collisions, "collision");
-    }
-    return instant.t;
+    if (const auto t = find_instant(instant, motion)) return *t;
+    const bool impact = instant.kind == Instant::Kind::impact;
+    throw render::PictureError(fmt::format("there is no {} {}: the motion has {} until {:g} s",
+                                           impact ? "impact" : "collision", instant.number,
+                                           impact ? motion.impacts.size() : motion.collisions.size(), motion.end_time));
 }
 
 }  // namespace beamcam::scenes

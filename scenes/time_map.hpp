@@ -6,6 +6,7 @@
 // rounding, monotone by construction.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scenes/scene.hpp"
@@ -49,12 +50,9 @@ class TimeMap {
     double length_ = 0;  // freezes apart [s]
 };
 
-// Whether the motion has the impact or collision; times are always there.
-bool happens(const Instant& instant, const sim::Result& motion);
-// "impact 3", "collision 1", "0.5 s"
-std::string name_of(const Instant& instant);
-// The instant that a scene names: a time, or the touch of an impact or collision, counted from 1. Throws
-// render::PictureError with the count in words when there are not so many.
+// The instant that a scene names: a time, or the touch of an impact or collision, counted from 1. Where there are not
+// so many: nothing, or render::PictureError with their count in words.
+std::optional<double> find_instant(const Instant& instant, const sim::Result& motion);
 double instant_of(const Instant& instant, const sim::Result& motion);
 
 }  // namespace beamcam::scenes

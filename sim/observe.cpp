@@ -325,7 +325,7 @@ void Recorder::sweep(const std::vector<double>& times, Cursor& cursor, const Str
     while (cursor.next < cursor.order.size()) {
         const std::size_t row = cursor.order[cursor.next];
         const double t = times[row];
-        if (s.last ? t > s.to : t >= s.to) return;
+        if (s.ends_before(t)) return;
         look(s, t);
         visit(row);
         ++cursor.next;
@@ -348,7 +348,7 @@ void Recorder::sample_tables(const Stretch& s) {
     for (;;) {
         double t = kNone;
         for (std::size_t i = 0; i < request_.tables.size(); ++i) t = std::min(t, next(i));
-        if (t == kNone || (s.last ? t > s.to : t >= s.to)) return;
+        if (t == kNone || s.ends_before(t)) return;
         look(s, t);
         for (std::size_t i = 0; i < request_.tables.size(); ++i) {
             const std::vector<Channel>& channels = request_.tables[i].channels;

@@ -18,6 +18,7 @@ struct Stretch {
     const Segment* segment;
     double from, to;
     bool last;  // its end point belongs to it (end of the run)
+    bool ends_before(double t) const { return last ? t > to : t >= to; }
 };
 
 // Channel values at one instant; remembers what it already worked out for that instant.

@@ -38,10 +38,10 @@ std::string probe(const std::filesystem::path& file, const std::string& what) {
     return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
 }
 
-// R, G, B of the top-left pixel of every frame, as FFmpeg shows them.
-std::string first_pixels(const std::filesystem::path& file) {
-    return output_of("/usr/bin/ffmpeg -v error -i " + file.string() +
-                     " -vf crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 -");
+// R, G, B of the top-left pixel of every frame, as FFmpeg shows them; after `filters`, each with a comma.
+std::string first_pixels(const std::filesystem::path& file, const std::string& filters = {}) {
+    return output_of("/usr/bin/ffmpeg -v error -i " + file.string() + " -vf " + filters +
+                     "crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 -");
 }
 
 TEST(Film, IsWhatPlayersExpect) {
@@ -149,9 +149,7 @@ TEST(Film, AVariableRateShowsTheSameAndCodesWhatIsHeldOnce) {
             const std::string seen = probe(file, "-show_entries format=duration");
             EXPECT_EQ(seen, "duration=8.250000\n") << kind.ending;
         }
-        const std::string rgb = output_of("/usr/bin/ffmpeg -v error -i " + file.string() +
-                                          " -vf fps=20,crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int"
-                                          " -f rawvideo -pix_fmt rgb24 -");
+        const std::string rgb = first_pixels(file, "fps=20,");
         ASSERT_EQ(rgb.size(), 3U * 165) << kind.ending;
         std::size_t at = 0;
         for (std::size_t i = 0; i < kColours.size(); ++i)
@@ -166,7 +164,7 @@ TEST(Film, AVariableRateShowsTheSameAndCodesWhatIsHeldOnce) {
 TEST(Film, OfVariableRateIsNotJoined) {
     Scratch scratch;
     VideoOptions options = small_film();
-    options.metadata = {{"beamcam-rate-mode", "variable"}};
+    options.variable_rate = true;
     write_film(scratch / "a.mp4", options, 3);
     EXPECT_THROW(concatenate({scratch / "a.mp4", scratch / "a.mp4"}, scratch / "b.mp4"), Mismatch);
     EXPECT_FALSE(std::filesystem::exists(scratch / "b.mp4"));

@@ -19,6 +19,11 @@ using ::testing::Not;
 using testing::shell;
 using testing::slurp;
 
+// A line for every frame of a film, as FFmpeg decodes and then filters it.
+std::string frame_digests(const Folder& folder, const std::string& file, const std::string& filter = {}) {
+    return shell(folder, fmt::format("ffmpeg -v error -i {} {} -f framemd5 - | grep -v '^#'", file, filter)).out;
+}
+
 // A count of the line that -v ends with.
 long count(const Finished& finished, const std::string& what) {
     EXPECT_EQ(finished.code, 0) << finished.err;
@@ -372,9 +377,7 @@ TEST(Skipping, JoinedSegmentsDecodeToThePicturesOfTheWholeFilm) {
     const Finished joined = shell(folder, "$BEAMCAM concat f.1of3.mp4 f.2of3.mp4 f.3of3.mp4 -o j.mp4");
     ASSERT_EQ(joined.code, 0) << joined.err;
     EXPECT_THAT(joined.err, HasSubstr("12 frames of 3 segments"));
-    const auto digests = [&](const char* file) {
-        return shell(folder, fmt::format("ffmpeg -v error -i {} -f framemd5 - | grep -v '^#'", file)).out;
-    };
+    const auto digests = [&](const char* file) { return frame_digests(folder, file); };
     EXPECT_EQ(std::ranges::count(digests("f.mp4"), '\n'), 12);
     EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
     const auto tags = [&](const char* file) {
@@ -406,9 +409,7 @@ TEST(Skipping, WithAVariableRateAFrozenPictureIsCodedOnce) {
     EXPECT_GE(repeated, 18);
     EXPECT_EQ(count(variable, "frames_repeated"), count(constant, "frames_repeated"));
     EXPECT_EQ(count(variable, "frames_encoded"), 28 - repeated);
-    const auto digests = [&](const char* file) {
-        return shell(folder, fmt::format("ffmpeg -v error -i {} -vf fps=20 -f framemd5 - | grep -v '^#'", file)).out;
-    };
+    const auto digests = [&](const char* file) { return frame_digests(folder, file, "-vf fps=20"); };
     EXPECT_EQ(std::ranges::count(digests("v.mkv"), '\n'), 28);
     EXPECT_EQ(digests("v.mkv"), digests("c.mkv"));
     // Parts keep every frame, so that they can be joined.
