@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "output/errors.hpp"
@@ -24,13 +27,12 @@
 namespace beamcam::scenes {
 namespace {
 
-// A command that does not exist, told before the parser guesses.
-void refuse_unknown_command(int argc, const char* const* argv, const CLI::App& app) {
+// An unknown command is named before the parser guesses.
+void refuse_unknown_command(int argc, const char* const* argv, const Grammar& grammar) {
     if (argc < 2 || argv[1][0] == '-') return;
     const std::string word = argv[1];
     std::vector<std::string> known;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        known.push_back(command->get_name());
+    for (const Command& command : grammar.commands) known.push_back(command.name);
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
     if (const auto planned = not_available("command", word)) throw UsageError(*planned);
     if (word.ends_with(".json"))
@@ -38,17 +40,53 @@ void refuse_unknown_command(int argc, const char* const* argv, const CLI::App& a
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
 }
 
+// A parsed command and its parser.
+using ParserOf = std::vector<std::pair<const CLI::App*, const Command*>>;
+
+void add_parameter(CLI::App& app, const Parameter& parameter) {
+    CLI::Option* option = std::visit(
+        [&](auto* target) {
+            if constexpr (std::is_same_v<decltype(target), bool*>)
+                return app.add_flag(parameter.names, *target, parameter.meaning);
+            else
+                return app.add_option(parameter.names, *target, parameter.meaning)->type_name(parameter.value);
+        },
+        parameter.target);
+    option->required(parameter.is_required);
+    if (!parameter.choices.empty()) option->check(CLI::IsMember(parameter.choices));
+    if (parameter.limits) {
+        const auto [low, high] = *parameter.limits;
+        const bool whole = std::holds_alternative<int*>(parameter.target);
+        option->check(whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : CLI::Range(low, high));
+    }
+    if (parameter.is_positive) option->check(CLI::PositiveNumber);
+    if (parameter.separator != 0) option->delimiter(parameter.separator);
+    if (parameter.names.starts_with('-') && !parameter.takes_several) option->allow_extra_args(false);
+}
+
+void add_command(CLI::App& parent, const Command& command, ParserOf& parsers) {
+    CLI::App* app = parent.add_subcommand(command.name, command.summary);
+    if (!command.footer.empty()) app->footer(command.footer);  // else the program's own
+    if (!command.subcommands.empty()) app->require_subcommand(1);
+    for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter);
+    for (const Command& subcommand : command.subcommands) add_command(*app, subcommand, parsers);
+    if (command.action) parsers.emplace_back(app, &command);
+}
+
 int parse_and_run(int argc, const char* const* argv) {
+    Grammar grammar;
+    for (const auto add : kCommands) add(grammar);
+    refuse_unknown_command(argc, argv, grammar);
+
     CLI::App app("Films a mechanism: JSON scenes of a flexible beam and a turning cam in; films, stills and data out.",
                  "beamcam");
-    Grammar grammar{app, {}};
     app.set_version_flag("--version", fmt::format("beamcam {}", kVersion));
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 bug, 2 usage, 3 scene, 4 solver, 5 missing renderer, codec or font,\n"
         "6 input/output, 7 differs, 130 interrupted.");
-    for (const auto add : kCommands) add(grammar);
-    refuse_unknown_command(argc, argv, app);
+    ParserOf parsers;
+    for (const Command& command : grammar.commands) add_command(app, command, parsers);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
@@ -56,13 +94,13 @@ int parse_and_run(int argc, const char* const* argv) {
         std::cout.flush();
         return kDone;
     } catch (const CLI::ParseError& error) {
-        std::string command;
-        for (const auto& [parsed, action] : grammar.commands)
-            if (parsed->parsed()) command = " " + parsed->get_name();
-        throw UsageError(fmt::format("{} (see beamcam{} --help)", error.what(), command));
+        std::string name;
+        for (const auto& [parser, command] : parsers)
+            if (parser->parsed()) name = " " + command->name;
+        throw UsageError(fmt::format("{} (see beamcam{} --help)", error.what(), name));
     }
-    for (const auto& [parsed, action] : grammar.commands)
-        if (parsed->parsed()) return action();
+    for (const auto& [parser, command] : parsers)
+        if (parser->parsed()) return command->action();
     return kDone;
 }
 

@@ -134,35 +134,23 @@ int act(const Arguments& args) {
 
 void add_accuracy(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("accuracy", "Error budget of a scene, and run time against error of every method");
-    add_scene(*app, args->scene, args->common);
-    app->add_option("-o,--output", args->files, "Also as .json, or the diagram as .png, .svg or .pdf (repeatable)")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    app->add_option("--until", args->until, "Look at the motion up to here (default: the end of the scene)")
-        ->type_name("T");
-    app->add_option(
-           "--target", args->target,
-           "Error that the recommendation is for, in rad: of theta; of a driven hub, of the tip's deflection over "
-           "the length (default: 1e-4)")
-        ->type_name("RAD");
-    app->add_option("--repeats", args->repeats, "Timings of each row (default: 5)")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N");
-    app->add_option("--longest", args->longest, "Leave out runs that take longer than this many seconds (default: 2)")
-        ->check(CLI::PositiveNumber)
-        ->type_name("S");
-    app->add_option("--column", args->column, "Width and letters of a journal's column, for the diagram")
-        ->check(CLI::IsMember(render::figure::column_names()))
-        ->type_name("COLUMN");
-    app->add_option("--lang", args->lang, "Language of the diagram: en or zh")
-        ->check(CLI::IsMember({"en", "zh"}))
-        ->type_name("LANG");
-    app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
-        ->type_name("STYLE");
-    app->add_flag("--force", args->common.force, "Replace files that beamcam did not make");
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("accuracy", "Error budget of a scene, and run time against error of every method");
+    add_scene(app, args->scene, args->common);
+    app.option("-o,--output", &args->files, "FILE", "Also as .json, or the diagram as .png, .svg or .pdf (repeatable)");
+    app.option("--until", &args->until, "T", "Look at the motion up to here (default: the end of the scene)");
+    app.option("--target", &args->target, "RAD",
+               "Error that the recommendation is for, in rad: of theta; of a driven hub, of the tip's deflection over "
+               "the length (default: 1e-4)");
+    app.option("--repeats", &args->repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
+    app.option("--longest", &args->longest, "S", "Leave out runs that take longer than this many seconds (default: 2)")
+        .positive();
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column, for the diagram")
+        .one_of(render::figure::column_names());
+    app.option("--lang", &args->lang, "LANG", "Language of the diagram: en or zh").one_of({"en", "zh"});
+    app.option("--progress", &args->common.progress, "STYLE",
+               "Progress on standard error: auto, bar, plain, json or none");
+    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

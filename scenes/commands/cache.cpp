@@ -47,19 +47,18 @@ int clear(const Arguments& args) {
 }  // namespace
 
 void add_cache(Grammar& grammar) {
-    CLI::App* app = grammar.app.add_subcommand("cache", "The trajectories that are kept between runs");
-    app->require_subcommand(1);
-    app->footer(
+    Command& app = grammar.command("cache", "The trajectories that are kept between runs");
+    app.footer =
         "They are kept below $BEAMCAM_CACHE_DIR, else in beamcam below $XDG_CACHE_HOME, else in ~/.cache/beamcam, up "
         "to\n"
-        "$BEAMCAM_CACHE_SIZE MiB (1024); those used longest ago go first.");
+        "$BEAMCAM_CACHE_SIZE MiB (1024); those used longest ago go first.";
     auto args = std::make_shared<Arguments>();
-    CLI::App* ls = app->add_subcommand("ls", "List them, the last used first: size, duration, steps, model");
-    add_quiet(*ls, args->common);
-    grammar.bind(ls, args, list);
-    CLI::App* all = app->add_subcommand("clear", "Remove them all");
-    add_quiet(*all, args->common);
-    grammar.bind(all, args, clear);
+    Command& ls = app.subcommand("ls", "List them, the last used first: size, duration, steps, model");
+    add_quiet(ls, args->common);
+    ls.bind(args, list);
+    Command& all = app.subcommand("clear", "Remove them all");
+    add_quiet(all, args->common);
+    all.bind(args, clear);
 }
 
 }  // namespace beamcam::scenes

@@ -30,12 +30,11 @@ int act(const Arguments& args) {
 
 void add_check(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("check", "Validate scenes: every issue at once, with its place and remedy");
-    app->add_option("SCENE", args->scenes, "Scenes, JSON files; - is standard input")->required()->type_name("");
-    add_set(*app, args->common);
-    add_quiet(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("check", "Validate scenes: every issue at once, with its place and remedy");
+    app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
+    add_set(app, args->common);
+    add_quiet(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

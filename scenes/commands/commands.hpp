@@ -2,19 +2,16 @@
 // Each command is one file of this folder: `add_NAME` puts its grammar into the program and binds its action.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <initializer_list>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "output/standard_output.hpp"
+#include "scenes/commands/grammar.hpp"
 #include "scenes/run.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/units.hpp"
@@ -28,18 +25,6 @@ struct UsageError : std::runtime_error {
 // Exit code 3. The report has one message or more, positioned and complete.
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
-};
-
-// The program's subcommands, and what each does once it is parsed: the action returns the exit code.
-struct Grammar {
-    CLI::App& app;
-    std::vector<std::pair<CLI::App*, std::function<int()>>> commands;
-
-    // A new subcommand. `arguments` lives as long as the grammar; `act` takes it.
-    template <class Arguments>
-    void bind(CLI::App* command, std::shared_ptr<Arguments> arguments, int (*act)(const Arguments&)) {
-        commands.emplace_back(command, [arguments, act] { return act(*arguments); });
-    }
 };
 
 void add_run(Grammar& grammar);
@@ -79,11 +64,11 @@ struct Common {
     bool dry_run = false, json = false;
 };
 
-void add_set(CLI::App& app, Common& common);                        // --set
-void add_quiet(CLI::App& app, Common& common);                      // -q
-void add_scene(CLI::App& app, std::string& scene, Common& common);  // SCENE, --set, -q
-void add_work(CLI::App& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
-void add_shard(CLI::App& app, std::optional<std::string>& shard);
+void add_set(Command& app, Common& common);                        // --set
+void add_quiet(Command& app, Common& common);                      // -q
+void add_scene(Command& app, std::string& scene, Common& common);  // SCENE, --set, -q
+void add_work(Command& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
+void add_shard(Command& app, std::optional<std::string>& shard);
 Ask shard_argument(const std::string& text);  // "2/3"; throws UsageError
 
 // ---- what they do alike -------------------------------------------------------------------------

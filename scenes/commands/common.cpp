@@ -15,32 +15,27 @@
 #include "scenes/reader.hpp"
 
 namespace beamcam::scenes {
-void add_set(CLI::App& app, Common& common) {
-    app.add_option("--set", common.overrides,
-                   "Change the scene: key.path=value, a JSON value or a plain word (repeatable)")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+void add_set(Command& app, Common& common) {
+    app.option("--set", &common.overrides, "KEY=VALUE",
+               "Change the scene: key.path=value, a JSON value or a plain word (repeatable)");
 }
-void add_quiet(CLI::App& app, Common& common) { app.add_flag("-q,--quiet", common.quiet, "No messages but errors"); }
+void add_quiet(Command& app, Common& common) { app.flag("-q,--quiet", common.quiet, "No messages but errors"); }
 
-void add_scene(CLI::App& app, std::string& scene, Common& common) {
-    app.add_option("SCENE", scene, "The scene, a JSON file; - is standard input")->required()->type_name("");
+void add_scene(Command& app, std::string& scene, Common& common) {
+    app.positional("SCENE", &scene, "The scene, a JSON file; - is standard input").required();
     add_set(app, common);
     add_quiet(app, common);
 }
 
-void add_work(CLI::App& app, Common& common) {
-    app.add_flag("-v,--verbose", common.verbose, "Tell where the time went, and count the work");
-    app.add_option("-j,--jobs", common.threads, "Threads that draw, at most (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    app.add_option("--progress", common.progress, "Progress on standard error: auto, bar, plain, json or none")
-        ->type_name("STYLE");
-    app.add_flag("--force", common.force,
-                 "Replace files that beamcam did not make, and make anew what is there already");
-    app.add_flag("--no-cache", common.no_cache, "Neither read nor keep trajectories (beamcam cache --help)");
-    app.add_flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
-    app.add_flag("--json", common.json, "With -n: the plan as JSON");
+void add_work(Command& app, Common& common) {
+    app.flag("-v,--verbose", common.verbose, "Tell where the time went, and count the work");
+    app.option("-j,--jobs", &common.threads, "N", "Threads that draw, at most (default: one for each core)")
+        .range(1, 1024);
+    app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
+    app.flag("--force", common.force, "Replace files that beamcam did not make, and make anew what is there already");
+    app.flag("--no-cache", common.no_cache, "Neither read nor keep trajectories (beamcam cache --help)");
+    app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
+    app.flag("--json", common.json, "With -n: the plan as JSON");
 }
 
 void say(const Common& common, const std::string& text) {
@@ -54,11 +49,10 @@ Scene read_or_refuse(const std::string& path, const Common& common) {
     return std::move(*reading.scene);
 }
 
-void add_shard(CLI::App& app, std::optional<std::string>& shard) {
-    app.add_option("--shard", shard,
-                   "The I-th of N parts of every film and sequence, with the pixels of the whole: 2/3 makes "
-                   "NAME.2of3.mp4. Other outputs belong to the first")
-        ->type_name("I/N");
+void add_shard(Command& app, std::optional<std::string>& shard) {
+    app.option("--shard", &shard, "I/N",
+               "The I-th of N parts of every film and sequence, with the pixels of the whole: 2/3 makes "
+               "NAME.2of3.mp4. Other outputs belong to the first");
 }
 
 Ask shard_argument(const std::string& text) {

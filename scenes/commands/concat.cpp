@@ -39,15 +39,13 @@ int act(const Arguments& args) {
 
 void add_concat(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("concat", "Join segments of a film (--shard, --frames) without re-encoding");
-    app->add_option("SEGMENT", args->segments, "Films, in order")->required()->type_name("");
-    app->add_option("-o,--output", args->file, "Film to make, with the segments' ending: .mp4, .mov, .webm or .mkv")
-        ->required()
-        ->type_name("FILE");
-    app->add_flag("--force", args->common.force, "Replace a file that beamcam did not make");
-    add_quiet(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("concat", "Join segments of a film (--shard, --frames) without re-encoding");
+    app.positional("SEGMENT", &args->segments, "Films, in order").required();
+    app.option("-o,--output", &args->file, "FILE", "Film to make, with the segments' ending: .mp4, .mov, .webm or .mkv")
+        .required();
+    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_quiet(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -134,22 +134,18 @@ int act(const Arguments& args) {
 
 void add_diff(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand(
-        "diff", "How two pictures, sequences, films or tables differ; ends with 7 if they do");
-    app->add_option("A", args->a, "PNG, directory or sequence (name-####.png), film; or .csv, .npz")
-        ->required()
-        ->type_name("");
-    app->add_option("B", args->b, "What it is compared with")->required()->type_name("");
-    app->add_option("-o,--output", args->picture,
-                    "Picture of the difference, .png; with #### in its name one for each picture that changed")
-        ->type_name("FILE");
-    app->add_option("--tolerance", args->tolerance,
-                    "Differences up to this are equivalent: of colour, 0 … 255; of tables, a share of a column's range")
-        ->type_name("X");
-    app->add_flag("--json", args->common.json, "As JSON");
-    app->add_flag("--force", args->common.force, "Replace a picture that beamcam did not make");
-    add_quiet(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app =
+        grammar.command("diff", "How two pictures, sequences, films or tables differ; ends with 7 if they do");
+    app.positional("A", &args->a, "PNG, directory or sequence (name-####.png), film; or .csv, .npz").required();
+    app.positional("B", &args->b, "What it is compared with").required();
+    app.option("-o,--output", &args->picture, "FILE",
+               "Picture of the difference, .png; with #### in its name one for each picture that changed");
+    app.option("--tolerance", &args->tolerance, "X",
+               "Differences up to this are equivalent: of colour, 0 … 255; of tables, a share of a column's range");
+    app.flag("--json", args->common.json, "As JSON");
+    app.flag("--force", args->common.force, "Replace a picture that beamcam did not make");
+    add_quiet(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -17,10 +17,10 @@ int act(const Common& common) {
 
 void add_doctor(Grammar& grammar) {
     auto args = std::make_shared<Common>();
-    CLI::App* app = grammar.app.add_subcommand(
+    Command& app = grammar.command(
         "doctor", "What this machine has for pictures and films, and which package brings what is missing (then 5)");
-    app->add_flag("--json", args->json, "As JSON");
-    grammar.bind(app, args, act);
+    app.flag("--json", args->json, "As JSON");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -91,24 +91,19 @@ int act(const Arguments& args) {
 
 void add_figure(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
-    add_scene(*app, args->scene, args->common);
-    app->add_option("NAME", args->figure, "Which figure; none: list those of the scene")->type_name("");
-    app->add_option("-o,--output", args->file, "File to make: .pdf, .svg or .png")->type_name("FILE");
-    app->add_option("--column", args->column, "Width and letters of a journal's column")
-        ->check(CLI::IsMember(render::figure::column_names()))
-        ->type_name("COLUMN");
-    app->add_option("--width", args->width, "Another width than the column's, for example 120mm")->type_name("W");
-    app->add_option("--lang", args->lang, "Language of labels and caption: en or zh")
-        ->check(CLI::IsMember({"en", "zh"}))
-        ->type_name("LANG");
-    app->add_option("--dpi", args->dpi, "Dots per inch of a .png")->check(CLI::Range(50, 2400))->type_name("N");
-    app->add_option("--data", args->data, "Write the plotted numbers too, .csv")->type_name("FILE");
-    app->add_option("--caption", args->caption, "Write the caption too, plain and LaTeX, .txt or .tex")
-        ->type_name("FILE");
-    add_work(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
+    add_scene(app, args->scene, args->common);
+    app.positional("NAME", &args->figure, "Which figure; none: list those of the scene");
+    app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg or .png");
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
+        .one_of(render::figure::column_names());
+    app.option("--width", &args->width, "W", "Another width than the column's, for example 120mm");
+    app.option("--lang", &args->lang, "LANG", "Language of labels and caption: en or zh").one_of({"en", "zh"});
+    app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png").range(50, 2400);
+    app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
+    app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
+    add_work(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -76,20 +76,18 @@ int act(const Arguments& args) {
 
 void add_hash(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("hash", "SHA-256 of the decoded pixels of pictures and films");
-    app->add_option("FILE", args->files, "PNG files, directories or sequences (name-####.png) of them, films")
-        ->required()
-        ->type_name("");
-    app->add_flag("--whole", args->whole, "One digest a FILE, over all its pictures, instead of one a picture");
-    app->add_option("-j,--jobs", args->common.threads, "Threads that decode PNG files (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    app->footer(
+    Command& app = grammar.command("hash", "SHA-256 of the decoded pixels of pictures and films");
+    app.positional("FILE", &args->files, "PNG files, directories or sequences (name-####.png) of them, films")
+        .required();
+    app.flag("--whole", args->whole, "One digest a FILE, over all its pictures, instead of one a picture");
+    app.option("-j,--jobs", &args->common.threads, "N", "Threads that decode PNG files (default: one for each core)")
+        .range(1, 1024);
+    app.footer =
         "The digests are of R, G, B, A bytes, 8 bits each, row by row; for a picture FFmpeg prints the same with\n"
         "  ffmpeg -i FILE -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba \\\n"
         "         -f framehash -hash sha256 -\n"
-        "and for --whole with -f hash -hash sha256.");
-    grammar.bind(app, args, act);
+        "and for --whole with -f hash -hash sha256.";
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -37,11 +37,11 @@ int act(const Arguments& args) {
 
 void add_info(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("info", "Where a picture, film, figure or table came from");
-    app->add_option("FILE", args->files, "Files that beamcam made")->required()->type_name("");
-    app->add_flag("--scene", args->scene, "Print the scene out of it: `beamcam run` makes the same from that");
-    app->add_flag("--json", args->common.json, "As JSON");
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("info", "Where a picture, film, figure or table came from");
+    app.positional("FILE", &args->files, "Files that beamcam made").required();
+    app.flag("--scene", args->scene, "Print the scene out of it: `beamcam run` makes the same from that");
+    app.flag("--json", args->common.json, "As JSON");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

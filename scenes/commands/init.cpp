@@ -49,18 +49,18 @@ int print_schema(const SchemaArguments& args) {
 
 void add_init(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("init", "Write a commented scene to start from");
-    app->add_option("NAME", args->name, "Its name (default: scene); - is standard output")->type_name("");
-    app->add_flag("--force", args->common.force, "Replace an existing file");
-    add_quiet(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("init", "Write a commented scene to start from");
+    app.positional("NAME", &args->name, "Its name (default: scene); - is standard output");
+    app.flag("--force", args->common.force, "Replace an existing file");
+    add_quiet(app, args->common);
+    app.bind(args, act);
 }
 
 void add_schema(Grammar& grammar) {
-    CLI::App* app = grammar.app.add_subcommand("schema", "Print the JSON Schema of scenes, for editors");
+    Command& app = grammar.command("schema", "Print the JSON Schema of scenes, for editors");
     auto args = std::make_shared<SchemaArguments>();
-    app->add_flag("--baselines", args->baselines, "That of the baselines of `beamcam test`");
-    grammar.bind(app, args, print_schema);
+    app.flag("--baselines", args->baselines, "That of the baselines of `beamcam test`");
+    app.bind(args, print_schema);
 }
 
 }  // namespace beamcam::scenes

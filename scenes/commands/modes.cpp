@@ -54,14 +54,13 @@ int act(const Arguments& args) {
 
 void add_modes(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("modes", "Natural frequencies of beam and hub, at rest or turning");
-    add_scene(*app, args->scene, args->common);
-    app->add_option(
-           "--speed", args->speed,
-           "The beam turns at this speed, clamped to a hub held at it, for example 300rpm; without it the hub is free")
-        ->type_name("RAD_S");
-    app->add_flag("--json", args->common.json, "As JSON, with mass-normalized shapes");
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("modes", "Natural frequencies of beam and hub, at rest or turning");
+    add_scene(app, args->scene, args->common);
+    app.option(
+        "--speed", &args->speed, "RAD_S",
+        "The beam turns at this speed, clamped to a hub held at it, for example 300rpm; without it the hub is free");
+    app.flag("--json", args->common.json, "As JSON, with mass-normalized shapes");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -160,21 +160,18 @@ int act(const Arguments& args) {
 
 void add_paper(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand(
+    Command& app = grammar.command(
         "paper", "Make every figure of the paper as .png, .svg and .pdf, their captions, and the table of findings");
-    app->add_option("-o,--output", args->directory, "Directory of the files")->required()->type_name("DIR");
-    app->add_option("--column", args->column, "Width and letters of a journal's column")
-        ->check(CLI::IsMember(render::figure::column_names()))
-        ->type_name("COLUMN");
-    app->add_option("--lang", args->lang, "Language of labels and captions: en or zh")
-        ->check(CLI::IsMember({"en", "zh"}))
-        ->type_name("LANG");
-    app->add_option("--dpi", args->dpi, "Dots per inch of the .png files")->check(CLI::Range(50, 2400))->type_name("N");
-    app->add_flag("--data", args->data, "Write the plotted numbers too, as .csv");
-    add_set(*app, args->common);
-    add_quiet(*app, args->common);
-    add_work(*app, args->common);
-    grammar.bind(app, args, act);
+    app.option("-o,--output", &args->directory, "DIR", "Directory of the files").required();
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
+        .one_of(render::figure::column_names());
+    app.option("--lang", &args->lang, "LANG", "Language of labels and captions: en or zh").one_of({"en", "zh"});
+    app.option("--dpi", &args->dpi, "N", "Dots per inch of the .png files").range(50, 2400);
+    app.flag("--data", args->data, "Write the plotted numbers too, as .csv");
+    add_set(app, args->common);
+    add_quiet(app, args->common);
+    add_work(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -21,16 +21,15 @@ int act(const Arguments& args) {
 
 void add_plan(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("plan", "Tell what `run` would do, and what it would skip and why");
-    app->add_option("SCENE", args->scenes, "Scenes, JSON files; - is standard input")->required()->type_name("");
-    add_set(*app, args->common);
-    add_quiet(*app, args->common);
-    app->add_option("-o,--output", args->directory, "Directory of the outputs (default: the current one)")
-        ->type_name("DIR");
-    app->add_flag("--force", args->common.force, "As if nothing were there yet");
-    app->add_flag("--no-cache", args->common.no_cache, "As if no trajectory were kept");
-    app->add_flag("--json", args->common.json, "As JSON");
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("plan", "Tell what `run` would do, and what it would skip and why");
+    app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
+    add_set(app, args->common);
+    add_quiet(app, args->common);
+    app.option("-o,--output", &args->directory, "DIR", "Directory of the outputs (default: the current one)");
+    app.flag("--force", args->common.force, "As if nothing were there yet");
+    app.flag("--no-cache", args->common.no_cache, "As if no trajectory were kept");
+    app.flag("--json", args->common.json, "As JSON");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -253,42 +253,35 @@ int act(const Arguments& args) {
 
 void add_render(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand("render",
-                                               "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
-                                               "(name-####.png) or still (--at, .png)");
-    add_scene(*app, args->scene, args->common);
-    app->add_option("OTHERS", args->others, "More scenes, to be compared with the first in one picture")->type_name("");
-    app->add_option("-o,--output", args->file, "File to make")->required()->type_name("FILE");
-    app->add_option("--at", args->at, "One picture of this instant, in seconds, with a unit, or impact:N, collision:N")
-        ->type_name("T");
-    app->add_option("--from", args->from, "First instant of the film")->type_name("T");
-    app->add_option("--to", args->to, "Last instant of the film")->type_name("T");
-    app->add_option("--size", args->size, "Pixels, for example 1280x720")->type_name("WxH");
-    app->add_option("--fps", args->fps, "Frames a second, for example 60 or 30000/1001")->type_name("RATE");
-    app->add_option("--style", args->style, "lit or solid (OpenGL; in perspective), or flat")
-        ->check(CLI::IsMember({"lit", "flat", "solid"}))
-        ->type_name("STYLE");
-    app->add_option("--theme", args->theme, "light, dark or print")
-        ->check(CLI::IsMember({"light", "dark", "print"}))
-        ->type_name("THEME");
-    app->add_option("--speed", args->speed, "Of time, 1 is real; or impacts: slow motion around them")->type_name("S");
-    app->add_option("--codec", args->codec, "h264, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)")
-        ->type_name("CODEC");
-    app->add_option("--background", args->background, "paper or transparent")
-        ->check(CLI::IsMember({"paper", "transparent"}))
-        ->type_name("WHAT");
-    app->add_option("--comparison", args->comparison, "Several scenes as panels, or as ghosts in one")
-        ->check(CLI::IsMember({"panels", "ghosts"}))
-        ->type_name("HOW");
-    app->add_option("--frames", args->frames,
-                    "Only these frames of the film, by number, the last one not included: 30:60. Scales and camera are "
-                    "those of the whole film")
-        ->type_name("A:B");
-    app->add_option("--poster", args->poster, "Put the film's frame at this instant beside it: film.png, T as for --at")
-        ->type_name("T");
-    add_shard(*app, args->shard);
-    add_work(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("render",
+                                   "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
+                                   "(name-####.png) or still (--at, .png)");
+    add_scene(app, args->scene, args->common);
+    app.positional("OTHERS", &args->others, "More scenes, to be compared with the first in one picture");
+    app.option("-o,--output", &args->file, "FILE", "File to make").required();
+    app.option("--at", &args->at, "T",
+               "One picture of this instant, in seconds, with a unit, or impact:N, collision:N");
+    app.option("--from", &args->from, "T", "First instant of the film");
+    app.option("--to", &args->to, "T", "Last instant of the film");
+    app.option("--size", &args->size, "WxH", "Pixels, for example 1280x720");
+    app.option("--fps", &args->fps, "RATE", "Frames a second, for example 60 or 30000/1001");
+    app.option("--style", &args->style, "STYLE", "lit or solid (OpenGL; in perspective), or flat")
+        .one_of({"lit", "flat", "solid"});
+    app.option("--theme", &args->theme, "THEME", "light, dark or print").one_of({"light", "dark", "print"});
+    app.option("--speed", &args->speed, "S", "Of time, 1 is real; or impacts: slow motion around them");
+    app.option("--codec", &args->codec, "CODEC",
+               "h264, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
+    app.option("--background", &args->background, "WHAT", "paper or transparent").one_of({"paper", "transparent"});
+    app.option("--comparison", &args->comparison, "HOW", "Several scenes as panels, or as ghosts in one")
+        .one_of({"panels", "ghosts"});
+    app.option("--frames", &args->frames, "A:B",
+               "Only these frames of the film, by number, the last one not included: 30:60. Scales and camera are "
+               "those of the whole film");
+    app.option("--poster", &args->poster, "T",
+               "Put the film's frame at this instant beside it: film.png, T as for --at");
+    add_shard(app, args->shard);
+    add_work(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

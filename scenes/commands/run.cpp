@@ -28,19 +28,17 @@ int act(const Arguments& args) {
 
 void add_run(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand(
+    Command& app = grammar.command(
         "run", "Make every output that the scenes list; a scene that lists none: a film named after it");
-    app->add_option("SCENE", args->scenes,
-                    "Scenes, JSON files; - is standard input. Those of one motion are simulated once")
-        ->required()
-        ->type_name("");
-    add_set(*app, args->common);
-    add_quiet(*app, args->common);
-    app->add_option("-o,--output", args->directory, "Directory of the outputs (default: the current one)")
-        ->type_name("DIR");
-    add_shard(*app, args->shard);
-    add_work(*app, args->common);
-    grammar.bind(app, args, act);
+    app.positional("SCENE", &args->scenes,
+                   "Scenes, JSON files; - is standard input. Those of one motion are simulated once")
+        .required();
+    add_set(app, args->common);
+    add_quiet(app, args->common);
+    app.option("-o,--output", &args->directory, "DIR", "Directory of the outputs (default: the current one)");
+    add_shard(app, args->shard);
+    add_work(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -86,28 +86,19 @@ int act(const Arguments& args) {
 
 void add_simulate(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app =
-        grammar.app.add_subcommand("simulate", "Compute without pictures; with no option, print the summary");
-    add_scene(*app, args->scene, args->common);
-    app->add_option("--trajectory", args->trajectory, "Table of channels, .csv or .npz; - is standard output (CSV)")
-        ->type_name("FILE");
-    app->add_option("--rate", args->rate, "Rows a second (default: 1000)")->type_name("HZ");
-    app->add_option("--times", args->times, "Exactly these rows, in this order")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("T,T,...");
-    app->add_option("--channels", args->channels, "Columns besides the time (default: all)")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("A,B,...");
-    app->add_option("--impacts", args->impacts, "Impacts and collisions, .json or .csv; - is standard output (JSON)")
-        ->type_name("FILE");
-    app->add_option("--summary", args->summary, "Counts, extremes, energy balance, .json; - is standard output")
-        ->type_name("FILE");
-    app->add_flag("--horizon", args->horizon,
-                  "Tell in the summary until when the motion is reproducible (a second run)");
-    add_work(*app, args->common);
-    grammar.bind(app, args, act);
+    Command& app = grammar.command("simulate", "Compute without pictures; with no option, print the summary");
+    add_scene(app, args->scene, args->common);
+    app.option("--trajectory", &args->trajectory, "FILE",
+               "Table of channels, .csv or .npz; - is standard output (CSV)");
+    app.option("--rate", &args->rate, "HZ", "Rows a second (default: 1000)");
+    app.option("--times", &args->times, "T,T,...", "Exactly these rows, in this order").separated_by(',');
+    app.option("--channels", &args->channels, "A,B,...", "Columns besides the time (default: all)").separated_by(',');
+    app.option("--impacts", &args->impacts, "FILE",
+               "Impacts and collisions, .json or .csv; - is standard output (JSON)");
+    app.option("--summary", &args->summary, "FILE", "Counts, extremes, energy balance, .json; - is standard output");
+    app.flag("--horizon", args->horizon, "Tell in the summary until when the motion is reproducible (a second run)");
+    add_work(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -79,20 +79,16 @@ int act(const Arguments& args) {
 
 void add_stress(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand(
+    Command& app = grammar.command(
         "stress", "Numerical stability: thousands of extreme problems, each of which must end or be refused in words");
-    app->add_flag("--quick", args->quick, "One case in eleven and the short single cases (default)");
-    app->add_flag("--full", args->full, "Every case; minutes to an hour");
-    app->add_option("-o,--output", args->files,
-                    "Also write the cases as .csv or .json, or the survival map as .png (repeatable)")
-        ->allow_extra_args(false)
-        ->type_name("FILE");
-    add_quiet(*app, args->common);
-    app->add_option("-j,--jobs", args->common.threads, "Cases at a time (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    app->add_flag("--force", args->common.force, "Replace files that beamcam did not make");
-    grammar.bind(app, args, act);
+    app.flag("--quick", args->quick, "One case in eleven and the short single cases (default)");
+    app.flag("--full", args->full, "Every case; minutes to an hour");
+    app.option("-o,--output", &args->files, "FILE",
+               "Also write the cases as .csv or .json, or the survival map as .png (repeatable)");
+    add_quiet(app, args->common);
+    app.option("-j,--jobs", &args->common.threads, "N", "Cases at a time (default: one for each core)").range(1, 1024);
+    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -95,35 +95,29 @@ int act(const Arguments& args) {
 
 void add_test(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    CLI::App* app = grammar.app.add_subcommand(
+    Command& app = grammar.command(
         "test", "Render and simulate again what a file of baselines lists; ends with 7 when something differs");
-    app->add_option("BASELINES", args->baselines, "The baselines, a JSON file; - is standard input")
-        ->required()
-        ->type_name("");
-    app->add_option("--only", args->only, "Test these entries only")->type_name("NAME...");
-    app->add_option("--update", args->update,
-                    "Replace what these entries expect by what they are now (ends with 7, for somebody to look)")
-        ->type_name("NAME...");
-    app->add_flag("--add-digest", args->add_digest,
-                  "Accept the digests of this machine beside the others, where pictures are equivalent (ends with 7)");
-    app->add_flag("--strict", args->strict, "What is only equivalent fails too");
-    app->add_option("--tolerance", args->tolerance,
-                    "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("KEY=X,...");
-    app->add_option("--report", args->report, "Folder for a page with actual and difference pictures")
-        ->type_name("DIR");
-    app->add_option("--junit", args->junit, "Report for continuous integration, .xml")->type_name("FILE");
-    app->add_option("-j,--jobs", args->common.threads, "Threads that draw, at most (default: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    app->add_option("--progress", args->common.progress, "Progress on standard error: auto, bar, plain, json or none")
-        ->type_name("STYLE");
-    app->add_flag("--json", args->common.json, "As JSON");
-    app->add_flag("--force", args->common.force, "Replace reports that beamcam did not make");
-    add_quiet(*app, args->common);
-    grammar.bind(app, args, act);
+    app.positional("BASELINES", &args->baselines, "The baselines, a JSON file; - is standard input").required();
+    app.option("--only", &args->only, "NAME...", "Test these entries only").several();
+    app.option("--update", &args->update, "NAME...",
+               "Replace what these entries expect by what they are now (ends with 7, for somebody to look)")
+        .several();
+    app.flag("--add-digest", args->add_digest,
+             "Accept the digests of this machine beside the others, where pictures are equivalent (ends with 7)");
+    app.flag("--strict", args->strict, "What is only equivalent fails too");
+    app.option("--tolerance", &args->tolerance, "KEY=X,...",
+               "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
+        .separated_by(',');
+    app.option("--report", &args->report, "DIR", "Folder for a page with actual and difference pictures");
+    app.option("--junit", &args->junit, "FILE", "Report for continuous integration, .xml");
+    app.option("-j,--jobs", &args->common.threads, "N", "Threads that draw, at most (default: one for each core)")
+        .range(1, 1024);
+    app.option("--progress", &args->common.progress, "STYLE",
+               "Progress on standard error: auto, bar, plain, json or none");
+    app.flag("--json", args->common.json, "As JSON");
+    app.flag("--force", args->common.force, "Replace reports that beamcam did not make");
+    add_quiet(app, args->common);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes
