@@ -1,8 +1,9 @@
 #include "sim/model.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 
+#include "sim/eigenmodes.hpp"
 #include "sim/modal_model.hpp"
 #include "sim/quadrature_model.hpp"
 
@@ -76,15 +77,14 @@ void Model::build_damping(const Problem& problem) {
         Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n);
         if (!is_prescribed(problem.hub.drive))
             inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness.bottomRightCorner(n, n),
-                                                                              inertia);
+        const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
         Eigen::VectorXd twice(n);
         for (Eigen::Index i = 0; i < n; ++i) {
             const std::size_t k = beam.damping_ratio.size() == 1 ? 0 : static_cast<std::size_t>(i);
             const double ratio = k < beam.damping_ratio.size() ? beam.damping_ratio[k] : 0;
-            twice[i] = 2 * ratio * std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+            twice[i] = 2 * ratio * std::sqrt(std::max(0.0, modes.omega_squared[i]));
         }
-        const Eigen::MatrixXd weighted = inertia * modes.eigenvectors();
+        const Eigen::MatrixXd weighted = inertia * modes.shapes;
         damping = weighted * twice.asDiagonal() * weighted.transpose();
     }
     damping = 0.5 * (damping + damping.transpose()).eval();

@@ -1,9 +1,10 @@
 #include "sim/modes.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
+#include "sim/eigenmodes.hpp"
 #include "sim/model.hpp"
 
 namespace beamcam::sim {
@@ -38,7 +39,7 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     const Eigen::MatrixXd m = reduce.transpose() * mass * reduce;
     Eigen::MatrixXd k = reduce.transpose() * stiffness * reduce;
     k = 0.5 * (k + k.transpose()).eval();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, m);
+    const Eigenmodes natural = eigenmodes(k, m);
 
     // Small displacements of the points are linear in the coordinates: read off the Jacobian at rest.
     const double zero[kMaxSize] = {};
@@ -46,9 +47,9 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     std::vector<Mode> modes(static_cast<std::size_t>(n));
     for (Eigen::Index j = 0; j < n; ++j) {
         Mode& mode = modes[static_cast<std::size_t>(j)];
-        const double square = solver.eigenvalues()[j];
+        const double square = natural.omega_squared[j];
         mode.omega = square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
-        const Eigen::VectorXd xi = reduce * solver.eigenvectors().col(j);
+        const Eigen::VectorXd xi = reduce * natural.shapes.col(j);
         for (int p = 0; p < kPoints; ++p) {
             const double x = model->length() * p / (kPoints - 1);
             double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize], y = 0;

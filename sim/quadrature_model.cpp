@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "sim/eigenmodes.hpp"
 #include "sim/numerics.hpp"
 #include "sim/shapes.hpp"
 
@@ -132,11 +132,10 @@ class QuadratureModel : public Model {
         assemble(f);
         // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
         // little.
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-            bending_, inertia_.bottomRightCorner(modes_, modes_), Eigen::EigenvaluesOnly);
+        const Eigenmodes modes = eigenmodes(bending_, inertia_.bottomRightCorner(modes_, modes_));
         frequencies_.resize(static_cast<std::size_t>(modes_));
         for (int i = 0; i < modes_; ++i)
-            frequencies_[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+            frequencies_[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, modes.omega_squared[i]));
         build_damping(problem);
     }
 
