@@ -127,17 +127,22 @@ void Motions::make(const Group& group, const sim::Progress& progress) {
             next = end;
         }
     };
+    const auto leave_out = [&](const char* why) {
+        if (!std::ranges::all_of(group, &Wish::may_fail)) return false;
+        sim::Result none;
+        none.warnings = {
+            fmt::format("left out, {}, {} modes: {}", name(first.problem.beam.model), first.problem.beam.modes, why)};
+        hand_out(std::vector(requests.size(), none), &Wish::results);
+        return true;
+    };
     try {
         hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
     } catch (const sim::SolverError& error) {
-        if (std::ranges::all_of(group, &Wish::may_fail)) {
-            sim::Result none;
-            none.warnings = {fmt::format("left out, {}, {} modes: {}", name(first.problem.beam.model),
-                                         first.problem.beam.modes, error.what())};
-            return hand_out(std::vector(requests.size(), none), &Wish::results);
-        }
+        if (leave_out(error.what())) return;
         if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
         throw;
+    } catch (const std::invalid_argument& error) {  // an impossible problem, which the figure chose itself
+        if (!leave_out(error.what())) throw;
     }
 }
 

@@ -300,7 +300,7 @@ void read_figure_name(const OutputContext& context, Fields& f, std::string& out)
     }
     out = recipe->name;
     if (context.findings.any()) return;  // judged when the physics is known
-    if (const auto refusal = recipe->refusal(context.scene))
+    if (const auto refusal = refusal_of(*recipe, context.scene))
         f.fail(*node, "figure", fmt::format("{} = \"{}\": {}", f.path("figure"), recipe->name, *refusal));
 }
 

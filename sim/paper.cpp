@@ -17,13 +17,13 @@ StaticDeflection supported_beam(const Problem& problem, double angle, double sup
     const double c1 = q * l1 * l1 * l1 / (24 * c) + q * l * l * l1 / (12 * c) - q * l * l1 * l1 / (6 * c);
     double c2 = -q * l2 * l2 * l1 / (6 * c) - q * l2 * l2 * l2 / (6 * c);
     double d2 = q * l1 * l1 * l2 * l2 / (6 * c) + q * l2 * l2 * l2 * l1 / (6 * c) + q * l2 * l2 * l2 * l2 / (24 * c);
-    // Along the rod the arc is x/c, so curvature integrates twice with 1/c² (S48).
     double scale = 1 / problem.beam.bending_stiffness();
-    if (printing == Printing::corrected) {
+    if (printing != Printing::printed) {
         c2 += q * l1 * l1 * l1 / (24 * c);
         d2 -= q * l1 * l1 * l1 * l1 / (24 * c);
-        scale /= c * c;
     }
+    // Along the rod the arc is x/c, so curvature integrates twice with 1/c² (S48).
+    if (printing == Printing::corrected) scale /= c * c;
     if (!overhang)
         return {scale * (q * l * x * x * x / (6 * c) - q * l * l * x * x * x / (12 * l1 * c) -
                          q * x * x * x * x / (24 * c) + c1 * x),

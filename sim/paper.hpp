@@ -12,14 +12,15 @@
 
 namespace beamcam::sim {
 
-enum class Printing { printed, corrected };
+// printed: as in the paper; completed: with the missing terms; corrected: also measured along the inclined rod.
+enum class Printing { printed, completed, corrected };
 
 // Deflection w(x) of eq. (5) and its slope, x horizontal from the hinge: the beam inclined by `angle`,
 // supported at the hinge and at the horizontal distance `support` in (0, L cos θ). [m], [–]
 struct StaticDeflection {
     double w = 0, slope = 0;
 };
-// `x` in [0, L cos θ]. `corrected` completes C₂ and D₂ and measures along the inclined rod (1/cos²θ).
+// `x` in [0, L cos θ]. `completed` completes C₂ and D₂, `corrected` also measures along the inclined rod (1/cos²θ).
 // `overhang`: evaluate the expression of the overhanging span (at the support both apply).
 StaticDeflection supported_beam(const Problem& problem, double angle, double support, double x, Printing printing,
                                 bool overhang);

@@ -25,7 +25,7 @@ struct Arguments {
 std::string list(const Scene& scene, Lang lang) {
     std::string text;
     for (const Recipe& recipe : recipes()) {
-        const auto refusal = recipe.refusal(scene);
+        const auto refusal = refusal_of(recipe, scene);
         text += fmt::format("{:<15} {}{}\n", recipe.name, recipe.title.in(lang),
                             refusal ? fmt::format(" (not of this scene: {})", *refusal) : "");
     }
@@ -79,7 +79,7 @@ int act(const Arguments& args) {
     }
     if (args.file.empty())
         throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
-    if (const auto refusal = recipe->refusal(scene))
+    if (const auto refusal = refusal_of(*recipe, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
     scene.outputs = {wanted(args, *recipe)};
     const RunOptions options = run_options(args.common, "");

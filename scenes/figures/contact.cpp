@@ -1,5 +1,6 @@
 // Contact from near: one collision with its sub-impacts, the energy ledger, and where on beam and cam contact happens.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +28,38 @@ const sim::Collision* chosen(const sim::Result& result) {
     return result.collisions.empty() ? nullptr : &result.collisions.front();
 }
 
+// The first collision in numbers, in the digits that one mode fewer leaves.
+std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, const sim::Result* fewer,
+                              Lang lang) {
+    const bool en = lang == Lang::en;
+    const sim::Collision* other = fewer && !fewer->collisions.empty() ? &fewer->collisions.front() : nullptr;
+    const auto told = [&](double value, std::optional<double> otherwise) {
+        return supported(estimate(problem, value, otherwise));
+    };
+    std::string text = filled(
+        en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is "
+             "negative where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision "
+             "has {} impact{} (shaded)"
+           : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s "
+             "起。该碰撞包含 {} 次{}冲击（阴影）",
+        told(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "");
+    if (c.force_peak)
+        text += filled(en ? "; peak force {} N" : "；峰值力 {} N",
+                       told(*c.force_peak, other ? other->force_peak : std::nullopt));
+    text += filled(en ? "; energy lost {} J{}. " : "；能量损失 {} J{}。",
+                   told(c.energy_lost, other ? std::optional(other->energy_lost) : std::nullopt),
+                   c.t_end ? "" : (en ? "; it lasts longer than the figure" : "；至图末尚未结束"));
+    return text + digits_stated(problem, lang);
+}
+
 FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "collision");
+    std::optional<std::size_t> check;
+    if (const auto fewer = with_one_mode_fewer(scene.problem)) {
+        check = studies.of(*fewer, end, "collision");
+        studies.may_fail(*check);
+    }
     const std::size_t table =
         studies.table(study, {0, end, fine(end)}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::gap});
     return [=, problem = scene.problem](const Results& results) {
@@ -108,18 +138,7 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
         panel.series = {force, depth};
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.62;
-        figure.caption =
-            filled(en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which "
-                        "is negative "
-                        "where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision has {} "
-                        "impact{} "
-                        "(shaded); peak force {} N, energy lost {} J. "
-                      : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} "
-                        "s 起。该碰撞包含 {} 次{}"
-                        "冲击（阴影）；峰值力 {} N，能量损失 {} J。",
-                   grouped(c->t_start, 6), c->count, en && c->count != 1 ? "s" : "",
-                   c->force_peak ? number(*c->force_peak, 4) : std::string("–"), number(c->energy_lost, 3));
-        figure.caption += stated(problem, lang);
+        figure.caption = collision_caption(problem, *c, check ? results[*check] : nullptr, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -140,7 +159,7 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
         const std::vector<double>& time = column(t, ChannelKind::t);
         Figure figure;
         figure.name = "energy";
-        figure.title = en ? "Energy ledger" : "能量账目";
+        figure.title = en ? "Energy balance" : "能量账目";
         Panel ledger, closure;
         closure.letter = "b";
         ledger.x.label = closure.x.label = "$t$ / s";
@@ -161,11 +180,13 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
             }
             return total;
         };
+        std::vector<std::string> parts;
         const auto add = [&](Words words, std::vector<double> values, bool always) {
             const bool zero = std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
             if (zero && !always) return;
             Series s;
             s.label = words.in(lang);
+            parts.push_back(s.label);
             s.look = look++;
             s.x = time;
             s.y = std::move(values);
@@ -212,19 +233,14 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
         figure.share_x = true;
         figure.aspect = 1.05;
         const bool both = figure.panels.size() > 1;
-        const Words ledger_words{
-            "Energy ledger: {}kinetic, potential and stored energy, what structure, contact and friction lost, and the "
-            "work "
-            "of cam and drive; their balance is the black line. ",
-            "能量账目：{}动能、势能、储能，结构、接触与摩擦的损失，以及凸轮与驱动的功；黑线为其平衡。"};
         const Words closure_words{
             "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below "
-            "10^{−12} of "
-            "the largest energy is rounding and lies on the lower edge. ",
+            "10^{−12} of the largest energy is rounding and lies on the lower edge. ",
             "(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘。"};
-        figure.caption = filled(ledger_words.in(lang).c_str(), both ? "(a) " : "");
+        figure.caption = filled(en ? "Energy: {}{}; the black line is their balance. " : "能量：{}{}；黑线为其平衡。",
+                                both ? "(a) " : "", fmt::format("{}", fmt::join(parts, en ? ", " : "、")));
         if (both) figure.caption += closure_words.in(lang);
-        figure.caption += stated(problem, lang);
+        figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -286,7 +302,7 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     figure.caption =
         en ? "Place of the impacts on the beam, measured from its root, coloured by their normal impulse $J$. "
            : "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。";
-    figure.caption += stated(problem, lang);
+    figure.caption += facts(problem, lang);
     figure.accuracy = accuracy({{&problem, &result}}, lang);
     return figure;
 }
@@ -363,13 +379,13 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.1;
-        figure.caption =
-            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from the "
-                 "mark of "
-                 "the disc (the ray from $C$ to $B$), coloured by the normal force; inset: the first collision. "
+        figure.caption = filled(
+            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from "
+                 "the mark of the disc (the ray from $C$ to $B$), coloured by the normal force{}. "
                : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
-                 "起的角度）的位置，颜色表示法向力；插图为首次碰撞。";
-        figure.caption += stated(problem, lang);
+                 "起的角度）的位置，颜色表示法向力{}。",
+            figure.panels.front().insets.empty() ? "" : (en ? "; inset: the first collision" : "；插图为首次碰撞"));
+        figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -384,7 +400,7 @@ std::optional<std::string> needs_force(const Scene& scene) {
 }  // namespace
 
 const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_force, prepare_collision};
-const Recipe kEnergy{"energy", {"Energy ledger", "能量账目"}, no_refusal, prepare_energy};
+const Recipe kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
 const Recipe kContactPlaces{
     "contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
 

@@ -1,6 +1,8 @@
 // Falling without a cam: the hub angle of the flexible and the rigid beam, and the vibration of the free end.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/figures/recipes.hpp"
@@ -47,18 +49,94 @@ void mark_zero(Panel& panel, const sim::Result& result, int look, bool hollow) {
         panel.marks.push_back({.x = result.theta_zero.front().t, .y = 0, .look = look, .hollow = hollow});
 }
 
-// The curve's name and the time of its zero, which the mark shows.
-std::string with_zero(const std::string& name, const sim::Result& result, int decimals) {
-    return result.theta_zero.empty() ? name : name + ": " + grouped(result.theta_zero.front().t, decimals) + " s";
+std::optional<double> zero_of(const sim::Result& result) {
+    if (result.theta_zero.empty()) return std::nullopt;
+    return result.theta_zero.front().t;
+}
+
+// Microseconds about the closed form, microradians about zero; only where both beams cross there.
+std::optional<render::figure::Inset> close_up(const Fall& flexible, const Fall& stiff, double exact,
+                                              const Results& results) {
+    Panel panel;
+    panel.x.label = filled("($t$ − {} s) / µs", grouped(exact, 6));
+    panel.y.label = "$θ$ / µrad";
+    panel.legend = Legend::none;
+    panel.rules.push_back({.at = 0});
+    double slope = 0;
+    for (const auto& [fall, look] : {std::pair{&flexible, 0}, std::pair{&stiff, 1}}) {
+        const sim::Result& result = *results[fall->study];
+        const std::optional<double> zero = zero_of(result);
+        if (!zero || std::abs(*zero - exact) > 0.8 * kAround) return std::nullopt;
+        Series s = curve(result.tables[*fall->close], "", look);
+        for (double& t : s.x) t = (t - exact) * 1e6;
+        s.y = scaled(s.y, 1e6);
+        s.solid = look == 0;
+        panel.series.push_back(std::move(s));
+        panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = look});
+        slope = std::abs(result.theta_zero.front().theta_dot);
+    }
+    return render::figure::Inset{
+        .panel = {std::move(panel)},
+        .width = 0.36,
+        .height = 0.34,
+        .source = render::figure::Inset::Source{exact - kAround, exact + kAround, -slope * kAround, slope * kAround}};
+}
+
+// The beams of the figure: the scene's own, the rigid one, and in the paper's fall the rod that takes its 0.262 s.
+struct Beams {
+    sim::Problem own, stiff, doubled;
+    Fall falls[3];
+    std::optional<std::size_t> fewer;  // the study of one mode fewer
+    bool flexible = false, paper = false;
+};
+
+std::string fall_caption(const Beams& beams, const Results& results, double end, Lang lang) {
+    const bool en = lang == Lang::en;
+    const auto zero = [&](int k) { return zero_of(*results[beams.falls[k].study]); };
+    const std::optional<double> fewer = beams.fewer ? zero_of(*results[*beams.fewer]) : std::nullopt;
+    std::string text = beams.flexible ? (en ? "Hub angle without the cam, of the flexible and of the rigid beam. "
+                                            : "无凸轮时柔性梁与刚性梁的转角。")
+                                      : (en ? "Hub angle without the cam. " : "无凸轮时的转角。");
+    std::vector<std::string> times;
+    const auto add = [&](int k, const sim::Problem& problem, Words whose) {
+        if (!zero(k)) return;
+        const Estimate at = estimate(problem, *zero(k), k == 0 ? fewer : std::nullopt);
+        times.push_back(filled(en ? "{} s ({})" : "{} s（{}）", supported(at), whose.in(lang)));
+    };
+    if (beams.flexible) add(0, beams.own, {"flexible", "柔性"});
+    add(1, beams.stiff, {"rigid", "刚性"});
+    if (times.empty()) {
+        text += filled(en ? "$θ$ does not reach 0 before {} s. " : "{} s 之前 $θ$ 未达到 0。", number(end, 4));
+    } else {
+        text += filled(en ? "$θ$ = 0 is reached at {}. " : "到达 $θ$ = 0 的时刻：{}。",
+                       fmt::format("{}", fmt::join(times, en ? ", " : "，")));
+        if (beams.flexible && zero(0) && zero(1)) {
+            const Estimate own = estimate(beams.own, *zero(0), fewer);
+            text += filled(en ? "Flexibility changes the time by {} s. " : "柔性使该时刻改变 {} s。",
+                           supported({*zero(0) - *zero(1), own.error}));
+        }
+        text += digits_stated(beams.own, lang);
+    }
+    if (beams.paper)
+        text += filled(en ? "The paper prints 0.37 s for the flexible beam and 0.262 s for the rigid rod. The third "
+                            "curve, the rigid rod with a factor 2 between torque and inertia (torque doubled or "
+                            "inertia halved), takes {} s, 1/√2 of the rod's time. "
+                          : "原文给出柔性梁 0.37 s、刚性杆 0.262 s。第三条曲线为力矩与惯量之比差 2 "
+                            "倍（力矩加倍或惯量减半）的刚性杆，历时 {} s，即刚性杆的 1/√2。",
+                       supported(estimate(beams.doubled, *zero(2), std::nullopt)));
+    return text;
 }
 
 FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
-    const sim::Problem flexible = without_cam(scene.problem), stiff = rigid(flexible);
-    sim::Problem doubled = stiff;
-    doubled.gravity *= 2;
-    const std::optional<double> exact = closed_form(flexible);
-    const bool close = exact && *exact + kAround < end;
+    Beams beams;
+    beams.own = without_cam(scene.problem);
+    beams.doubled = beams.stiff = rigid(beams.own);
+    beams.doubled.gravity *= 2;
+    beams.flexible = beams.own.beam.model != sim::ModelKind::rigid;
+    const std::optional<double> exact = closed_form(beams.own);
+    beams.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
+    const bool close = beams.flexible && exact && *exact + kAround < end;
     const auto want = [&](const sim::Problem& p, bool enlarged) {
         Fall fall;
         fall.study = studies.of(p, end, "free-fall");
@@ -69,72 +147,52 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
                                        {ChannelKind::t, ChannelKind::theta});
         return fall;
     };
-    const Fall f = want(flexible, close), r = want(stiff, close), d = want(doubled, false);
+    beams.falls[0] = want(beams.own, close);
+    beams.falls[1] = want(beams.stiff, close);
+    if (beams.paper) beams.falls[2] = want(beams.doubled, false);
+    if (const auto fewer = with_one_mode_fewer(beams.own)) {
+        beams.fewer = studies.of(*fewer, end, "free-fall");
+        studies.turning_points(*beams.fewer);
+        studies.may_fail(*beams.fewer);
+    }
     return [=](const Results& results) {
         const bool en = lang == Lang::en;
         Figure figure;
         figure.name = "free-fall";
-        figure.title = en ? "Hub angle of the free fall" : "自由下落的转角";
+        figure.title = en ? "Hub angle without the cam" : "无凸轮时的转角";
         Panel panel;
         panel.x.label = "$t$ / s";
         panel.y.label = "$θ$ / rad";
         panel.legend = Legend::box;
-        // Room above the curves for the legend.
-        panel.y.to = 1.75 * std::abs(flexible.initial.angle) + 0.01;
-        const sim::Result &flex = *results[f.study], &rod = *results[r.study], &twice = *results[d.study];
         panel.rules.push_back({.at = 0});
-        panel.series.push_back(curve(flex.tables[f.table], with_zero(en ? "flexible" : "柔性梁", flex, 9), 0));
-        panel.series.push_back(curve(rod.tables[r.table], with_zero(en ? "rigid" : "刚性杆", rod, 9), 1));
-        panel.series.push_back(
-            curve(twice.tables[d.table], with_zero(en ? "rigid, torque doubled" : "刚性杆，力矩加倍", twice, 6), 2));
-        panel.series[0].solid = true;
-        mark_zero(panel, twice, 2, false);
-        if (f.close) {
-            // Microseconds about the closed form, microradians about zero.
-            Panel close_up;
-            close_up.x.label = filled("($t$ − {} s) / µs", grouped(*exact, 6));
-            close_up.y.label = "$θ$ / µrad";
-            close_up.legend = Legend::none;
-            close_up.rules.push_back({.at = 0});
-            for (const auto& [fall, result, look] : {std::tuple{&f, &flex, 0}, std::tuple{&r, &rod, 1}}) {
-                Series s = curve(result->tables[*fall->close], "", look);
-                for (double& t : s.x) t = (t - *exact) * 1e6;
-                s.y = scaled(s.y, 1e6);
-                s.solid = look == 0;
-                close_up.series.push_back(std::move(s));
-                if (!result->theta_zero.empty()) {
-                    const double t = result->theta_zero.front().t;
-                    close_up.marks.push_back({.x = (t - *exact) * 1e6, .y = 0, .look = look});
-                }
-            }
-            const double slope = rod.theta_zero.empty() ? 5 : std::abs(rod.theta_zero.front().theta_dot);
-            panel.insets.push_back({.panel = {close_up},
-                                    .width = 0.36,
-                                    .height = 0.34,
-                                    .source = render::figure::Inset::Source{*exact - kAround, *exact + kAround,
-                                                                            -slope * kAround, slope * kAround}});
+        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
+        const auto add = [&](int k, const sim::Problem& problem, Words label) {
+            const Fall& fall = beams.falls[k];
+            const sim::Result& result = *results[fall.study];
+            panel.series.push_back(curve(result.tables[fall.table], label.in(lang), k));
+            panel.series.back().solid = panel.series.size() == 1;
+            runs.emplace_back(&problem, &result);
+        };
+        if (beams.flexible) add(0, beams.own, {"flexible", "柔性"});
+        add(1, beams.stiff, {"rigid", "刚性"});
+        if (beams.paper) add(2, beams.doubled, {"rigid, factor 2", "刚性，2 倍"});
+        // Room above the curves for the legend.
+        double low = 0, high = 0;
+        for (const Series& s : panel.series)
+            for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
+        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
+        if (beams.paper) mark_zero(panel, *results[beams.falls[2].study], 2, false);
+        auto inset = close ? close_up(beams.falls[0], beams.falls[1], *exact, results) : std::nullopt;
+        if (inset) {
+            panel.insets.push_back(std::move(*inset));
         } else {
-            mark_zero(panel, flex, 0, false);
-            mark_zero(panel, rod, 1, true);
+            if (beams.flexible) mark_zero(panel, *results[beams.falls[0].study], 0, false);
+            mark_zero(panel, *results[beams.falls[1].study], 1, beams.flexible);
         }
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.74;
-        const auto zero = [&](const sim::Result& x) {
-            return x.theta_zero.empty() ? std::string("–") : grouped(x.theta_zero.front().t, 9) + " s";
-        };
-        figure.caption = filled(
-            en ? "Hub angle of the free fall from rest without a cam: flexible beam, exact rigid rod, and the rigid "
-                 "rod "
-                 "under twice its gravity torque, which alone gives the 0.262 s that the paper prints for the rigid "
-                 "rod. $θ$ = 0, marked, is reached at {} (flexible), {} (rigid), {} (torque doubled): the flexible "
-                 "beam falls "
-                 "like the rigid rod. "
-               : "无凸轮时由静止自由下落的转角：柔性梁、精确刚性杆，以及重力矩加倍的刚性杆（只有后者给出原文所列刚性杆"
-                 "的 0.262 s）。到达 "
-                 "$θ$ = 0 的时刻：柔性梁 {}，刚性杆 {}，力矩加倍 {}；柔性梁与刚性杆的下落几乎一致。",
-            zero(flex), zero(rod), zero(twice));
-        figure.caption += assumptions(flexible, lang);
-        figure.accuracy = accuracy({{&flexible, &flex}, {&stiff, &rod}}, lang);
+        figure.caption = fall_caption(beams, results, end, lang) + beam_facts(beams.own, lang);
+        figure.accuracy = accuracy(runs, lang);
         return figure;
     };
 }
@@ -168,8 +226,8 @@ FigureMaker prepare_tip(const Scene& scene, Lang lang, Studies& studies) {
         figure.aspect = 0.55;
         figure.caption = filled(en ? "Transverse deflection of the free end from the tangent at the root{}. "
                                    : "自由端相对根部切线的横向挠度{}。",
-                                problem.cam ? "" : (en ? " during the free fall" : "（自由下落过程）"));
-        figure.caption += stated(problem, lang);
+                                problem.cam ? "" : (en ? ", without a cam" : "（无凸轮）"));
+        figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -182,7 +240,7 @@ std::optional<std::string> needs_flexible(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kFreeFall{"free-fall", {"Hub angle of the free fall", "自由下落的转角"}, needs_free_hub, prepare_fall};
+const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
 const Recipe kTipVibration{
     "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_flexible, prepare_tip};
 

@@ -84,59 +84,134 @@ FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
         for (Series& s : series) s.every_point = true, panel.series.push_back(s);
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.62;
-        sim::Problem shown = problem;
-        shown.beam.model = ModelKind::first_order;
         figure.caption =
-            en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, "
-                 "model first-order; models and modes of the following list do not apply. "
-               : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order（下列模型与模态数不适用）。";
-        figure.caption += stated(shown, lang);
+            en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, model "
+                 "first-order. "
+               : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order。";
+        figure.caption += facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(used, lang);
         return figure;
     };
 }
 
+// One motion of the comparison.
+struct Rung {
+    ModelKind model;
+    Basis basis;
+    bool same_shapes;  // as the reference: the difference is the model's alone
+    std::string label;
+    sim::Problem problem = {};
+    std::size_t study = 0, table = 0;
+};
+
+const char* shapes(Basis basis, bool en) {
+    if (basis == Basis::cantilever) return en ? "cantilever" : "悬臂";
+    return en ? "hub–beam" : "轮毂–梁";
+}
+
+// The reference first. Models are compared in the same shapes and number of modes; the paper's equation, which only the
+// paper's scenes show, has none but cantilever shapes. What other shapes change is shown apart.
+std::vector<Rung> rungs(const Scene& scene, Lang lang) {
+    const bool en = lang == Lang::en;
+    const sim::Problem& problem = scene.problem;
+    const bool paper = is_of_the_paper(problem) || problem.beam.model == ModelKind::paper;
+    const Basis own = problem.beam.basis == Basis::cantilever || paper ? Basis::cantilever : Basis::hub_beam,
+                other = own == Basis::cantilever ? Basis::hub_beam : Basis::cantilever;
+    std::vector<Rung> all;
+    for (const ModelKind model :
+         {ModelKind::second_order, ModelKind::first_order, ModelKind::zeroth_order, ModelKind::paper, ModelKind::rigid})
+        if (model != ModelKind::paper || paper) all.push_back({model, own, true, name(model)});
+    all.push_back({ModelKind::second_order, other, false,
+                   filled(en ? "second-order, {} shapes" : "second-order，{}模态", shapes(other, en))});
+    all.push_back({ModelKind::exact, Basis::automatic, false, name(ModelKind::exact)});
+    for (Rung& rung : all) {
+        rung.problem = problem;
+        sim::Beam& beam = rung.problem.beam;
+        beam.model = rung.model;
+        beam.basis = rung.basis;
+        if (rung.model != ModelKind::exact) continue;
+        // The elastica's own shapes resolve what the scene's modes do with about twice as many.
+        beam.modes = std::min(2 * beam.modes + 1, 40);
+        if (beam.damping_ratio.size() > 1) beam.damping_ratio.resize(static_cast<std::size_t>(beam.modes), 0);
+    }
+    return all;
+}
+
+const Rung* found(const std::vector<Rung>& all, ModelKind model, bool same_shapes) {
+    const auto it =
+        std::ranges::find_if(all, [&](const Rung& r) { return r.model == model && r.same_shapes == same_shapes; });
+    return it == all.end() ? nullptr : &*it;
+}
+
+// What equation and shapes change of the first rebound, each by itself.
+std::string models_caption(const std::vector<Rung>& all, const Results& results, Lang lang) {
+    const bool en = lang == Lang::en;
+    const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
+        const Rung* rung = found(all, model, same_shapes);
+        return rung ? rebound(*results[rung->study]) : std::nullopt;
+    };
+    const Rung& reference = all.front();
+    std::string text = filled(
+        en ? "The models of the beam compared: (a) hub angle; (b) largest difference so far from the model "
+             "second-order, all in {0} {1} modes, so that it is the model's alone; (c) the same of other shapes: {2} "
+             "modes, and the polynomials of the model exact (inextensible elastica). "
+           : "各梁模型比较：(a) 转角；(b) 与 second-order 模型之差迄今的最大值，均用 {0} "
+             "阶{1}模态，故仅为模型之差；(c) "
+             "其他形函数的同一差值：{2}模态，以及 exact（不可伸长弹性线）模型的多项式。",
+        reference.problem.beam.modes, shapes(reference.basis, en),
+        shapes(found(all, ModelKind::second_order, false)->basis, en));
+    const auto reference_apex = apex(ModelKind::second_order, true), other_apex = apex(ModelKind::second_order, false),
+               first = apex(ModelKind::first_order, true), printed = apex(ModelKind::paper, true);
+    if (found(all, ModelKind::paper, true))
+        text += en ? "The model “paper” is the paper's eq. (4) as printed, with the sign of gravity from its eq. (2); "
+                     "it does not conserve energy. "
+                   : "模型 paper 为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。";
+    if (first && printed)
+        text += filled(en ? "The apex of the first rebound differs by {} rad between eq. (4) and first-order. "
+                          : "式 (4) 与 first-order 的首次回弹最高点相差 {} rad。",
+                       number(std::abs(*first - *printed), 1));
+    if (reference_apex && other_apex)
+        text +=
+            filled(en ? "The other shapes change the apex of the first rebound by {} rad, which is no difference of "
+                        "the equations. "
+                      : "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
+                   number(std::abs(*reference_apex - *other_apex), 2));
+    if (!results[reference.study]->impacts.empty())
+        text += en ? "Impacts multiply small differences. " : "碰撞会放大微小差别。";
+    return text;
+}
+
 FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
-    constexpr std::array kLadder{ModelKind::second_order, ModelKind::exact, ModelKind::first_order,
-                                 ModelKind::zeroth_order, ModelKind::paper, ModelKind::rigid};
-    std::vector<std::size_t> where, tables;
-    std::vector<sim::Problem> problems;
-    for (const ModelKind model : kLadder) {
-        sim::Problem p = scene.problem;
-        p.beam.model = model;
-        if (model == ModelKind::paper) p.beam.basis = Basis::cantilever;
-        if (model == ModelKind::exact) {
-            // The elastica's own shapes resolve what the scene's modes do with about twice as many.
-            p.beam.modes = std::min(2 * scene.problem.beam.modes + 1, 40);
-            if (p.beam.damping_ratio.size() > 1) p.beam.damping_ratio.clear();
-        }
-        where.push_back(studies.of(p, scene.end_time, "models"));
-        if (model != ModelKind::second_order) studies.may_fail(where.back());  // what the others are compared with
-        tables.push_back(
-            studies.table(where.back(), {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta}));
-        problems.push_back(std::move(p));
+    std::vector<Rung> all = rungs(scene, lang);
+    for (Rung& rung : all) {
+        rung.study = studies.of(rung.problem, scene.end_time, "models");
+        if (&rung != &all.front()) studies.may_fail(rung.study);  // what the others are compared with
+        studies.turning_points(rung.study);
+        rung.table = studies.table(rung.study, {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta});
     }
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
         Figure figure;
         figure.name = "models";
         figure.title = en ? "The models compared" : "各模型比较";
-        Panel angle, difference;
-        angle.letter = "a";
-        difference.letter = "b";
-        angle.x.label = difference.x.label = "$t$ / s";
+        Panel angle, models, bases;
+        angle.letter = "a", models.letter = "b", bases.letter = "c";
         angle.y.label = "$θ$ / rad";
-        difference.y.label = "max |$Δθ$| / rad";
-        difference.y.scale = Scale::logarithmic;
         angle.legend = Legend::box;
-        difference.legend = Legend::none;
+        models.legend = bases.legend = Legend::none;
+        angle.share = 1.4;
+        for (Panel* panel : {&models, &bases}) {
+            panel->y.label = "max |$Δθ$| / rad";
+            panel->y.scale = Scale::logarithmic;
+        }
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
-        const std::vector<double>& reference = column(results[where[0]]->tables[tables[0]], ChannelKind::theta);
-        for (std::size_t k = 0; k < where.size(); ++k) {
-            if (!is_there(*results[where[k]])) continue;
-            const sim::Table& t = results[where[k]]->tables[tables[k]];
+        const std::vector<double>& reference = column(results[all[0].study]->tables[all[0].table], ChannelKind::theta);
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            const Rung& rung = all[k];
+            if (!is_there(*results[rung.study])) continue;
+            const sim::Table& t = results[rung.study]->tables[rung.table];
             Series s;
-            s.label = name(kLadder[k]);
+            s.label = rung.label;
             s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
             s.solid = k == 0;
             s.weight = 0.85;
@@ -149,28 +224,20 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
                     largest = std::max(largest, std::abs(d.y[i] - reference[i]));
                     d.y[i] = largest > 0 ? largest : std::nan("");
                 }
-                difference.series.push_back(std::move(d));
+                if (largest > 0) (rung.same_shapes ? models : bases).series.push_back(std::move(d));
             }
             angle.series.push_back(std::move(s));
-            runs.emplace_back(&problems[k], results[where[k]]);
+            runs.emplace_back(&rung.problem, results[rung.study]);
         }
-        for (Panel* panel : {&angle, &difference}) panel->x.from = 0, panel->x.to = end;
-        figure.panels = {angle, difference};
+        for (Panel* panel : {&angle, &models, &bases}) {
+            panel->x.label = "$t$ / s";
+            panel->x.from = 0, panel->x.to = end;
+            if (!panel->series.empty()) figure.panels.push_back(std::move(*panel));
+        }
         figure.stack = true;
         figure.share_x = true;
-        figure.aspect = 1.15;
-        figure.caption =
-            en ? "The rungs of the model ladder compared: (a) hub angle, (b) the largest difference so far "
-                 "from the model second-order. The model exact (inextensible elastica) has shapes of its own, "
-                 "so its difference is that of the shapes too. The model “paper” is the paper's eq. (4) as printed, "
-                 "with the "
-                 "sign of gravity from its eq. (2); it does not conserve energy. After an impact small "
-                 "differences grow as the motion is chaotic. "
-               : "各级模型比较：(a) 转角，(b) 与 second-order "
-                 "模型之差迄今的最大值。exact（不可伸长弹性线）模型使用自己的形函数，其差别亦含形函数的差别。模型 "
-                 "paper 为原文式 (4)，仅重力符号取自式 (2)，其能量"
-                 "不守恒。碰撞之后由于混沌，微小差别会增长。";
-        figure.caption += stated(problem, lang);
+        figure.aspect = 1.5;
+        figure.caption = models_caption(all, results, lang) + facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(runs, lang);
         return figure;
     };

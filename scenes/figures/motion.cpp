@@ -1,5 +1,6 @@
-// Motion through repeated impacts: the hub angle in time, for the paper's three speeds, and the phase portrait.
+// The hub angle in time, also for three speeds of the cam, and the phase portrait.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -20,18 +21,31 @@ using sim::ChannelKind;
 constexpr int kCurve = 8001;
 constexpr std::array kSpeeds3{0.0, 1.0, 5.0};  // ω of the paper's figure 6 [rad/s]
 
-// The part of a curve up to `until`, and the rest, which joins it.
-std::array<Series, 2> split(const Series& whole, double until) {
+// Within it θ is not reproducible [s].
+struct Interval {
+    double from, to;
+    bool holds(double t) const { return t > from && t <= to; }
+};
+std::vector<Interval> unreliable(const sim::Result& result, double end) {
+    const double until = result.reproducible_until.value_or(end);
+    if (!(until < end)) return {};
+    return {{until, end}};
+}
+
+// The curve outside of the intervals, and within them; neighbouring pieces share a point.
+std::array<Series, 2> split(const Series& whole, const std::vector<Interval>& intervals) {
     std::array<Series, 2> parts{whole, whole};
     for (Series& part : parts) part.x.clear(), part.y.clear();
+    std::optional<bool> before;
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const bool sure = whole.x[i] <= until;
-        parts[sure ? 0 : 1].x.push_back(whole.x[i]);
-        parts[sure ? 0 : 1].y.push_back(whole.y[i]);
-    }
-    if (!parts[0].x.empty() && !parts[1].x.empty()) {
-        parts[1].x.insert(parts[1].x.begin(), parts[0].x.back());
-        parts[1].y.insert(parts[1].y.begin(), parts[0].y.back());
+        const bool unsure = std::ranges::any_of(intervals, [&](const Interval& v) { return v.holds(whole.x[i]); });
+        Series& part = parts[unsure ? 1 : 0];
+        if (before && *before != unsure) {
+            if (!part.x.empty()) part.x.push_back(whole.x[i - 1]), part.y.push_back(std::nan(""));
+            part.x.push_back(whole.x[i - 1]), part.y.push_back(whole.y[i - 1]);
+        }
+        part.x.push_back(whole.x[i]), part.y.push_back(whole.y[i]);
+        before = unsure;
     }
     return parts;
 }
@@ -45,30 +59,47 @@ Panel angle_panel(const sim::Result& result, std::size_t table, double end) {
     whole.x = column(result.tables[table], ChannelKind::t);
     whole.y = column(result.tables[table], ChannelKind::theta);
     whole.weight = 0.9;
-    const double until = result.reproducible_until.value_or(end);
-    auto [sure, unsure] = split(whole, until);
+    const std::vector<Interval> intervals = unreliable(result, end);
+    auto [sure, unsure] = split(whole, intervals);
     unsure.faded = true;
     if (!unsure.x.empty()) panel.series.push_back(std::move(unsure));
     if (!sure.x.empty()) panel.series.push_back(std::move(sure));
-    if (until < end) panel.rules.push_back({.at = until, .vertical = true});
+    for (const Interval& v : intervals) {
+        panel.rules.push_back({.at = v.from, .vertical = true});
+        if (v.to < end) panel.rules.push_back({.at = v.to, .vertical = true});
+    }
     return panel;
 }
 
+// Where θ is not reproducible, if anywhere.
 std::string horizon_words(const std::vector<const sim::Result*>& results, double end, Lang lang) {
     const bool en = lang == Lang::en;
-    std::string times;
-    for (const sim::Result* r : results) {
-        if (!times.empty()) times += en ? ", " : "、";
-        const double until = r->reproducible_until.value_or(end);
-        times += until < end ? grouped(until, 3) + " s" : (en ? "the end" : "结束");
-    }
-    return filled(
-        en ? "The motion is chaotic: from the vertical line on (until {}), drawn lighter, $θ$ is not "
-             "reproducible to 10^{{−6}} rad, by comparison with a run at a tighter tolerance; there the "
-             "curve is one of many possible ones. "
-           : "运动是混沌的：竖线之后（可重现至 {}）以浅色绘制，与更严容差的计算相比，$θ$ 不能重现到 10^{{−6}} rad，"
-             "该部分只是多种可能曲线之一。",
-        times);
+    std::vector<std::string> times;
+    for (std::size_t k = 0; k < results.size(); ++k)
+        for (const Interval& v : unreliable(*results[k], end)) {
+            const std::string panel =
+                results.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + k)) : std::string();
+            times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", panel, number(v.from, 3),
+                                                number(v.to, 3))
+                                       : filled(en ? "{}from {} s on" : "{}{} s 之后", panel, number(v.from, 3)));
+        }
+    if (times.empty()) return {};
+    return filled(en ? "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "
+                       "differs by more, because impacts multiply small differences. "
+                     : "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
+                       "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
+                  fmt::format("{}", fmt::join(times, en ? ", " : "，")));
+}
+
+// The run may go on for other figures.
+std::ptrdiff_t impacts_until(const sim::Result& result, double end) {
+    return std::ranges::count_if(result.impacts, [&](const sim::Impact& i) { return i.t_start <= end; });
+}
+
+// "12 impacts", "no impact".
+std::string impacts_words(std::ptrdiff_t count, Lang lang) {
+    if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
+    return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
 }
 
 FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
@@ -84,9 +115,7 @@ FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
         figure.panels.push_back(angle_panel(*results[study], table, end));
         figure.aspect = 0.55;
         figure.caption = en ? "Hub angle $θ$. " : "转角 $θ$。";
-        if (results[study]->reproducible_until.value_or(end) < end)
-            figure.caption += horizon_words({results[study]}, end, lang);
-        figure.caption += stated(problem, lang);
+        figure.caption += horizon_words({results[study]}, end, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, results[study]}}, lang);
         return figure;
     };
@@ -108,8 +137,7 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
         const bool en = lang == Lang::en;
         Figure figure;
         figure.name = "speeds";
-        figure.title =
-            en ? "Hub angle through repeated impacts for three speeds of the cam" : "三种凸轮转速下反复碰撞时的转角";
+        figure.title = en ? "Hub angle for three speeds of the cam" : "三种凸轮转速下的转角";
         std::vector<const sim::Result*> all;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
         double low = 1e300, high = -1e300;
@@ -131,10 +159,15 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.25;
-        figure.caption = en ? "Hub angle $θ$ through repeated impacts: (a) $ω$ = 0, (b) 1, (c) 5 rad s^{−1}. "
-                            : "反复碰撞过程中的转角 $θ$：(a) $ω$ = 0，(b) 1，(c) 5 rad s^{−1}。";
-        figure.caption += horizon_words(all, end, lang) + stated(problems[1], lang) +
-                          (en ? " ($ω$ of panel (b).)" : "（$ω$ 为图 (b) 的值。）");
+        std::vector<std::string> panels;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            panels.push_back(filled(en ? "({}) $ω$ = {} rad s^{{−1}}, {}" : "({}) $ω$ = {} rad s^{{−1}}，{}",
+                                    static_cast<char>('a' + k), number(kSpeeds3[k], 3),
+                                    impacts_words(impacts_until(*all[k], end), lang)));
+        figure.caption = filled(en ? "Hub angle $θ$ for three speeds of the cam, clockwise: {}. "
+                                   : "三种凸轮转速（顺时针）下的转角 $θ$：{}。",
+                                fmt::format("{}", fmt::join(panels, en ? "; " : "；")));
+        figure.caption += horizon_words(all, end, lang) + facts(problems[1], lang, {.cam_speed = true});
         figure.accuracy = accuracy(runs, lang);
         return figure;
     };
@@ -198,11 +231,13 @@ FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.75;
         figure.caption =
-            en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured by time, the "
-                 "mean over one period of the first bending mode. Near-vertical stretches are collisions. "
-               : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。近似竖直的线段为碰"
-                 "撞。";
-        figure.caption += stated(problem, lang);
+            period > 1 ? (en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured "
+                               "by time, the mean over one period of the first bending mode. "
+                             : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
+                       : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
+        if (impacts_until(result, end) > 0)
+            figure.caption += en ? "Near-vertical stretches are collisions. " : "近似竖直的线段为碰撞。";
+        figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -212,10 +247,7 @@ FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
 
 const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
 const Recipe kSpeeds{
-    "speeds",
-    {"Hub angle through repeated impacts for three speeds of the cam", "三种凸轮转速下反复碰撞时的转角"},
-    needs_cam,
-    prepare_speeds};
+    "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
 const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
 
 }  // namespace beamcam::scenes

@@ -139,10 +139,11 @@ class Drawing {
         label(0.26 * size_ * j, "$y$′", {-0.9, 0.1}, kGrey);
     }
 
+    bool is_flexible() const { return p_.beam.model != sim::ModelKind::rigid; }
     // The deflected centre line: a clamped beam's sag, drawn far larger than it is.
     Vec2 on_beam(double share) const {
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
-        const double s = share, sag = -0.085 * size_ * (s * s * (6 - 4 * s + s * s)) / 3;
+        const double s = share, sag = is_flexible() ? -0.085 * size_ * (s * s * (6 - 4 * s + s * s)) / 3 : 0;
         return (p_.hub.radius + s * p_.beam.length) * i + sag * j;
     }
 
@@ -151,10 +152,12 @@ class Drawing {
         for (int k = 0; k <= 60; ++k) curve.points.push_back(on_beam(k / 60.0));
         add(curve);
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
-        const double at = 0.70;
-        const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
-        arrow(foot + 0.0 * j, sagging, kRed, 0.9);
-        label(sagging, "$v$($x$, $t$)", {2.4, -0.7}, kRed);
+        if (is_flexible()) {
+            const double at = 0.70;
+            const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
+            arrow(foot, sagging, kRed, 0.9);
+            label(sagging, "$v$($x$, $t$)", {2.4, -0.7}, kRed);
+        }
         // Length, beside the beam.
         const Vec2 off = 0.12 * size_ * j;
         line(p_.hub.radius * i + 0.25 * off, p_.hub.radius * i + 1.1 * off, kGrey);
@@ -199,19 +202,21 @@ class Drawing {
 };
 
 std::string caption(const sim::Problem& p, Lang lang) {
-    const std::string text =
-        lang == Lang::en
-            ? "The system, to scale except for the deflection $v$($x$, $t$), which is exaggerated. The beam of length "
-              "$L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; the frame $x$′$y$′ "
-              "turns "
-              "with it, $XY$ is fixed. The disc of radius $R$ and centre $B$ turns about $C$, at the distance $D$ from "
-              "$O$, with the speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
-            : "系统示意图，除挠度 $v$($x$, $t$) 放大外均按比例绘制。长度为 $L$ 的梁沿径向固支于半径为 $a$ "
-              "的轮毂，轮毂绕 $O$ 转过角 "
-              "$θ$；坐标系 $x$′$y$′ 随之转动，$XY$ 固定。半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ "
-              "转动，$C$ 距 $O$ 为 "
-              "$D$，偏心距 $e$ = |$CB$|。";
-    return text + stated(p, lang);
+    const bool en = lang == Lang::en;
+    const bool flexible = p.beam.model != sim::ModelKind::rigid;
+    std::string text = en ? "The system with its symbols, to scale" : "系统示意图，按比例绘制";
+    if (flexible)
+        text += en ? " except for the deflection $v$($x$, $t$), which is exaggerated" : "（挠度 $v$($x$, $t$) 放大）";
+    text += en ? ". The beam of length $L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; "
+                 "the frame $x$′$y$′ turns with it, $XY$ is fixed. "
+               : "。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 $θ$；坐标系 $x$′$y$′ "
+                 "随之转动，$XY$ 固定。";
+    if (p.cam)
+        text += en ? "The disc of radius $R$ and centre $B$ turns about $C$, at the distance $D$ from $O$, with the "
+                     "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
+                   : "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 为 $D$，偏心距 "
+                     "$e$ = |$CB$|。";
+    return text + facts(p, lang);
 }
 
 FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {

@@ -1,8 +1,9 @@
-// The static deflection of the supported beam by the paper's eq. (5), as printed and corrected.
+// The static deflection of the beam on a support; in the paper's scenes also by its eq. (5), as printed and completed.
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "scenes/figures/recipes.hpp"
 #include "sim/paper.hpp"
@@ -17,19 +18,86 @@ using render::figure::Series;
 using sim::Printing;
 
 constexpr int kPerSpan = 201;
+constexpr double kLeastReach = 0.02;              // cos θ: less is a beam that stands upright
 constexpr std::array kSupports{0.25, 0.4, 0.55};  // of the horizontal length
 
-// The rod that just touches the disc: its angle above the horizontal, or the initial one without a cam.
-double angle_of(const sim::Problem& p) {
-    if (!p.cam) return p.initial.angle;
-    const double distance = norm(p.cam->centre);
-    return std::asin(std::min(0.95, p.cam->radius / distance)) + std::atan2(p.cam->centre.y, p.cam->centre.x);
+// The inclination of the beam that is drawn [rad].
+struct Inclination {
+    double angle = 0;
+    bool tangent = false;  // to the disc as if it were centred
+};
+
+// The rod that just touches the disc, or the start where no such rod exists.
+Inclination inclination(const sim::Problem& p) {
+    if (p.cam) {
+        const double distance = norm(p.cam->centre), radius = p.cam->radius;
+        if (distance > radius && std::sqrt(distance * distance - radius * radius) < p.beam.length) {
+            const double angle = std::asin(radius / distance) + std::atan2(p.cam->centre.y, p.cam->centre.x);
+            if (std::cos(angle) > kLeastReach) return {angle, true};
+        }
+    }
+    return {p.initial.angle, false};
+}
+
+struct Curves {
+    Printing printing;
+    Words label;
+    int look;  // whose dash it has
+};
+constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿杆"}, 0},
+                             Curves{Printing::completed, {"terms completed", "补全各项"}, 2},
+                             Curves{Printing::printed, {"as printed", "原文公式"}, 1}};
+
+// Deflection [mm] and slope [10⁻³] over both spans; the slope's jump at the support.
+struct Shape {
+    Series w, slope;
+    double jump = 0;
+};
+Shape shape_of(const sim::Problem& problem, double angle, double support, Printing printing) {
+    const double reach = problem.beam.length * std::cos(angle);
+    Shape out;
+    for (const bool overhang : {false, true}) {
+        const double from = overhang ? support : 0, to = overhang ? reach : support;
+        for (int k = 0; k < kPerSpan; ++k) {
+            const double x = from + (to - from) * k / (kPerSpan - 1);
+            const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, printing, overhang);
+            out.w.x.push_back(x);
+            out.w.y.push_back(s.w * 1e3);
+            out.slope.x.push_back(x);
+            out.slope.y.push_back(s.slope * 1e3);
+        }
+    }
+    out.jump = std::abs(out.slope.y[kPerSpan] - out.slope.y[kPerSpan - 1]);
+    return out;
+}
+
+std::string caption(const sim::Problem& problem, const Inclination& at, double jump, Lang lang) {
+    const bool en = lang == Lang::en;
+    const std::string angle = number(at.angle * 180 / M_PI, 4);
+    std::string text = filled(
+        en ? "Static deflection $w$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at "
+             "the horizontal distance $l_{{1}}$. "
+           : "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)。",
+        angle, at.tangent ? (en ? " (tangent to the disc as if it were centred)" : "（与视为对心的圆盘相切）") : "");
+    if (is_of_the_paper(problem))
+        text += filled(
+            en ? "Eq. (5) of the paper as printed (dashed) lacks a term in each constant of the overhanging span, so "
+                 "that its slope jumps at the support, by up to {} × 10^{{−3}} here; with these terms (dotted) it is "
+                 "continuous. Both integrate along the horizontal; along the inclined rod (solid) the deflection is "
+                 "1/cos^{{2}} $θ$ = {} times larger. "
+               : "原文式 (5)（虚线）悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × "
+                 "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
+                 "倍。",
+            number(jump, 3), number(1 / std::pow(std::cos(at.angle), 2), 4));
+    return text + beam_facts(problem, lang);
 }
 
 FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
     return [problem = scene.problem, lang](const Results&) {
         const bool en = lang == Lang::en;
-        const double angle = angle_of(problem), reach = problem.beam.length * std::cos(angle);
+        const Inclination at = inclination(problem);
+        const double reach = problem.beam.length * std::cos(at.angle);
+        const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
         Figure figure;
         figure.name = "deflection";
         figure.title = en ? "Static deflection for several contact points" : "不同接触点的静挠度";
@@ -40,45 +108,35 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
         shape.y.label = "$w$ / mm";
         slope.y.label = "d$w$/d$x$ / 10^{−3}";
         shape.legend = Legend::box;
-        slope.legend = Legend::box;
+        slope.legend = curves.size() > 1 ? Legend::box : Legend::none;
         double largest_jump = 0;
-        int look = 0;
-        for (const double share : kSupports) {
-            const double support = share * reach;
-            for (const Printing printing : {Printing::corrected, Printing::printed}) {
-                const bool printed = printing == Printing::printed;
-                Series w, d;
-                for (const bool overhang : {false, true}) {
-                    const double from = overhang ? support : 0, to = overhang ? reach : support;
-                    for (int k = 0; k < kPerSpan; ++k) {
-                        const double x = from + (to - from) * k / (kPerSpan - 1);
-                        const sim::StaticDeflection s =
-                            sim::supported_beam(problem, angle, support, x, printing, overhang);
-                        w.x.push_back(x);
-                        w.y.push_back(s.w * 1e3);
-                        d.x.push_back(x);
-                        d.y.push_back(s.slope * 1e3);
-                    }
+        for (std::size_t i = 0; i < kSupports.size(); ++i) {
+            const double support = kSupports[i] * reach;
+            const render::Color color = render::figure::look(static_cast<int>(i)).color;
+            for (const Curves& c : curves) {
+                Shape s = shape_of(problem, at.angle, support, c.printing);
+                const bool first = c.printing == Printing::corrected;
+                if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
+                for (Series* series : {&s.w, &s.slope}) {
+                    series->look = c.look;
+                    series->color = color;
+                    series->solid = first;
+                    if (!first) series->weight = 0.9;
                 }
-                if (printed) largest_jump = std::max(largest_jump, std::abs(d.y[kPerSpan] - d.y[kPerSpan - 1]));
-                w.look = d.look = look;
-                w.solid = d.solid = !printed;
-                w.color = d.color = render::figure::look(look).color;
-                if (printed) w.look = d.look = 1, w.weight = d.weight = 0.9;
-                if (!printed) w.label = fmt::format("$l_{{1}}$ = {} m", number(support, 3));
-                shape.series.push_back(std::move(w));
-                slope.series.push_back(std::move(d));
+                if (first) s.w.label = fmt::format("$l_{{1}}$ = {} m", number(support, 3));
+                shape.series.push_back(std::move(s.w));
+                slope.series.push_back(std::move(s.slope));
             }
-            shape.marks.push_back({.x = support, .y = 0, .look = look});
-            ++look;
+            shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
         }
-        // The key to solid and dashed, in black.
-        for (const bool printed : {false, true}) {
+        // The key to the dashes, in black.
+        for (const Curves& c : curves) {
+            if (curves.size() == 1) break;
             Series key;
-            key.label = printed ? (en ? "as printed" : "原文公式") : (en ? "corrected" : "修正后");
+            key.label = c.label.in(lang);
+            key.look = c.look;
+            key.solid = c.printing == Printing::corrected;
             key.color = render::rgb(0x000000);
-            key.look = 1;
-            key.solid = !printed;
             slope.series.push_back(std::move(key));
         }
         shape.rules.push_back({.at = 0});
@@ -86,33 +144,24 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
         figure.panels = {shape, slope};
         figure.share_x = true;
         figure.aspect = 1.15;
-        figure.caption = filled(
-            en ? "Static deflection $w$ (a) and slope (b) of the beam inclined by {}° ({}), supported at the hinge and "
-                 "at "
-                 "the horizontal distance $l_{{1}}$, by eq. (5) of the paper: as printed (dashed) and corrected "
-                 "(solid). "
-                 "As printed, the overhanging span lacks a term in each constant, so that its slope jumps at the "
-                 "support, by up to {} × 10^{{−3}} here; and along the inclined rod the deflection is 1/cos^{{2}} $θ$ "
-                 "larger. "
-               : "倾角 {}°（{}）的梁支承于铰和水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)，按原文式 "
-                 "(5)：原文公式（虚线）与修正后（实线）。"
-                 "原文悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × 10^{{−3}}）；且沿倾斜梁的挠度应大 "
-                 "1/cos^{{2}} $θ$ 倍。",
-            number(angle * 180 / M_PI, 4),
-            problem.cam ? (en ? "tangent to the centred disc" : "与对心圆盘相切")
-                        : (en ? "the initial angle" : "初始角"),
-            number(largest_jump, 3));
-        figure.caption += assumptions(problem, lang);
+        figure.caption = caption(problem, at, largest_jump, lang);
         figure.accuracy = accuracy({}, lang);
         return figure;
     };
 }
 
 std::optional<std::string> refusal(const Scene& scene) {
-    const double angle = angle_of(scene.problem);
-    if (std::abs(std::cos(angle)) > 0.02) return std::nullopt;
-    return fmt::format("eq. (5) of the paper measures along the horizontal; a beam at {:.3g}° has none",
-                       angle * 180 / M_PI);
+    const sim::Problem& p = scene.problem;
+    if (p.beam.model == sim::ModelKind::rigid) return "a rigid beam does not bend; choose another beam.model";
+    if (p.gravity == 0) return "without gravity nothing bends the beam; set gravity";
+    if (p.hub.radius != 0 || sim::is_prescribed(p.hub.drive))
+        return "the supported beam is hinged at O; set hub.radius to 0 and hub.drive to {\"type\": \"free\"}";
+    const double angle = inclination(p).angle;
+    if (std::cos(angle) > kLeastReach) return std::nullopt;
+    return fmt::format(
+        "it measures along the horizontal to the right of O, where a beam at {:.3g}° does not reach; set "
+        "initial.angle",
+        angle * 180 / M_PI);
 }
 
 }  // namespace

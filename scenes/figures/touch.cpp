@@ -21,7 +21,7 @@ using render::figure::Series;
 int rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
 constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
 constexpr int kRefined = 8;       // intervals between two trial points in the second round
-constexpr double kShown = 0.012;  // before and after the touch, of the fall's duration 0.3 s: [s]
+constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Where the rigid beam would touch, x₁, and the trial points about it at the paper's spacing of L/100.
@@ -66,6 +66,18 @@ double arrival(const std::vector<double>& t, const std::vector<double>& d) {
     return kNever;
 }
 
+// The first touch of the simulation, in the digits that one mode fewer leaves.
+std::string located(const sim::Problem& problem, const sim::Result& result, const sim::Result* fewer, Lang lang) {
+    const bool en = lang == Lang::en;
+    if (result.impacts.empty()) return en ? "the simulation has no impact. " : "仿真中无碰撞。";
+    const sim::Impact& hit = result.impacts.front();
+    std::optional<double> x, t;
+    if (fewer && !fewer->impacts.empty()) x = fewer->impacts.front().x, t = fewer->impacts.front().t_start;
+    return filled(en ? "the located event is at $x$ = {} m, $t$ = {} s. " : "事件定位为 $x$ = {} m、$t$ = {} s。",
+                  supported(estimate(problem, hit.x, x)), supported(estimate(problem, hit.t_start, t))) +
+           digits_stated(problem, lang);
+}
+
 FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, rows(scene.end_time)};
@@ -78,11 +90,17 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
     std::vector<std::size_t> where;
     for (const double x : fine) where.push_back(studies.point(fall, x, all));
     const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
+    std::optional<std::size_t> check;
+    if (const auto fewer = with_one_mode_fewer(scene.problem)) {
+        check = studies.of(*fewer, scene.end_time, "distance");
+        studies.may_fail(*check);
+    }
 
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const sim::Cam& cam = *problem.cam;
+        const double offset = contact_offset(problem);
         Fall f;
         f.t = instants(all);
         f.x = fine;
@@ -90,7 +108,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
             std::vector<double> d;
             for (std::size_t i = 0; i < f.t.size(); ++i) {
                 const sim::Vec2 disc = cam.centre + cam.eccentricity * sim::unit(cam.phase - cam.speed * f.t[i]);
-                d.push_back(norm(falls.points[w][i] - disc) - cam.radius);
+                d.push_back(norm(falls.points[w][i] - disc) - cam.radius - offset);
             }
             f.distance.push_back(std::move(d));
         }
@@ -113,7 +131,8 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         panel.x.label = "$t$ / ms";
         panel.y.label = "$D$′ / mm";
         panel.rules.push_back({.at = 0});
-        const double from = when[first] - kShown, to = when[first] + 0.5 * kShown;
+        const double shown = std::min(kShown, 0.25 * when[first]);
+        const double from = when[first] - shown, to = when[first] + 0.5 * shown;
         int look = 0;
         for (std::size_t k = 0; k < fine.size(); k += kRefined) {
             Series s;
@@ -133,7 +152,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         inset.x.label = "$x$ / m";
         inset.x.tight = false;
         inset.y.label = "$t_{0}$ / ms";
-        Series coarse, refined, located;
+        Series coarse, refined;
         for (std::size_t k = 0; k < fine.size(); ++k) {
             if (when[k] == kNever) continue;
             const bool near = k + kRefined >= first_trial && k <= first_trial + kRefined;
@@ -146,29 +165,30 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         coarse.line = false;
         coarse.every_point = true;
         inset.series = {refined, coarse};
-        std::string located_words = en ? "the simulation has no impact" : "仿真中无碰撞";
         if (!strikes.impacts.empty()) {
             const sim::Impact& hit = strikes.impacts.front();
             inset.marks.push_back(
                 {.x = hit.x, .y = hit.t_start * 1e3, .label = en ? "located" : "事件定位", .look = 1});
-            located_words =
-                filled(en ? "the located event is at $x$ = {} m, $t$ = {} s" : "事件定位为 $x$ = {} m、$t$ = {} s",
-                       grouped(hit.x, 6), grouped(hit.t_start, 9));
         }
         panel.insets.push_back({.panel = {inset}, .width = 0.42, .height = 0.42});
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.76;
-        figure.caption = filled(
-            en ? "Distance $D$′ of points $x$ of the falling beam from the cam's surface near the first touch. Inset: "
-                 "the "
-                 "time of zero against $x$, the trial method's first round (points) and its refinement (line), and the "
-                 "event that the simulation locates. First of the trial points: {} m; refined: $x$ = {} m, $t$ = {} s; "
-                 "{}. "
-               : "首次接触附近下落梁上各点 $x$ 到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
-                 "的变化，试算法第一轮（点）及加密（线），"
-                 "以及仿真定位的事件。首轮最先接触点：{} m；加密后 $x$ = {} m，$t$ = {} s；{}。",
-            number(fine[first_trial], 3), number(fine[first], 5), grouped(when[first], 7), located_words);
-        figure.caption += stated(problem, lang);
+        // The first zero lies between the neighbours of the first point; its time is known as well as theirs agree.
+        double around = 0;
+        for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, fine.size() - 1)})
+            if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
+        figure.caption =
+            filled(en ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
+                        "near the first touch. Inset: the time of zero against $x$, the trial method's first round "
+                        "(points) and its refinement (line), and the event that the simulation locates. First of the "
+                        "trial points: {} m; among points {} mm apart: $x$ = {} m, $t$ = {} s; "
+                      : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
+                        "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
+                        "mm 后 $x$ "
+                        "= {} m，$t$ = {} s；",
+                   number(fine[first_trial], 3), number((fine[1] - fine[0]) * 1e3, 3), number(fine[first], 4),
+                   supported({when[first], std::max(around, 10 * problem.solver.rtol * when[first])})) +
+            located(problem, strikes, check ? results[*check] : nullptr, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang);
         return figure;
     };
@@ -176,6 +196,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
 
 std::optional<std::string> refusal(const Scene& scene) {
     if (auto no_cam = needs_cam(scene)) return no_cam;
+    if (auto resting = needs_start_off_the_cam(scene)) return resting;
     const sim::Cam& cam = *scene.problem.cam;
     const double distance = norm(cam.centre);
     if (distance - cam.eccentricity <= cam.radius) return "the cam reaches the hinge, so no tangent to it exists";

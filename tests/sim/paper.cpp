@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(Paper, DoubledTorqueAloneGivesThePapersTime) {
+// Torque doubled or inertia halved: only their ratio counts.
+TEST(Paper, AFactorTwoGivesThePapersTime) {
     EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 1), 0.369998497559697, 1e-14);
     EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 2), 0.261628446653, 1e-12);
     EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 2) * std::sqrt(2.0), rod_fall_time(1, 9.81, kPi / 4, 1), 1e-14);
@@ -35,6 +36,21 @@ TEST(Paper, DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot) {
         EXPECT_NEAR(jump, q * std::pow(support, 3) / (24 * c) / problem.beam.bending_stiffness(), 1e-15);
         EXPECT_EQ(at(Printing::corrected, 0, false).w, 0);  // hinged at O
     }
+}
+
+// At the paper's contact nearly all of the error of its eq. (5) is the horizontal in place of the rod.
+TEST(Paper, MissingTermsOfTheDeflectionAreSmall) {
+    const Problem problem;
+    const double angle = std::asin(problem.cam->radius / norm(problem.cam->centre));
+    const double support = tangent_distance(*problem.cam, 0, Printing::printed);
+    const auto at = [&](double x, Printing printing, bool overhang) {
+        return supported_beam(problem, angle, support, x, printing, overhang);
+    };
+    const double end = problem.beam.length * std::cos(angle);
+    const auto tip = [&](Printing printing) { return at(end, printing, true).w; };
+    EXPECT_NEAR(tip(Printing::completed) / tip(Printing::printed) - 1, -0.009, 0.001);
+    EXPECT_NEAR(tip(Printing::corrected) / tip(Printing::completed), 1 / std::pow(std::cos(angle), 2), 1e-12);
+    EXPECT_NEAR(at(support, Printing::completed, false).slope, at(support, Printing::completed, true).slope, 1e-15);
 }
 
 TEST(Paper, TrialMethodFindsTheLocatedTouch) {
@@ -74,6 +90,19 @@ TEST(Modes, TurningBeamAsPublished) {  // Wright et al. 1982, in the plane: ω²
         const double omega = modes.at(0).omega / unit;
         EXPECT_NEAR(std::sqrt(omega * omega + speed * speed), flapwise, 2e-8) << speed;
         EXPECT_GT(modes[0].shape.back().y, 0);
+    }
+}
+
+// Twice the centrifugal term, as the paper prints its variation of T, would give 7.1.
+TEST(Modes, StiffeningOfTheTurningBeamHasTheFactorOne) {
+    Problem problem;
+    problem.beam.basis = Basis::cantilever;
+    problem.beam.modes = 12;
+    const double unit = std::sqrt(problem.beam.bending_stiffness() / problem.beam.line_density()), turning = 4;
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order}) {
+        problem.beam.model = kind;
+        const double omega = natural_modes(problem, turning * unit).at(0).omega / unit;
+        EXPECT_NEAR(std::sqrt(omega * omega + turning * turning), 5.585001421, 1e-4) << name(kind);
     }
 }
 

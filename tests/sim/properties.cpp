@@ -132,7 +132,7 @@ class PropertyOfProblems : public ::testing::TestWithParam<Trial> {
     }
 };
 
-constexpr double kEnd = 0.12;  // [s]: a few impacts, before chaos has made 1e-8 into 1e-5
+constexpr double kEnd = 0.12;  // [s]: a few impacts, before sensitivity has made 1e-8 into 1e-5
 // Of θ [rad] after kEnd, for two ways to the same motion: what impacts make of rtol = 1e-8 by then.
 constexpr double kSame = 2e-6;
 

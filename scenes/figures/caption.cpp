@@ -1,0 +1,280 @@
+#include "scenes/figures/caption.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/ticks.hpp"
+#include "sim/drive.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// 2e-9 as "2 × 10^{−9}", 1e-8 as "10^{−8}".
+std::string one_digit(double value) {
+    const std::string text = fmt::format("{:.0e}", value);
+    const std::string mantissa = text.substr(0, text.find('e'));
+    const int exponent = std::stoi(text.substr(text.find('e') + 1));
+    const std::string power = fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
+    return mantissa == "1" ? power : mantissa + " × " + power;
+}
+
+std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
+std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
+
+// The model exact has polynomials of its own, whatever the basis.
+std::string shapes_fact(const sim::Problem& p, bool en) {
+    const int count = p.beam.modes;
+    if (p.beam.model == sim::ModelKind::exact)
+        return filled(en ? "{} polynomial{} of the section's angle" : "截面转角的 {} 个多项式", count,
+                      count == 1 ? "" : "s");
+    return filled(en ? "{} {} mode{}" : "{} 阶 {} 模态", count, name(resolved_basis(p)), count == 1 ? "" : "s");
+}
+
+std::vector<std::string> model_facts(const sim::Problem& p, bool en, Varied varied) {
+    if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {en ? "rigid beam" : "刚性梁"};
+    std::vector<std::string> out;
+    if (!varied.model) out.push_back(fmt::format("{} {}", en ? "model" : "模型", name(p.beam.model)));
+    if (!varied.modes) out.push_back(shapes_fact(p, en));
+    const std::vector<double>& ratios = p.beam.damping_ratio;
+    if (p.beam.kelvin_voigt) {
+        out.push_back(fmt::format("$η$ = {} s", number(*p.beam.kelvin_voigt, 3)));
+    } else if (std::ranges::all_of(ratios, [](double z) { return z == 0; })) {
+        out.push_back(en ? "no structural damping" : "无结构阻尼");
+    } else {
+        std::vector<std::string> all;
+        for (const double z : ratios) all.push_back(number(z, 3));
+        out.push_back(fmt::format("$ζ$ = {}", fmt::join(all, ", ")));
+    }
+    return out;
+}
+
+std::string drive_fact(const sim::Drive& drive, bool en) {
+    struct Visitor {
+        bool en;
+        std::string operator()(const sim::FreeDrive&) const { return en ? "hub turns freely" : "轮毂自由转动"; }
+        std::string operator()(const sim::ConstantTorque& d) const {
+            return filled(en ? "hub torque $τ$ = {} N m" : "轮毂力矩 $τ$ = {} N m", number(d.value, 4));
+        }
+        std::string operator()(const sim::HarmonicTorque& d) const {
+            return filled(
+                en ? "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})" : "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})",
+                number(d.amplitude, 4), number(d.frequency, 4), degrees(d.phase, 4));
+        }
+        std::string operator()(const sim::TorqueTable& d) const {
+            return filled(en ? "hub torque from a table of {} instants" : "轮毂力矩由 {} 个时刻的表给定", d.t.size());
+        }
+        std::string operator()(const sim::ConstantSpeed& d) const {
+            if (d.speed == 0) return en ? "hub held" : "轮毂固定";
+            return filled(en ? "hub driven at $\\dot{{θ}}$ = {}" : "轮毂以 $\\dot{{θ}}$ = {} 转动", speed(d.speed));
+        }
+        std::string operator()(const sim::SpinUp& d) const {
+            return filled(en ? "hub spun up to {} within {} s" : "轮毂在 {1} s 内加速至 {0}", speed(d.speed),
+                          number(d.duration, 4));
+        }
+        std::string operator()(const sim::AngleTable& d) const {
+            return filled(en ? "hub angle from a table of {} instants" : "轮毂转角由 {} 个时刻的表给定", d.t.size());
+        }
+    };
+    return std::visit(Visitor{en}, drive);
+}
+
+std::vector<std::string> start_facts(const sim::Problem& p, bool en) {
+    using Shape = sim::InitialShape;
+    if (p.initial.shape == Shape::resting) return {en ? "resting on the cam at the start" : "初始时静置于凸轮上"};
+    const bool prescribed = sim::is_prescribed(p.hub.drive), rigid = p.beam.model == sim::ModelKind::rigid;
+    const double angle = prescribed ? sim::DriveLaw(p.hub.drive, p.initial.angle).motion(0).angle : p.initial.angle;
+    std::vector<std::string> out{fmt::format("$θ$(0) = {}", degrees(angle, 6))};
+    const double rate = p.initial.angular_velocity;
+    if (!prescribed)
+        out.push_back(rate == 0 ? (en ? "released at rest" : "由静止释放")
+                                : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate)));
+    if (!rigid)
+        out.push_back(p.initial.shape == Shape::straight
+                          ? (en ? "straight at the start" : "初始为直梁")
+                          : (en ? "deflected by its weight at the start" : "初始为自重静挠形"));
+    return out;
+}
+
+std::vector<std::string> cam_facts(const sim::Cam& c, bool en, Varied varied) {
+    std::vector<std::string> out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
+                                 fmt::format("$R$ = {} m", number(c.radius, 4)),
+                                 fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
+                                 fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
+    if (varied.cam_speed) return out;
+    if (c.speed == 0)
+        out.push_back(en ? "cam at rest" : "凸轮静止");
+    else
+        out.push_back(filled(c.speed > 0 ? (en ? "$ω$ = {} clockwise" : "$ω$ = {}（顺时针）")
+                                         : (en ? "$ω$ = {} (counter-clockwise)" : "$ω$ = {}（逆时针）"),
+                             speed(c.speed)));
+    return out;
+}
+
+std::string friction_fact(const sim::Friction& friction, bool en) {
+    if (const auto* c = std::get_if<sim::CoulombFriction>(&friction))
+        return fmt::format("$μ$ = {}", number(c->coefficient, 3));
+    if (const auto* s = std::get_if<sim::StickSlipFriction>(&friction))
+        return fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), en ? "stick–slip" : "黏滑");
+    return en ? "no friction" : "无摩擦";
+}
+
+std::vector<std::string> contact_facts(const sim::Problem& p, bool en) {
+    std::vector<std::string> out;
+    const std::string restitution = number(p.contact.restitution, 3);
+    if (p.contact.model == sim::ContactModel::compliant) {
+        out.push_back(
+            fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
+        out.push_back(p.contact.damping == sim::DampingLaw::none
+                          ? (en ? "no dissipation in the contact" : "接触无耗散")
+                          : fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution));
+    } else {
+        out.push_back(
+            filled(en ? "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}" : "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}",
+                   name(p.contact.law), restitution));
+    }
+    out.push_back(friction_fact(p.contact.friction, en));
+    const double d = contact_offset(p);
+    out.push_back(d == 0 ? (en ? "contact on the centre line" : "接触发生在中心线上")
+                         : filled(en ? "contact face {} m off the centre line" : "接触面距中心线 {} m", number(d, 4)));
+    return out;
+}
+
+// Equal in the digits that the paper prints.
+bool as_printed(double value, double printed) { return std::abs(value - printed) <= 1e-4 * std::abs(printed); }
+
+}  // namespace
+
+std::string number(double value, int digits) {
+    const std::string text = fmt::format("{:.{}g}", std::abs(value), digits);
+    const std::string sign = value < 0 ? "−" : "";
+    const std::size_t e = text.find('e');
+    if (e == std::string::npos) return sign + text;
+    const int exponent = std::stoi(text.substr(e + 1));
+    const std::string power = fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
+    const std::string mantissa = text.substr(0, e);
+    return sign + (mantissa == "1" ? power : mantissa + "×" + power);
+}
+
+std::string grouped(double value, int decimals) {
+    std::string text = render::fixed(value, decimals);
+    const std::size_t point = text.find('.');
+    if (point == std::string::npos) return text;
+    std::string out = text.substr(0, point + 1);
+    for (std::size_t i = point + 1; i < text.size(); ++i) {
+        if (i > point + 1 && (i - point - 1) % 3 == 0) out += "\u2009";
+        out += text[i];
+    }
+    return out;
+}
+
+std::string beam_facts(const sim::Problem& p, Lang lang, Varied varied) {
+    const bool en = lang == Lang::en;
+    const sim::Beam& b = p.beam;
+    std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
+                                 fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
+                                 fmt::format("$ρ$ = {} kg m^{{−3}}", number(b.density, 6))};
+    if (b.model != sim::ModelKind::rigid || varied.model) {
+        out.push_back(fmt::format("$I$ = {} m^{{4}}", number(b.second_moment, 5)));
+        out.push_back(fmt::format("$E$ = {} Pa", number(b.youngs_modulus, 5)));
+    }
+    out.push_back(fmt::format("$g$ = {} m s^{{−2}}", number(p.gravity, 5)));
+    out.push_back(fmt::format("$a$ = {} m", number(p.hub.radius, 4)));
+    out.push_back(fmt::format("$I_{{\\r{{h}}}}$ = {} kg m^{{2}}", number(p.hub.inertia, 4)));
+    out.push_back(drive_fact(p.hub.drive, en));
+    for (const auto& more : {start_facts(p, en), model_facts(p, en, varied)})
+        out.insert(out.end(), more.begin(), more.end());
+    return filled(en ? "Beam and hub: {}." : "梁与轮毂：{}。", fmt::join(out, en ? ", " : "，"));
+}
+
+std::string facts(const sim::Problem& p, Lang lang, Varied varied) {
+    if (!p.cam) return beam_facts(p, lang, varied);
+    const bool en = lang == Lang::en;
+    std::vector<std::string> out = cam_facts(*p.cam, en, varied);
+    for (std::string& fact : contact_facts(p, en)) out.push_back(std::move(fact));
+    std::string text = beam_facts(p, lang, varied) + (en ? " " : "") +
+                       filled(en ? "Cam and contact: {}." : "凸轮与接触：{}。", fmt::join(out, en ? ", " : "，"));
+    if (is_of_the_paper(p))
+        text += en ? " The paper prints neither $a$, $I_{\\r{h}}$, $e$, $ψ_{0}$ nor the constants of contact and "
+                     "damping; these values are assumptions."
+                   : "原文未给出 $a$、$I_{\\r{h}}$、$e$、$ψ_{0}$ 以及接触和阻尼常数，此处均为假定值。";
+    return text;
+}
+
+// It does not print g; 9.81 m/s² reproduces its 0.37 s.
+bool is_of_the_paper(const sim::Problem& p) {
+    constexpr std::array kSpeeds{0.0, 1.0, 5.0};  // ω [rad/s]
+    const sim::Beam& b = p.beam;
+    const bool beam = b.length == 1 && as_printed(b.area, 7.2968e-5) && as_printed(b.second_moment, 8.2189e-9) &&
+                      as_printed(b.density, 2766.7) && as_printed(b.youngs_modulus, 6.8952e10);
+    const bool start = as_printed(p.initial.angle, M_PI / 4) && p.initial.angular_velocity == 0 &&
+                       p.initial.shape == sim::InitialShape::straight && as_printed(p.gravity, 9.81) &&
+                       std::holds_alternative<sim::FreeDrive>(p.hub.drive);
+    const bool cam = !p.cam || (p.cam->centre.x == 0.25 && p.cam->centre.y == 0 && as_printed(p.cam->radius, 0.1) &&
+                                std::ranges::count(kSpeeds, p.cam->speed) > 0);
+    return beam && start && cam;
+}
+
+std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim::Result*>>& runs, Lang lang) {
+    const bool en = lang == Lang::en;
+    if (runs.empty()) return en ? "Nothing is integrated for this figure." : "本图不需积分。";
+    double rtol = 0, closure = 0;
+    bool paper = false;
+    for (const auto& [problem, result] : runs) {
+        rtol = std::max(rtol, problem->solver.rtol);
+        // The printed equation conserves no energy; its ledger says nothing about the integration.
+        if (problem->beam.model == sim::ModelKind::paper)
+            paper = true;
+        else if (result->energy_scale > 0)
+            closure = std::max(closure, result->energy_residual_max / result->energy_scale);
+    }
+    const std::string but = paper ? (en ? ", the model “paper” apart" : "（模型 paper 除外）") : "";
+    if (closure == 0) return filled(en ? "Relative tolerance {}." : "相对容差 {}。", one_digit(rtol));
+    return filled(en ? "Relative tolerance {}; the energy ledger closes to {} of its scale{}."
+                     : "相对容差 {}；能量账目闭合到其尺度的 {}{}。",
+                  one_digit(rtol), one_digit(closure), but);
+}
+
+std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {
+    if (problem.beam.model == sim::ModelKind::rigid) return std::nullopt;
+    sim::Problem fewer = problem;
+    if (problem.beam.modes > 1) {
+        --fewer.beam.modes;
+        if (fewer.beam.damping_ratio.size() > 1) fewer.beam.damping_ratio.pop_back();
+    } else {
+        fewer.beam.model = sim::ModelKind::rigid;
+    }
+    return fewer;
+}
+
+Estimate estimate(const sim::Problem& problem, double value, std::optional<double> fewer) {
+    // Errors of many steps add up to a few tolerances.
+    const double integration = 10 * problem.solver.rtol * std::abs(value);
+    if (problem.beam.model == sim::ModelKind::rigid) return {value, integration};
+    constexpr double kUnknown = 0.05;  // of the value: one digit
+    return {value, std::max(integration, fewer ? std::abs(value - *fewer) : kUnknown * std::abs(value))};
+}
+
+std::string supported(const Estimate& e) {
+    constexpr int kMostDigits = 12;
+    if (e.value == 0 || !std::isfinite(e.value)) return number(e.value, 1);
+    const int leading = static_cast<int>(std::floor(std::log10(std::abs(e.value))));
+    // The last digit is uncertain by one at most.
+    const int last = e.error > 0 ? static_cast<int>(std::ceil(std::log10(e.error) - 1e-9)) : -kMostDigits;
+    const int digits = std::clamp(leading - last + 1, 1, kMostDigits);
+    const bool plain = leading >= -3 && leading < digits;
+    return plain ? grouped(e.value, digits - 1 - leading) : number(e.value, digits);
+}
+
+std::string digits_stated(const sim::Problem& problem, Lang lang) {
+    const bool en = lang == Lang::en;
+    if (problem.beam.model == sim::ModelKind::rigid)
+        return en ? "Numbers have the digits that the tolerance supports. " : "数值位数由容差确定。";
+    return en ? "One shape function fewer changes the last digits by one at most. "
+              : "减少一个形函数时，数值末位至多改变 1。";
+}
+
+}  // namespace beamcam::scenes

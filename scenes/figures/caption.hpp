@@ -1,0 +1,70 @@
+// What a caption says of its scene: the facts of the problem, and numbers with the digits that they have.
+//
+// Every figure states its scene by these functions alone, so that a caption says nothing that the scene does not.
+// All texts are markup (render/figure/text.hpp).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "sim/simulate.hpp"
+
+namespace beamcam::scenes {
+
+// A text in both languages.
+struct Words {
+    const char* en;
+    const char* zh;
+    std::string in(Lang lang) const { return lang == Lang::en ? en : zh; }
+};
+
+// fmt::format with a text chosen by language while running.
+template <class... Values>
+std::string filled(const char* text, const Values&... values) {
+    return fmt::format(fmt::runtime(text), values...);
+}
+std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
+std::string grouped(double value, int decimals);  // "0.369 994": thin spaces between threes
+
+// ---- facts ----------------------------------------------------------------------------------------
+
+// What a figure varies from curve to curve; the facts leave it out.
+struct Varied {
+    bool model = false, modes = false, cam_speed = false;
+};
+
+// Beam, hub, drive and start; with a cam also the cam and the contact.
+std::string facts(const sim::Problem& problem, Lang lang, Varied varied = {});
+// Beam, hub, drive and start alone.
+std::string beam_facts(const sim::Problem& problem, Lang lang, Varied varied = {});
+
+// Whether every number that the paper prints has its printed value: only then is a comparison with the paper, or a
+// word about what it does not print, true of the problem. The number of modes and the model are the reader's choice.
+bool is_of_the_paper(const sim::Problem& problem);
+
+// "Relative tolerance 10⁻⁸; the energy ledger closes to 2 × 10⁻⁹ of its scale", of the worst of the results.
+std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim::Result*>>& runs, Lang lang);
+
+// ---- digits ---------------------------------------------------------------------------------------
+
+// The same problem with one shape function fewer (a rigid beam instead of the last one): what it changes bounds what
+// further shape functions would. None for a rigid beam.
+std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem);
+
+// A computed number and how much of it is uncertain.
+struct Estimate {
+    double value = 0, error = 0;
+};
+// `fewer` is the number from `with_one_mode_fewer`; absent where that motion does not have it.
+Estimate estimate(const sim::Problem& problem, double value, std::optional<double> fewer);
+// The digits that the uncertainty leaves, the last one uncertain by one; at least one digit: "0.369 99", "1.2×10^{3}".
+std::string supported(const Estimate& estimate);
+// After the numbers: what limits their digits.
+std::string digits_stated(const sim::Problem& problem, Lang lang);
+
+}  // namespace beamcam::scenes
