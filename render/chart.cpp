@@ -108,9 +108,10 @@ Chart::View Chart::around(double t) const { return {t - (1 - kAhead) * *c_.windo
 
 Vec2 Chart::to_pixels(double t, double v) const { return {whole().x(plot_, t), y(v)}; }
 Box Chart::past_box() const { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
-int Chart::cursor_column(double t) const {
-    const View view = windowed() ? around(t) : whole();
-    return static_cast<int>(std::lround(view.x(plot_, t)));
+int Chart::cursor_column(const View& view, double t) const { return static_cast<int>(std::lround(view.x(plot_, t))); }
+// Half of the widest stroke or dot, and a column of its edge.
+int Chart::past_column(double t) const {
+    return cursor_column(whole(), t) - static_cast<int>(std::ceil(3 * unit_)) - 1;
 }
 
 void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) const {
@@ -173,23 +174,33 @@ void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Col
     canvas.fill(color);
 }
 
-// The rows of increasing times that a view from `from` to `to` needs: one more on each side.
-std::pair<std::size_t, std::size_t> rows_within(const std::vector<double>& t, double from, double to) {
-    auto first = std::ranges::lower_bound(t, from), last = std::ranges::upper_bound(t, to);
+// The curve over these times, from the last row before them on. What is to come goes on to the first row after them;
+// what is past ends at their end.
+std::vector<Vec2> points_within(const std::vector<double>& t, const std::vector<double>& v, Range times, bool past,
+                                const std::function<Vec2(double, double)>& to_pixels) {
+    auto first = std::ranges::lower_bound(t, times.low), last = std::ranges::upper_bound(t, times.high);
+    const bool between = first != last || (first != t.begin() && last != t.end());
     if (first != t.begin()) --first;
-    if (last != t.end()) ++last;
-    return {static_cast<std::size_t>(first - t.begin()), static_cast<std::size_t>(last - t.begin())};
+    const auto at = static_cast<std::size_t>(first - t.begin());
+    auto count = static_cast<std::size_t>(last - first);
+    const bool more = last != t.end() && between;
+    if (more && !past) ++count;
+    std::vector<Vec2> points = decimate(std::span(t).subspan(at, count), std::span(v).subspan(at, count), to_pixels);
+    if (more && past && count > 0) {
+        const std::size_t i = at + count - 1;
+        const double share = (times.high - t[i]) / (t[i + 1] - t[i]), end = v[i] * (1 - share) + v[i + 1] * share;
+        if (share > 0 && !std::isnan(end)) points.push_back(to_pixels(times.high, end));
+    }
+    return points;
 }
 
 }  // namespace
 
-void Chart::draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const {
-    const auto [first, last] = rows_within(c_.band_times, view.from, view.to);
-    const std::span t = std::span(c_.band_times).subspan(first, last - first);
+void Chart::draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const {
     for (const Band& band : c_.bands) {
         const auto place = [&](double at, double v) { return Vec2{view.x(plot_, at), y(v)} + shift; };
-        std::vector<Vec2> edge = decimate(t, std::span(band.high).subspan(first, last - first), place);
-        std::vector<Vec2> low = decimate(t, std::span(band.low).subspan(first, last - first), place);
+        std::vector<Vec2> edge = points_within(c_.band_times, band.high, rows, past, place),
+                          low = points_within(c_.band_times, band.low, rows, past, place);
         if (edge.size() < 2 || low.size() < 2) continue;
         edge.insert(edge.end(), low.rbegin(), low.rend());
         canvas.polyline(edge);
@@ -198,16 +209,13 @@ void Chart::draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) 
     }
 }
 
-void Chart::draw_curves(Canvas& canvas, const View& view, bool past, Vec2 shift) const {
-    draw_bands(canvas, view, past, shift);
+void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const {
+    draw_bands(canvas, view, rows, past, shift);
     bool first_curve = true;
     for (const Curve& curve : c_.curves) {
-        const auto [first, last] = rows_within(curve.t, view.from, view.to);
-        const std::vector<Vec2> points =
-            decimate(std::span(curve.t).subspan(first, last - first), std::span(curve.v).subspan(first, last - first),
-                     [&](double t, double v) {
-                         return Vec2{view.x(plot_, t), y(v)} + shift;
-                     });
+        const std::vector<Vec2> points = points_within(curve.t, curve.v, rows, past, [&](double t, double v) {
+            return Vec2{view.x(plot_, t), y(v)} + shift;
+        });
         if (c_.filled && first_curve)
             fill_under(canvas, points, plot_.bottom() + shift.y,
                        past ? curve.color.faded(0.20) : curve.faint.faded(0.35));
@@ -219,13 +227,13 @@ void Chart::draw_curves(Canvas& canvas, const View& view, bool past, Vec2 shift)
             {past ? curve.color : curve.faint, (past ? 2.2 : 2) * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
     }
     for (const ChartDot& d : c_.dots) {
-        if (d.t < view.from || d.t > view.to) continue;
+        if (d.t < rows.low || d.t > rows.high) continue;
         canvas.circle(Vec2{view.x(plot_, d.t), y(d.value)} + shift, (past ? 2.6 : 2.2) * unit_);
         canvas.fill(past ? d.color : d.faint);
     }
     if (!past) return;
     for (const ChartMark& mark : c_.marks) {
-        if (mark.t < view.from || mark.t > view.to) continue;
+        if (mark.t < rows.low || mark.t > rows.high) continue;
         const Vec2 at = Vec2{view.x(plot_, mark.t), plot_.bottom()} + shift;
         // Lanes share what three ticks need.
         const double tall = mark.lanes == 1 ? 10 * unit_ : std::min(8.0, 30.0 / mark.lanes) * unit_;
@@ -241,7 +249,7 @@ void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     draw_value_axis(canvas, p);
     if (!windowed()) {
         draw_time_axis(canvas, p, whole());
-        draw_curves(canvas, whole(), false, {});
+        draw_curves(canvas, whole(), c_.time, false, {});
     }
     canvas.move_to({plot_.x, axis});
     canvas.line_to({plot_.right(), axis});
@@ -253,14 +261,12 @@ Image Chart::past(const Fonts& fonts) const {
     const Box box = past_box();
     Image image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(image, fonts);
-    draw_curves(canvas, whole(), true, {-box.x, -box.y});
+    draw_curves(canvas, whole(), c_.time, true, {-box.x, -box.y});
     return image;
 }
 
-void Chart::draw_past(Canvas& canvas, double t) const {
-    const double cut = cursor_column(t) + 1;
-    canvas.clip({plot_.x - 8, plot_.y - 8, cut - plot_.x + 8, plot_.h + 16},
-                [&] { draw_curves(canvas, whole(), true, {}); });
+void Chart::draw_past(Canvas& canvas) const {
+    canvas.clip(past_box(), [&] { draw_curves(canvas, whole(), c_.time, true, {}); });
 }
 
 namespace {
@@ -270,11 +276,21 @@ TextStyle reading_style(double u, Color color) {
 }
 }  // namespace
 
+std::string Chart::told(double value) const {
+    if (!c_.reading_unit.empty()) return quantity(value, c_.reading_unit.c_str());
+    return fixed((value - scale_.offset) / scale_.scale, digits_);
+}
+
+double Chart::widest_reading(Canvas& canvas, const TextStyle& style) const {
+    if (!c_.reading_unit.empty()) return canvas.measure("00.0\u00A0m" + c_.reading_unit, style).w;
+    return std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
+                    canvas.measure(fixed(shown_.low, digits_), style).w);
+}
+
 // Room for the widest value keeps the readings from dancing.
 double Chart::reading_width(Canvas& canvas, bool named) const {
     const TextStyle style = reading_style(unit_, {});
-    const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
-                                   canvas.measure(fixed(shown_.low, digits_), style).w);
+    const double widest = widest_reading(canvas, style);
     double all = 0;
     for (const Curve& curve : c_.curves) {
         all += widest + kBetweenReadings * unit_;
@@ -295,10 +311,8 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
         const double v = readings[i].value;
         const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
         const TextStyle style = reading_style(u, readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
-        const double widest = std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
-                                       canvas.measure(fixed(shown_.low, digits_), style).w);
-        if (!std::isnan(v))
-            canvas.text({right, box_.y + 26 * u}, fixed((v - scale_.offset) / scale_.scale, digits_), style);
+        const double widest = widest_reading(canvas, style);
+        if (!std::isnan(v)) canvas.text({right, box_.y + 26 * u}, told(v), style);
         right -= widest;
         if (std::isnan(v) && !label.empty()) {  // a name that nothing follows would look forgotten
             TextStyle none = style;
@@ -315,16 +329,24 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
 
 void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<const Reading> readings) const {
     const double u = unit_;
+    const View view = windowed() ? around(t) : whole();
+    // Past and future meet at the cursor: each is drawn within its own part of the plot.
+    const double cut = cursor_column(view, t) + 1, box = plot_.y - 8;
+    double from = plot_.x;
     if (windowed()) {
-        View view = around(t);
         draw_time_axis(canvas, p, view);
-        // Past and future meet at the cursor: each is drawn within its own part of the plot.
-        const double cut = cursor_column(t) + 1;
-        canvas.clip({cut, plot_.y - 8, plot_.right() - cut, plot_.h + 9},
-                    [&] { draw_curves(canvas, view, false, {}); });
-        canvas.clip({plot_.x, plot_.y - 8, cut - plot_.x, plot_.h + 9}, [&] { draw_curves(canvas, view, true, {}); });
+        canvas.clip({cut, box, plot_.right() - cut, plot_.h + 9}, [&] {
+            draw_curves(canvas, view, {view.from, view.to}, false, {});
+        });
+    } else {
+        from = std::max(past_column(t), static_cast<int>(past_box().x));
     }
-    const double x = cursor_column(t) + 0.5;
+    // Columns before the first are drawn along: the curve comes from there.
+    const double column = (view.to - view.from) / plot_.w, before = 4 * unit_ + 4;
+    const Range rows{std::max(view.from, view.from + (from - plot_.x - before) * column), std::min(t, view.to)};
+    canvas.clip({from, box, cut - from, windowed() ? plot_.h + 9 : plot_.h + 16},
+                [&] { draw_curves(canvas, view, rows, true, {}); });
+    const double x = cut - 0.5;
     canvas.move_to({x, plot_.y - 6 * u});
     canvas.line_to({x, plot_.bottom()});
     canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});

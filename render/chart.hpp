@@ -2,8 +2,9 @@
 // over a window of time that moves with the instant.
 //
 // Curves are reduced to what the pixels can show (first, least, most, last of each column), so drawing costs the
-// same for any number of rows. Over the whole film, what lies before the cursor is a kept layer shown up to the
-// cursor's column: no stroke grows, and any frame in any order gives the same pixels.
+// same for any number of rows. Over the whole film, what lies before the cursor is a kept layer shown up to a few
+// columns before the cursor's, and those columns are drawn from the rows until the instant: no row after it is ever
+// drawn as past, and any frame in any order gives the same pixels.
 #pragma once
 
 #include <functional>
@@ -62,7 +63,9 @@ struct ChartContent {
     Range time;                    // of the film [s]
     std::optional<double> window;  // [s]
     double time_unit = 1;          // [s]
-    std::string time_label;        // markup, "t / s"
+    // The readings are told in this unit by themselves, as labels beside the mechanism tell them; empty: in the axis's.
+    std::string reading_unit = {};
+    std::string time_label;  // markup, "t / s"
     std::vector<Curve> curves;
     std::vector<double> band_times;  // [s]
     std::vector<Band> bands;
@@ -82,14 +85,15 @@ class Chart {
 
     Vec2 to_pixels(double t, double v) const;                        // of the whole film's axes
     void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
-    // All that has been, to be shown up to the cursor; as large as `past_box`. Empty with a window.
+    // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
+    // window.
     Image past(const Fonts& fonts) const;
     Box past_box() const;
-    // The same drawn directly, up to the cursor at t.
-    void draw_past(Canvas& canvas, double t) const;
-    // What moves: with a window the curves too.
+    void draw_past(Canvas& canvas) const;  // the same drawn directly
+    // The first column that is not past yet at t: what lies after t may reach into it by the width of its stroke.
+    int past_column(double t) const;
+    // What moves: the curves' last columns until t, with a window all of them.
     void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
-    int cursor_column(double t) const;  // the first column after the cursor
     Range time() const { return c_.time; }
     bool windowed() const { return c_.window.has_value(); }
 
@@ -99,8 +103,12 @@ class Chart {
     View around(double t) const;
     void draw_time_axis(Canvas& canvas, const Palette& palette, const View& view) const;
     void draw_value_axis(Canvas& canvas, const Palette& palette) const;
-    void draw_curves(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
-    void draw_bands(Canvas& canvas, const View& view, bool past, Vec2 shift) const;
+    int cursor_column(const View& view, double t) const;
+    std::string told(double value) const;                                 // as a reading
+    double widest_reading(Canvas& canvas, const TextStyle& style) const;  // [px]
+    // Rows between two instants, drawn as past or as still to come.
+    void draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
+    void draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
     void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
     double y(double v) const;

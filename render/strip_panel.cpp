@@ -143,7 +143,7 @@ class ChartPanel : public Panel {
         const Box at = chart_.past_box();
         double& shown = static_cast<Shown*>(state)->until;
         if (anew) shown = at.x;
-        const double until = std::max(shown, chart_.cursor_column(facts_.at(0, frame)) + 1.0);
+        const double until = std::max(shown, double(chart_.past_column(facts_.at(0, frame))));
         kept.image_part(past_, static_cast<int>(at.x), static_cast<int>(at.y), {shown - at.x, 0, until - shown, at.h});
         shown = until;
     }
@@ -182,38 +182,53 @@ ChartContent blank(const FilmFacts& facts, const PanelSpec& spec, int member) {
 
 // ---- strips ------------------------------------------------------------------------------------
 
-// The force from the chart's table, with the peaks that its sampling misses.
+using ForceRow = std::array<double, 2>;  // instant, force
+
+// Where a force between rows is largest: at the vertex of the parabola through the highest row and its neighbours.
+double instant_of_peak(const ForceRow& before, const ForceRow& highest, const ForceRow& after) {
+    const double left = highest[0] - before[0], right = after[0] - highest[0];
+    const double rise = (highest[1] - before[1]) / left, fall = (after[1] - highest[1]) / right;  // rise >= 0 >= fall
+    const double lean = rise - fall > 0 ? (rise * right + fall * left) / (rise - fall) : 0;
+    const double least = 0.01 * std::min(left, right);
+    double shift = 0.5 * lean;
+    if (std::abs(shift) < least) shift = lean < 0 ? -least : least;  // the row itself keeps its own value
+    return highest[0] + std::clamp(shift, -0.9 * left, 0.9 * right);
+}
+
+// The force from the tables of chart and trace, and the peaks that their rows miss, each beside the row that is nearest
+// it; an impact that no row meets is a triangle. Rows keep their values: they are those of the frames' instants. An
+// impact that is not over within the rows has no peak yet.
 void force_rows(const FilmFacts& facts, int member, Curve& curve) {
     const Motion& one = facts.motion(member);
-    const auto *t = column(one.chart, {ChannelKind::t, 0}), *force = column(one.chart, {ChannelKind::contact_force, 0});
-    std::vector<std::array<double, 2>> rows;
-    if (t && force)
-        for (std::size_t i = 0; i < one.chart.rows(); ++i)
+    std::vector<ForceRow> rows;
+    for (const sim::Table* table : {&one.chart, &one.trace}) {
+        const auto *t = column(*table, {ChannelKind::t, 0}), *force = column(*table, {ChannelKind::contact_force, 0});
+        if (!t || !force) continue;
+        for (std::size_t i = 0; i < table->rows(); ++i)
             if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
-    const std::vector<TraceSample>& samples = facts.samples[static_cast<std::size_t>(member)];
-    for (const TraceSample& s : samples) rows.push_back({s.t, s.force});
-    std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });
-    // Rows between which an impact falls miss it, or its peak: a triangle stands for the one; for the other the row
-    // that is nearest it, which is less than a row's distance away.
+    }
+    const auto by_time = [&] { std::ranges::stable_sort(rows, {}, [](const ForceRow& r) { return r[0]; }); };
+    by_time();
+    const auto same = std::ranges::unique(rows, {}, [](const ForceRow& r) { return r[0]; });
+    rows.erase(same.begin(), same.end());
     const auto sampled = static_cast<std::ptrdiff_t>(rows.size());
     for (const sim::Impact& i : one.impacts) {
-        if (!i.force_peak) continue;
-        const double end = i.t_end.value_or(facts.span.high);
-        const auto first = std::ranges::lower_bound(rows.begin(), rows.begin() + sampled, i.t_start, {},
-                                                    [](const auto& r) { return r[0]; });
-        const auto last =
-            std::ranges::upper_bound(first, rows.begin() + sampled, end, {}, [](const auto& r) { return r[0]; });
+        if (!i.force_peak || !i.t_end || sampled == 0 || *i.t_end > rows[static_cast<std::size_t>(sampled) - 1][0])
+            continue;
+        const auto begin = rows.begin(), end = begin + sampled;
+        const auto first = std::ranges::lower_bound(begin, end, i.t_start, {}, [](const ForceRow& r) { return r[0]; });
+        const auto last = std::ranges::upper_bound(first, end, *i.t_end, {}, [](const ForceRow& r) { return r[0]; });
         const auto highest = std::max_element(first, last, [](const auto& p, const auto& q) { return p[1] < q[1]; });
-        if (highest != last && (*highest)[1] > 0) {
-            (*highest)[1] = std::max((*highest)[1], *i.force_peak);
-        } else if (i.t_end) {
-            rows.push_back({i.t_start, 0});
-            rows.push_back({(i.t_start + *i.t_end) / 2, *i.force_peak});
-            rows.push_back({*i.t_end, 0});
+        if (highest == last || !((*highest)[1] > 0)) {
+            const ForceRow touch{i.t_start, 0}, peak{(i.t_start + *i.t_end) / 2, *i.force_peak}, release{*i.t_end, 0};
+            rows.insert(rows.end(), {touch, peak, release});
+        } else if (*i.force_peak > (*highest)[1] && highest != begin && highest + 1 != end) {
+            const double at = instant_of_peak(*(highest - 1), *highest, *(highest + 1));
+            rows.push_back({at, *i.force_peak});
         }
     }
     std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });
-    std::ranges::stable_sort(rows, {}, [](const auto& r) { return r[0]; });
+    by_time();
     for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
 }
 
@@ -310,6 +325,7 @@ class StripPanel final : public ChartPanel {
             }
         }
         c.filled = single && is_force(first) && facts.members() == 1;
+        if (is_force(first)) c.reading_unit = c.unit;
         c.value = range_of(facts, c.curves, first);
         if (single && first.kind == ChannelKind::contact_x) add_places(facts, c);
         return c;
@@ -389,6 +405,7 @@ class CollisionPanel final : public Panel {
             curves_.push_back(std::move(curve));
         }
         content_.filled = single && is_force(first());
+        if (is_force(first())) content_.reading_unit = content_.unit;
         content_.value = range_of(facts, curves_, first());
     }
 
@@ -418,7 +435,9 @@ class CollisionPanel final : public Panel {
         }
         const double t = now - start(which);
         if (!(t > s.chart->time().low)) return;
-        const double until = std::max(s.until, s.chart->cursor_column(std::min(t, s.chart->time().high)) + 1.0);
+        // Once it is over nothing moves any more.
+        const double until =
+            std::max(s.until, t > s.chart->time().high ? plot_.right() + 1 : double(s.chart->past_column(t)));
         kept.replace_part(s.past, static_cast<int>(at.x), static_cast<int>(at.y),
                           {s.until - at.x, 0, until - s.until, at.h});
         s.until = until;
@@ -448,7 +467,7 @@ class CollisionPanel final : public Panel {
     Image past_of(const Chart& chart, const Canvas& ground) const {
         Image image = ground.image();
         Canvas canvas(image, ground.fonts());
-        chart.draw_past(canvas, chart.time().high);
+        chart.draw_past(canvas);
         const Box at = chart.past_box();
         Image plot(static_cast<int>(at.w), static_cast<int>(at.h));
         Canvas(plot, ground.fonts()).replace_part(image, static_cast<int>(-at.x), static_cast<int>(-at.y), at);

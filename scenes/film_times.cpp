@@ -184,6 +184,8 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     }
     out.chart = rows(span.from, to, chart_rate(to - span.from));
     out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
+    // A frame's own instant is a row: the curve under the cursor has the value that the frame tells.
+    merge(out.chart, out.frames);
     if (!fine.empty()) {
         fine.insert(fine.end(), out.frames.begin(), out.frames.end());
         merge(out.chart, fine);

@@ -354,6 +354,83 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     EXPECT_GT(highest(0.5), 0.6);
 }
 
+// One impact at 50 ms, whose force rises and falls as a sine, and a picture at each of these instants.
+FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
+    constexpr double kTouch = 0.05, kRelease = 0.0504, kPeak = 100, kStep = 2e-5;
+    FilmSetup setup = test::synthetic_film({.duration = 0.1});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = Style::flat;
+    for (auto& column : setup.trace.values) column.clear();
+    setup.chart.channels = {{ChannelKind::t, 0}, {ChannelKind::contact_force, 0}};
+    setup.chart.values.assign(2, {});
+    const auto force = [&](double t) {
+        const double share = (t - kTouch) / (kRelease - kTouch);
+        return share > 0 && share < 1 ? kPeak * std::sin(std::numbers::pi * share) : 0.0;
+    };
+    for (int i = 0; i <= 5000; ++i) {
+        setup.chart.values[0].push_back(i * kStep);
+        setup.chart.values[1].push_back(force(i * kStep));
+    }
+    sim::Impact impact;
+    impact.t_start = kTouch, impact.t_end = kRelease, impact.force_peak = kPeak;
+    setup.impacts = {impact};
+    setup.poses.resize(instants.size());
+    for (std::size_t k = 0; k < instants.size(); ++k) {
+        setup.poses[k].t = instants[k];
+        setup.poses[k].nearest->force = force(instants[k]);
+    }
+    setup.layout = leaf(spec);
+    return setup;
+}
+
+// The highest ink of what has been, of the plot's height.
+double highest_past(Film& film, int frame) {
+    const FrameGeometry g = film.geometry(frame);
+    const double u = g.layout.unit;
+    const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, u);
+    const Color past = palette(Theme::light).contact;
+    const Image image = drawn(film, frame);
+    for (int y = int(plot.y); y < int(plot.bottom()); ++y)
+        for (int x = int(plot.x); x < int(plot.right()); ++x) {
+            const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+            if (std::abs((p >> 16 & 255) / 255.0 - past.r) + std::abs((p >> 8 & 255) / 255.0 - past.g) +
+                    std::abs((p & 255) / 255.0 - past.b) <
+                0.35)
+                return (plot.bottom() - y) / plot.h;
+        }
+    return 0;
+}
+
+TEST(ForceStrip, DrawsNothingAfterTheInstantAsPast) {
+    PanelSpec by_collision = strip(ChannelKind::contact_force), moving = by_collision;
+    by_collision.by_collision = true;
+    moving.window = 0.02;
+    for (const PanelSpec& spec : {strip(ChannelKind::contact_force), by_collision, moving}) {
+        // At the touch, and soon after it, when the force has come to 16 N of its 100 N.
+        Film film(struck(spec, {0.05, 0.05002, 0.0505}));
+        EXPECT_LT(highest_past(film, 0), 0.05);
+        EXPECT_LT(highest_past(film, 1), 0.25);
+        EXPECT_GT(highest_past(film, 2), 0.6);  // then it is past
+    }
+}
+
+// Small forces on the axis of large ones: the reading is the label's "400 mN", not the axis's "0".
+TEST(ForceStrip, TellsTheForceAsItsLabelDoes) {
+    const auto reading_width = [](double force) {
+        FilmSetup setup = struck(strip(ChannelKind::contact_force), {0.04});
+        setup.poses[0].nearest->force = force;
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(0);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        const double u = g.layout.unit, right = plot_area(box, u).right();
+        for (const Box& text : g.texts)
+            if (std::abs(text.right() - right - 8 * u) < 4 * u && text.y < box.y + 30 * u) return text.w;
+        return 0.0;
+    };
+    EXPECT_GT(reading_width(0), 0);
+    EXPECT_GT(reading_width(0.4), 1.8 * reading_width(0));
+}
+
 // A contact that lasts beyond the first tenth of a second, which a strip of collisions shows, when the picture begins.
 TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
     for (const int frames : {1, 30}) {
