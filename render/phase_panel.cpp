@@ -8,6 +8,7 @@
 #include "render/chart.hpp"
 #include "render/growing.hpp"
 #include "render/panel.hpp"
+#include "render/smooth_path.hpp"
 #include "render/ticks.hpp"
 
 namespace beamcam::render {
@@ -154,7 +155,21 @@ class PhasePanel final : public Panel {
         std::vector<Vec2> points;
         for (std::size_t i = 0; i < t->size(); ++i)
             points.push_back(to_pixels((*x)[i], (*y)[i]) - Vec2{plot_.x - 8, plot_.y - 8});
-        return thinned(*t, points, 0.7);
+        return smooth(thinned(*t, points, 0.7));
+    }
+    // The rows follow the motion, so that the curve between them is a spline.
+    static GrowingPath smooth(const GrowingPath& path) {
+        constexpr double kStep = 3;  // [px]
+        GrowingPath out;
+        for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+            const std::vector<Vec2> piece = smooth_piece(path.points, i, kStep);
+            const double from = path.times[i], to = path.times[i + 1];
+            for (std::size_t k = i == 0 ? 0 : 1; k < piece.size(); ++k) {
+                out.points.push_back(piece[k]);
+                out.times.push_back(from + (to - from) * double(k) / double(piece.size() - 1));
+            }
+        }
+        return out.points.empty() ? path : out;
     }
 
     const FilmFacts& facts_;

@@ -205,6 +205,7 @@ class Planner {
             p.survey = request.poses.size();
             request.poses.push_back(survey());
             p.chart = add_table({}, p.chart_channels);
+            request.tables[p.chart].curve = drawn_curve(p);
             if (scene_.problem.cam) p.trace = add_table({}, kTraceChannels);
         } else {
             add_compared(p);
@@ -216,6 +217,14 @@ class Planner {
         plan_.pictures.push_back(std::move(p));
     }
 
+    // What a phase panel draws of the chart's table.
+    std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const Pictures& p) const {
+        const auto panels = panels_of(p, scene_.problem);
+        if (std::ranges::none_of(panels, [](const auto& panel) { return panel.kind == render::PanelKind::phase; }))
+            return std::nullopt;
+        return std::pair{sim::Channel{ChannelKind::theta, 0}, sim::Channel{ChannelKind::theta_dot, 0}};
+    }
+
     void add_compared(Pictures& p) {
         for (const Compared& each : p.picture.compare) {
             ComparedMotion motion{each.label, each.problem, {}, {}};
@@ -223,7 +232,7 @@ class Planner {
             motion.request.turning_points = false;
             motion.request.poses.push_back({});
             motion.request.poses.push_back(survey());
-            motion.request.tables.push_back({{}, p.chart_channels});
+            motion.request.tables.push_back({{}, p.chart_channels, drawn_curve(p)});
             if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
             p.compared.push_back(std::move(motion));
         }

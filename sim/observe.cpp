@@ -286,6 +286,7 @@ Recorder::Recorder(const System& system, const Request& request, double end)
         out.channels = table.channels;
         out.values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
         result_.tables.push_back(std::move(out));
+        refined_.push_back({{}, {}, std::vector<std::vector<double>>(table.channels.size())});
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ordered(poses.times));
@@ -360,8 +361,63 @@ void Recorder::sample_tables(const Stretch& s) {
     }
 }
 
+// Between the times of the tables and the ends of the stretch, where the motion may jump: both ends are rows.
+void Recorder::refine_curves(const Stretch& s, const std::vector<std::size_t>& before) {
+    for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+        const TableRequest& table = request_.tables[i];
+        if (!table.curve || table.times.empty()) continue;
+        const Cursor& cursor = table_cursors_[i];
+        const double first = table.times[cursor.order.front()], last = table.times[cursor.order.back()];
+        const double from = std::max(s.from, first), to = std::min(s.to, last);
+        if (!(to > from)) continue;
+        Refined& refined = refined_[i];
+        const auto at = [&](double t) {
+            look(s, t);
+            return Vec2{eye_.value(table.curve->first), eye_.value(table.curve->second)};
+        };
+        const auto keep = [&](double t) {
+            look(s, t);
+            refined.times.push_back(t);
+            for (std::size_t c = 0; c < table.channels.size(); ++c)
+                refined.values[c].push_back(eye_.value(table.channels[c]));
+        };
+        keep(from);
+        double reached = from;
+        for (std::size_t k = before[i]; k <= cursor.next; ++k) {
+            const double t = k < cursor.next ? std::clamp(table.times[cursor.order[k]], from, to) : to;
+            if (!(t > reached)) continue;
+            refined.refiner.refine(reached, t, at, keep);
+            reached = t;
+        }
+        keep(to);
+    }
+}
+
+// The rows of the times and those between them, in the order of time.
+void Recorder::merge_refined() {
+    for (std::size_t i = 0; i < refined_.size(); ++i) {
+        const Refined& refined = refined_[i];
+        if (refined.times.empty()) continue;
+        std::vector<double> times = request_.tables[i].times;
+        times.insert(times.end(), refined.times.begin(), refined.times.end());
+        std::vector<std::size_t> order(times.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, {}, [&](std::size_t row) { return times[row]; });
+        Table& table = result_.tables[i];
+        for (std::size_t c = 0; c < table.values.size(); ++c) {
+            std::vector<double> all = table.values[c];
+            all.insert(all.end(), refined.values[c].begin(), refined.values[c].end());
+            for (std::size_t row = 0; row < order.size(); ++row) times[row] = all[order[row]];
+            table.values[c] = times;
+        }
+    }
+}
+
 void Recorder::sample(const Stretch& s) {
+    std::vector<std::size_t> before;
+    for (const Cursor& cursor : table_cursors_) before.push_back(cursor.next);
     sample_tables(s);
+    refine_curves(s, before);
     for (std::size_t i = 0; i < request_.poses.size(); ++i) {
         const PoseRequest& poses = request_.poses[i];
         sweep(poses.times, pose_cursors_[i], s, [&](std::size_t row) {
@@ -662,6 +718,7 @@ void Recorder::settle(const double* y) {
 }
 
 void Recorder::finish(double t, const double* y, const Tally& tally) {
+    merge_refined();
     if (impact_open_) {
         eye_.look(t, y);
         settle(y);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/integrator.hpp"
+#include "sim/refine.hpp"
 #include "sim/simulate.hpp"
 #include "sim/system.hpp"
 
@@ -85,6 +86,8 @@ class Recorder {
     };
     void look(const Stretch& s, double t);
     void sample_tables(const Stretch& s);
+    void refine_curves(const Stretch& s, const std::vector<std::size_t>& before);
+    void merge_refined();
     void sample(const Stretch& s);
     struct Turn {  // of the hub, and of the frame that the beam vibrates in
         double angle, rate, frame, frame_rate;
@@ -108,6 +111,12 @@ class Recorder {
     std::vector<double> y_;
     std::vector<long> vain_;  // peaks looked into that were no extremes, of each channel's maximum and minimum
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
+    struct Refined {  // rows between the times of a table with a curve
+        CurveRefiner refiner;
+        std::vector<double> times;
+        std::vector<std::vector<double>> values;  // by channel
+    };
+    std::vector<Refined> refined_;            // of each table
     std::vector<std::size_t> contact_poses_;  // of each pose request: how many there are
     int contact_steps_ = 0;                   // of the open impact, looked into for poses
     double end_ = 0, start_total_ = 0, largest_elastic_ = 0;

@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/channels.hpp"
@@ -71,6 +72,9 @@ struct Counters {
 struct TableRequest {
     std::vector<double> times;  // [s]; rows come in this order
     std::vector<Channel> channels;
+    // Abscissa and ordinate of a curve that is to be drawn: rows are added between the times until pieces between
+    // neighbouring rows follow it. All rows then come in the order of time.
+    std::optional<std::pair<Channel, Channel>> curve = {};
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]
