@@ -38,9 +38,13 @@ Look look(double t, System& system, const double* y) {
     out.spin = std::fabs(system.model().hub_rate());
     out.approach = system.phase().approach;
     if (!system.has_cam()) return out;
-    const ContactState c = system.contact(t, y, true);
-    const double answer = system.compliance(t, y, c).nn;
-    if (answer > 0) out.mass = 1 / answer;
+    try {
+        const ContactState c = system.contact(t, y, true);
+        const double answer = system.compliance(t, y, c).nn;
+        if (answer > 0) out.mass = 1 / answer;
+    } catch (const InertiaLost&) {
+        // Then no mass is what the contact point feels; the failure has other words for that.
+    }
     return out;
 }
 
@@ -222,7 +226,11 @@ std::string cause(const Failure& failure, System& system, const Look& beam) {
 }  // namespace
 
 std::string explain(const Failure& failure, System& system, const double* y) {
-    return fmt::format("at t = {:.9g} s: {}", failure.t, cause(failure, system, look(failure.t, system, y)));
+    std::string text = cause(failure, system, look(failure.t, system, y));
+    // What the integrator itself said stays visible behind a cause in other terms.
+    const bool own_words = failure.why == Stop::method || failure.why == Stop::inertia_lost;
+    if (own_words && !text.starts_with(failure.words)) text += fmt::format(" ({})", failure.words);
+    return fmt::format("at t = {:.9g} s: {}", failure.t, text);
 }
 
 }  // namespace beamcam::sim

@@ -3,29 +3,38 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace beamcam::sim {
 namespace {
 
-// Newton with a differenced Jacobian on a handful of unknowns; scale[i] is the natural size of x[i].
+constexpr double kBalanced = 1e-9;  // of the natural forces: what is left of a residual in equilibrium
+
+// Newton's method with a differenced Jacobian on a handful of unknowns. scale[i] is the natural size of x[i], size[i]
+// that of residual i: unknowns and residuals of different units are compared by these shares alone.
 template <class F>
-bool newton(F&& residual, Eigen::VectorXd& x, const Eigen::VectorXd& scale) {
+bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size) {
     const Eigen::Index n = x.size();
     Eigen::VectorXd f(n), g(n);
     Eigen::MatrixXd jacobian(n, n);
+    const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
+        function(at, r);
+        r = r.cwiseQuotient(size).eval();
+    };
     residual(x, f);
     for (int iteration = 0; iteration < 60; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
-            const double step = 1e-7 * scale[j], kept = x[j];
-            x[j] = kept + step;
+            constexpr double kStep = 1e-7;
+            const double kept = x[j];
+            x[j] = kept + kStep * scale[j];
             residual(x, g);
             jacobian.col(j) = g;
-            x[j] = kept - step;
+            x[j] = kept - kStep * scale[j];
             residual(x, g);
-            jacobian.col(j) = (jacobian.col(j) - g) / (2 * step);
+            jacobian.col(j) = (jacobian.col(j) - g) / (2 * kStep);
             x[j] = kept;
         }
-        const Eigen::VectorXd dx = jacobian.fullPivLu().solve(-f);
+        const Eigen::VectorXd dx = jacobian.fullPivLu().solve(-f).cwiseProduct(scale);
         if (!dx.allFinite()) return false;
         double factor = 1;  // damped: the residual may not grow
         const double before = f.norm();
@@ -40,10 +49,10 @@ bool newton(F&& residual, Eigen::VectorXd& x, const Eigen::VectorXd& scale) {
         }
         if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < 1e-13) return true;
     }
-    return f.norm() < 1e-9;
+    return f.norm() < kBalanced;
 }
 
-// Static forces of the model at ξ, without contact.
+// Static forces of the model at ξ, without contact. They do not depend on the inertia that `assemble` judges.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
     const double rest[kMaxSize] = {};
     model.set(xi.data(), rest);
@@ -57,11 +66,38 @@ Eigen::VectorXd scales(const Problem& problem, int n) {
     return scale;
 }
 
+// The natural sizes of the generalized forces: what carries the weight, or the torque where it is more, or bends a beam
+// that has neither.
+Eigen::VectorXd force_sizes(const System& system, int n) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, mass = problem.beam.line_density() * length;
+    const double torque = system.drive().has_torque() ? std::fabs(system.drive().torque(0)) : 0;
+    double force = std::max(mass * std::fabs(problem.gravity), torque / length);
+    if (!(force > 0)) force = problem.beam.bending_stiffness() / (length * length);
+    Eigen::VectorXd size =
+        Eigen::VectorXd::Constant(n, problem.beam.model == ModelKind::exact ? force * length : force);
+    size[0] = force * length;
+    return size;
+}
+
+// The same of the accelerations that such forces give to hub and beam.
+Eigen::VectorXd acceleration_sizes(const System& system, int n) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, mass = problem.beam.line_density() * length;
+    Eigen::VectorXd size = force_sizes(system, n);
+    size[0] /= problem.hub.inertia + mass * length * length;
+    size.tail(n - 1) /= problem.beam.model == ModelKind::exact ? mass * length * length : mass;
+    return size;
+}
+
 // Equilibrium with the hub held at the angle: f(ξ) + τ h = 0, θ(ξ) = angle.
-bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& xi) {
+bool hold(System& system, double angle, Eigen::VectorXd& xi) {
+    const Problem& problem = system.problem();
+    Model& model = system.model();
     const int n = model.size();
-    Eigen::VectorXd x(n + 1), scale(n + 1), force(n);
+    Eigen::VectorXd x(n + 1), scale(n + 1), size(n + 1), force(n);
     x << xi, 0;
+    size << force_sizes(system, n), 1;
     scale << scales(problem, n),
         problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
@@ -73,7 +109,7 @@ bool hold(const Problem& problem, Model& model, double angle, Eigen::VectorXd& x
         }
         r << force, theta - angle;
     };
-    const bool found = newton(residual, x, scale);
+    const bool found = newton(residual, x, scale, size);
     xi = x.head(n);
     return found;
 }
@@ -98,12 +134,14 @@ bool rest(System& system, double t, Ride& ride) {
     std::copy_n(ride.rate.data(), n, y.begin() + n);
     const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
     const double weight = std::max(std::fabs(problem.gravity) * model.mass(), 1e-300);
-    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), force(n);
+    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
     x.head(n) = ride.xi;
     scale.head(n) = scales(problem, n);
+    size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
     if (rigid_contact) {
         x[n] = 0.5 * weight;
         scale[n] = weight;
+        size[n] = problem.beam.length;
     }
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
@@ -112,12 +150,13 @@ bool rest(System& system, double t, Ride& ride) {
         const double push = rigid_contact ? at[n]
                             : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
                                           : -c.gap * stiffness * 1e-6;
-        system.generalized_force(t, c, push, force.data());
-        if (moves) model.solve(force.data());
+        const bool inert = system.generalized_force(t, c, push, force.data());
+        if (moves && inert) model.solve(force.data());
+        if (moves && !inert) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // a step too far
         r.head(n) = force - ride.acceleration;
-        if (rigid_contact) r[n] = c.gap * weight / problem.beam.length;
+        if (rigid_contact) r[n] = c.gap;
     };
-    const bool found = newton(residual, x, scale);
+    const bool found = newton(residual, x, scale, size);
     ride.xi = x.head(n);
     if (!found || rigid_contact) return found && x[n] >= 0;
     std::copy_n(x.data(), n, y.begin());
@@ -221,7 +260,7 @@ InitialState initial_state(const System& of) {
         case InitialShape::straight:
             break;
         case InitialShape::static_equilibrium:
-            if (!hold(problem, system.model(), xi[0], xi))
+            if (!hold(system, xi[0], xi))
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
             break;
         case InitialShape::resting: {

@@ -77,6 +77,11 @@ struct StepFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// The inertia of the model, in the state that it is in, is not positive: no force has a definite answer.
+struct InertiaLost : StepFailure {
+    InertiaLost() : StepFailure("the inertia of the model is not positive") {}
+};
+
 // Why even the shortest step was of no use: its error could be told, or the numbers were no longer finite.
 inline const char* vanished(bool finite) {
     return finite ? "no step, however short, keeps to the tolerance"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/eigenmodes.hpp"
+#include "sim/integrator.hpp"
 #include "sim/numerics.hpp"
 #include "sim/shapes.hpp"
 
@@ -66,7 +67,7 @@ class QuadratureModel : public Model {
         model.gravity_ = 0;
         double xi[kMaxSize] = {}, rate[kMaxSize] = {}, f[kMaxSize], g[kMaxSize];
         model.set(xi, rate);
-        model.assemble(f);
+        if (!model.assemble(f)) throw InertiaLost();
         Eigen::Map<Eigen::MatrixXd> mm(mass, size_, size_), kk(stiffness, size_, size_), cc(centrifugal, size_, size_);
         mm = model.inertia_;
         kk.setZero();
@@ -76,7 +77,7 @@ class QuadratureModel : public Model {
         rate[0] = 1;
         const double step = 1e-3 * (angular_ ? 1.0 : length_);
         for (int j = 1; j < size_; ++j) {
-            const auto odd = [&](double q, double* out) {
+            const auto odd = [&](double q, double* out) {  // of the forces, whatever the inertia of the bent beam
                 double back[kMaxSize];
                 xi[j] = q;
                 model.set(xi, rate);
@@ -129,7 +130,7 @@ class QuadratureModel : public Model {
         double f[kMaxSize];
         const double zero[kMaxSize] = {};
         set(zero, zero);
-        assemble(f);
+        if (!assemble(f)) throw InertiaLost();
         // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
         // little.
         const Eigenmodes modes = eigenmodes(bending_, inertia_.bottomRightCorner(modes_, modes_));

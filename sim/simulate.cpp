@@ -106,6 +106,7 @@ class Run {
         try {
             integrate();
         } catch (const StepFailure& failure) {
+            if (dynamic_cast<const InertiaLost*>(&failure)) why_ = Stop::inertia_lost;
             if (!started_)
                 throw SolverError(
                     fmt::format("at the start: {}; give another initial.shape or initial.angle", failure.what()), 0,

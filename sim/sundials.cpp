@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "sim/integrator.hpp"
@@ -36,9 +38,23 @@ constexpr double kIgnored = 1e-30;
 constexpr const char* kBelowRounding = "the tolerance asks for more digits than numbers have";
 constexpr const char* kGaveUp = "the integrator gave up";
 
-void check(int flag, const char* call) {
-    if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag));
-}
+// One of the suite's solvers, and its own names for its flags (from malloc).
+struct Suite {
+    const char* name;
+    char* (*flag_name)(long int);
+
+    std::string flag(int value) const {
+        const std::unique_ptr<char, decltype(&std::free)> text(flag_name(value), &std::free);
+        return fmt::format("{}: {}", name, text ? text.get() : std::to_string(value).c_str());
+    }
+    void check(int value, const char* call) const {
+        if (value < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag(value)));
+    }
+    StepFailure failure(int value, const char* reason) const {
+        return StepFailure(fmt::format("{} ({})", reason, flag(value)));
+    }
+};
+constexpr Suite kCvode{"CVODE", CVodeGetReturnFlagName}, kArkode{"ARKODE", ARKStepGetReturnFlagName};
 
 // What both solvers do to the right-hand side and to its norm.
 struct Callbacks {
@@ -171,21 +187,19 @@ class Cvode final : public SundialsSolver {
 
     const Segment& step() override {
         t0 = t1;
-        if (stops()) check(CVodeSetStopTime(memory_, stop_), "the stop time");
+        if (stops()) kCvode.check(CVodeSetStopTime(memory_, stop_), "the stop time");
         double t = t0;
         const int flag = CVode(memory_, target(), y_, &t, CV_ONE_STEP);
-        if (flag < 0) {
-            throw StepFailure(reason(flag));
-        }
+        if (flag < 0) throw kCvode.failure(flag, reason(flag));
         reached(t);
         int order = 1;
-        check(CVodeGetLastOrder(memory_, &order), "the order");
+        kCvode.check(CVodeGetLastOrder(memory_, &order), "the order");
         order_ = std::min(order, kMaxOrder);
         base_ = t1;
         double factorial = 1;
         for (int k = 0; k <= order_; ++k) {
             if (k > 0) factorial *= k;
-            check(CVodeGetDky(memory_, t1, k, work_), "dense output");
+            kCvode.check(CVodeGetDky(memory_, t1, k, work_), "dense output");
             const double* d = N_VGetArrayPointer(work_);
             for (std::size_t i = 0; i < n_; ++i) taylor_[static_cast<std::size_t>(k)][i] = d[i] / factorial;
         }
@@ -250,27 +264,28 @@ class Cvode final : public SundialsSolver {
         grow(counters.jacobians, jacobians, last_.jacobians);
     }
 
-    void restart(double t) override { check(CVodeReInit(memory_, t, y_), "a restart"); }
-    void first_step(double h) override { check(CVodeSetInitStep(memory_, h), "the first step"); }
+    void restart(double t) override { kCvode.check(CVodeReInit(memory_, t, y_), "a restart"); }
+    void first_step(double h) override { kCvode.check(CVodeSetInitStep(memory_, h), "the first step"); }
 
     void set_up(double t) override {
         memory_ = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
         if (!memory_) throw StepFailure("the integrator could not be set up");
-        check(CVodeInit(memory_, &Callbacks::rhs, t, y_), "the start");
-        check(CVodeSetUserData(memory_, &call_), "the start");
-        check(CVodeWFtolerances(memory_, &Callbacks::weights), "the tolerances");
-        check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
+        kCvode.check(CVodeInit(memory_, &Callbacks::rhs, t, y_), "the start");
+        kCvode.check(CVodeSetUserData(memory_, &call_), "the start");
+        kCvode.check(CVodeWFtolerances(memory_, &Callbacks::weights), "the tolerances");
+        kCvode.check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
         // Failures come back as flags and are told once, by us.
-        check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr), "the start");
+        kCvode.check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr),
+                     "the start");
 #endif
         if (bdf_) {
             matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
-            check(CVodeSetLinearSolver(memory_, linear_, matrix_), "the linear solver");
+            kCvode.check(CVodeSetLinearSolver(memory_, linear_, matrix_), "the linear solver");
         } else {
             nonlinear_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
-            check(CVodeSetNonlinearSolver(memory_, nonlinear_), "the nonlinear solver");
+            kCvode.check(CVodeSetNonlinearSolver(memory_, nonlinear_), "the nonlinear solver");
         }
     }
 
@@ -320,10 +335,10 @@ class Arkode final : public SundialsSolver {
 
     const Segment& step() override {
         t0 = t1;
-        if (stops()) check(ARKStepSetStopTime(memory_, stop_), "the stop time");
+        if (stops()) kArkode.check(ARKStepSetStopTime(memory_, stop_), "the stop time");
         double t = t0;
         const int flag = ARKStepEvolve(memory_, target(), y_, &t, ARK_ONE_STEP);
-        if (flag < 0) throw StepFailure(reason(flag));
+        if (flag < 0) throw kArkode.failure(flag, reason(flag));
         reached(t);
         collect();
         return *this;
@@ -334,7 +349,7 @@ class Arkode final : public SundialsSolver {
             std::copy(end_.begin(), end_.end(), y);
             return;
         }
-        check(ARKStepGetDky(memory_, t, 0, work_), "dense output");
+        kArkode.check(ARKStepGetDky(memory_, t, 0, work_), "dense output");
         std::copy_n(N_VGetArrayPointer(work_), n_, y);
     }
 
@@ -366,19 +381,20 @@ class Arkode final : public SundialsSolver {
         grow(counters.rejected, rejected, last_.rejected);
     }
 
-    void restart(double t) override { check(ARKStepReset(memory_, t, y_), "a restart"); }
-    void first_step(double h) override { check(ARKStepSetInitStep(memory_, h), "the first step"); }
+    void restart(double t) override { kArkode.check(ARKStepReset(memory_, t, y_), "a restart"); }
+    void first_step(double h) override { kArkode.check(ARKStepSetInitStep(memory_, h), "the first step"); }
 
     void set_up(double t) override {
         memory_ = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
         if (!memory_) throw StepFailure("the integrator could not be set up");
-        check(ARKStepSetUserData(memory_, &call_), "the start");
-        check(ARKStepWFtolerances(memory_, &Callbacks::weights), "the tolerances");
-        check(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
-        check(ARKStepSetInterpolantDegree(memory_, 5), "dense output");
-        check(ARKStepSetMaxNumSteps(memory_, 1000000), "the start");
+        kArkode.check(ARKStepSetUserData(memory_, &call_), "the start");
+        kArkode.check(ARKStepWFtolerances(memory_, &Callbacks::weights), "the tolerances");
+        kArkode.check(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
+        kArkode.check(ARKStepSetInterpolantDegree(memory_, 5), "dense output");
+        kArkode.check(ARKStepSetMaxNumSteps(memory_, 1000000), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
-        check(ARKStepSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr), "the start");
+        kArkode.check(ARKStepSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr),
+                      "the start");
 #endif
     }
 };

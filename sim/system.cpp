@@ -185,10 +185,9 @@ ContactState System::contact_placed(double t, const double* y, bool search) {
     ContactState c = contact_geometry(t, search);
     if (phase_.held) {
         double acc[kMaxSize];
-        if (assemble(acc)) {
-            add_torque(t, acc);
-            hold(t, c, acc, true);
-        }
+        require_inertia(acc);
+        add_torque(t, acc);
+        hold(t, c, acc, true);
     } else if (phase_.touching) {
         c.factor = law_.factor(-c.gap_rate, phase_.approach);
         c.force = law_.force(-c.gap, -c.gap_rate, phase_.approach);
@@ -233,6 +232,10 @@ double System::foot_speed(const double* y, const ContactState& c) const {
 
 // With the hub's motion prescribed only the beam's own inertia answers, and that is always positive.
 bool System::assemble(double* f) { return model_->assemble(f) || drive_.prescribed(); }
+
+void System::require_inertia(double* f) {
+    if (!assemble(f)) throw InertiaLost();
+}
 
 void System::rhs(double t, const double* y, double* dy) {
     place(t, y);
@@ -346,7 +349,7 @@ double System::hold(double t, ContactState& c, double* acc, bool pushed) {
 double System::free_gap_acceleration(double t, const double* y) {
     double acc[kMaxSize];
     place(t, y);
-    if (!assemble(acc)) return 0;
+    require_inertia(acc);
     add_torque(t, acc);
     ContactState c = contact_geometry(t, true);
     hold(t, c, acc, false);
@@ -356,7 +359,7 @@ double System::free_gap_acceleration(double t, const double* y) {
 Compliance System::compliance(double t, const double* y, const ContactState& c) {
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], by_n[kMaxSize], by_t[kMaxSize];
     place(t, y);
-    model_->assemble(f);
+    require_inertia(f);
     contact_rows(c, jn, jt);
     std::copy_n(jn, n_, by_n);
     std::copy_n(jt, n_, by_t);
@@ -381,7 +384,7 @@ double System::touch_time(double t, const double* y, const ContactState& c, doub
 void System::strike(double t, double* y, const ContactState& c, const ImpactResult& impact) {
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], jump[kMaxSize];
     place(t, y);
-    model_->assemble(f);
+    require_inertia(f);
     contact_rows(c, jn, jt);
     for (int i = 0; i < n_; ++i) jump[i] = impact.impulse_n * jn[i] + impact.impulse_t * jt[i];
     double* ledger = y + controlled;
@@ -406,13 +409,14 @@ void System::add_torque(double t, double* f) const {
     for (int i = 0; i < n_; ++i) f[i] += torque * model_->hub_row()[i];
 }
 
-void System::generalized_force(double t, const ContactState& c, double normal, double* f) {
+bool System::generalized_force(double t, const ContactState& c, double normal, double* f) {
     double jn[kMaxSize], jt[kMaxSize];
-    assemble(f);
+    const bool inert = assemble(f);
     add_torque(t, f);
     contact_rows(c, jn, jt);
     const double ratio = bristle_ ? 0 : -mu_ * std::tanh(c.slip / slip_speed_);
     for (int i = 0; i < n_; ++i) f[i] += normal * (jn[i] + ratio * jt[i]);
+    return inert;
 }
 
 void System::acceleration(double t, const double* y, double* acc) {

@@ -93,8 +93,9 @@ class System final : public Ode {
     ContactState contact_placed(double t, const double* y, bool search);
 
     // After `contact`: forces and torque at that state with the cam pushing by `normal` [N] along n, and by the
-    // Coulomb friction that goes with it along t; array of `coordinates`.
-    void generalized_force(double t, const ContactState& c, double normal, double* f);
+    // Coulomb friction that goes with it along t; array of `coordinates`. False when the inertia that would answer is
+    // not positive.
+    bool generalized_force(double t, const ContactState& c, double normal, double* f);
 
     // Energy books at (t, y). Total = what the ledger says must stay constant.
     struct Books {
@@ -157,6 +158,8 @@ class System final : public Ode {
     double bristle_rate(const double* y, const ContactState& c) const;
     // Forces and inertia of the model; false when the inertia that must answer is not positive.
     bool assemble(double* f);
+    // The same, but throws InertiaLost.
+    void require_inertia(double* f);
     double bending_reach(const double* coordinates) const;
     Books open_books(double t, const double* y);
 

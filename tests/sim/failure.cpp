@@ -133,6 +133,64 @@ TEST(Failure, NoStepThatKeepsToTheToleranceIsToldInWords) {
     }
 }
 
+// y′ = 1 up to t = 1, and no number beyond.
+struct Wall final : Ode {
+    Wall() { size = controlled = 1; }
+    void rhs(double t, const double*, double* dy) override { dy[0] = t < 1 ? 1 : std::nan(""); }
+};
+
+TEST(Failure, OfSundialsKeepsItsFlagAndItsCause) {
+    const auto told = [](Method method, double from, double tolerance) -> std::string {
+        Wall wall;
+        const std::unique_ptr<Integrator> integrator = make_sundials(method, wall, tolerance, tolerance);
+        const double start[] = {1};
+        try {
+            integrator->start(from, start);
+            integrator->step();
+        } catch (const StepFailure& failure) {
+            return failure.what();
+        }
+        return "";
+    };
+    for (const Method method : {Method::cvode_adams, Method::cvode_bdf})
+        EXPECT_THAT(told(method, 2, 1e-8),
+                    AllOf(HasSubstr("beyond all numbers"), HasSubstr("CVODE: CV_"), HasSubstr("RHSFUNC")))
+            << name(method);
+    EXPECT_THAT(told(Method::arkode_erk, 2, 1e-8),
+                AllOf(HasSubstr("beyond all numbers"), HasSubstr("ARKODE: ARK_"), HasSubstr("RHSFUNC")));
+    EXPECT_THAT(told(Method::cvode_adams, 0, 1e-18),
+                AllOf(HasSubstr("more digits"), HasSubstr("CVODE: CV_TOO_MUCH_ACC")));
+}
+
+TEST(Failure, InOtherTermsKeepsTheIntegratorsWords) {
+    Problem p;
+    System system(p);
+    std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
+    y[1] = 0.5;  // far beyond small deflections
+    const std::string told =
+        explain({Stop::method, "the integrator gave up (CVODE: CV_ERR_FAILURE)", 0.1, 1e-3, 0}, system, y.data());
+    EXPECT_THAT(told, AllOf(HasSubstr("has bent through"), HasSubstr("CVODE: CV_ERR_FAILURE")));
+}
+
+TEST(Failure, OfTheInertiaInAHeldContactIsNotAVanishedForce) {
+    Problem p;  // clamped shapes with a light hub, held on the cam
+    p.beam.basis = Basis::cantilever;
+    p.beam.modes = 12;
+    System system(p);
+    Phase held;
+    held.touching = held.held = true;
+    system.set_phase(held);
+    std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
+    y[0] = 0.3;
+    for (int i = 1; i < system.coordinates(); ++i) y[static_cast<std::size_t>(i)] = 0.02;
+    ContactState c;
+    c.x = 0.2;
+    EXPECT_THROW(system.contact(0, y.data(), true), InertiaLost);
+    EXPECT_THROW(system.free_gap_acceleration(0, y.data()), InertiaLost);
+    EXPECT_THROW(system.compliance(0, y.data(), c), InertiaLost);
+    EXPECT_THROW(system.strike(0, y.data(), c, {}), InertiaLost);
+}
+
 TEST(Failure, NoLawIsBlamedForRoundingOfAHeldContact) {
     Problem p;
     p.contact.model = ContactModel::restitution;
