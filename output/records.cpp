@@ -96,6 +96,16 @@ Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
     return map;
 }
 
+void add_reproducibility(const sim::Result& result, Json& json) {
+    json["reproducible_until"] = *result.reproducible_until;
+    Json& lost = json["not_reproducible"] = Json::array();
+    for (const sim::Interval& interval : result.not_reproducible)
+        lost.push_back({json_of(interval.from), json_of(interval.to)});
+    if (result.reproducible_again_from) json["reproducible_again_from"] = *result.reproducible_again_from;
+    json["compared_with"] = result.compared_with;
+    json["reproducibility"] = result.reproducibility;
+}
+
 constexpr const char* kManifestFormat = "beamcam manifest 1";
 
 Json json_of(const sim::Timing& time) {
@@ -171,7 +181,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     json["energy_scale"] = result.energy_scale;
     json["impacts"] = result.impacts.size();
     json["collisions"] = result.collisions.size();
-    if (result.reproducible_until) json["reproducible_until"] = *result.reproducible_until;
+    if (result.reproducible_until) add_reproducibility(result, json);
     json["warnings"] = result.warnings;
     if (work) for_each_count(*work, [&](const char* name, long count) { json["work"][name] = count; });
     return text_of(json);

@@ -491,7 +491,7 @@ class Runner {
                 output::print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
             } else {
                 output::write_summary(path_of(s.file), scene_.problem, result_, extrema, &work_);
-                wrote(path_of(s.file), "", inputs_of(s));
+                wrote(path_of(s.file), result_.reproducibility, inputs_of(s));
             }
         }
     }

@@ -10,6 +10,7 @@
 #include "sim/exponential.hpp"
 #include "sim/failure.hpp"
 #include "sim/gap_probe.hpp"
+#include "sim/horizon.hpp"
 #include "sim/initial.hpp"
 #include "sim/numerics.hpp"
 #include "sim/observe.hpp"
@@ -771,40 +772,39 @@ class Run {
     const Audience::TallySource tally_source_ = [this] { return tally(); };
 };
 
-// Until when the compared angle is the same to kHorizonError at the asked tolerance and at one a hundred times tighter.
-constexpr double kHorizonError = 1e-6;  // [rad], relative to its size, 1 at least
-constexpr double kHorizonRate = 1000;   // [Hz] of comparison
-
-Request horizon_request(const Problem& problem, double end) {
-    TableRequest table;
-    table.channels = {compared_angle(problem).channel};
-    const auto rows = static_cast<long>(std::floor(end * kHorizonRate));
-    for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kHorizonRate);
-    table.times.push_back(end);
-    Request request;
-    request.tables.push_back(std::move(table));
-    return request;
-}
-
-double agree_until(const Problem& problem, const Request& request, const Result& plain, const Result& tight) {
-    const double scale = compared_angle(problem).scale;
-    const std::vector<double>& times = request.tables[0].times;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        const double a = scale * plain.tables[0].values[0][i], b = scale * tight.tables[0].values[0][i];
-        if (std::fabs(a - b) > kHorizonError * std::max(1.0, std::fabs(b))) return i > 0 ? times[i - 1] : 0;
-    }
-    return times.back();
-}
-
 std::vector<Result> integrate(const Problem& problem, std::span<const Request> requests, const Progress& progress,
                               TrajectoryWriter* keep, Effort* effort) {
-    Run run(problem, requests, progress, keep);
-    std::vector<Result> results = run.go();
-    if (effort) effort->add(run.counters());
+    std::optional<Run> run;
+    try {
+        run.emplace(problem, requests, progress, keep);
+    } catch (const StepFailure& failure) {  // the model itself
+        throw SolverError(fmt::format("at the start: {}; use fewer modes", failure.what()), 0, {});
+    }
+    std::vector<Result> results = run->go();
+    if (effort) effort->add(run->counters());
     return results;
 }
 
-// `motion(requests)` gives the results of the problem itself. A horizon needs one run more, at a tighter tolerance.
+// The run that the horizon compares with. It may fail, or spend its budget of steps, where the motion itself did not:
+// then the same method at a tighter tolerance takes its place, as far as that comes.
+Result comparison_run(const Problem& problem, const Request& angle, const Progress& progress, Effort* effort,
+                      Comparison& compared) {
+    const auto run = [&] {
+        return std::move(integrate(compared.problem, {&angle, 1}, progress, nullptr, effort).front());
+    };
+    try {
+        return run();
+    } catch (const SolverError& error) {
+        if (compared.same_method) {
+            if (error.partials.empty()) throw;
+            return error.partials.front();
+        }
+    }
+    compared = tighter_comparison(problem);
+    return comparison_run(problem, angle, progress, effort, compared);
+}
+
+// `motion(requests)` gives the results of the problem itself. A horizon needs one run more.
 template <class Motion>
 std::vector<Result> with_horizons(const Problem& problem, std::span<const Request> requests, const Progress& progress,
                                   Effort* effort, Motion&& motion) {
@@ -815,15 +815,13 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
     std::vector<Request> all(requests.begin(), requests.end());
     all.push_back(horizon_request(problem, end));
     std::vector<Result> results = motion(all);
-    Problem tighter = problem;
-    tighter.solver.rtol = std::max(1e-13, problem.solver.rtol / 100);
-    tighter.solver.atol = problem.solver.atol / 100;
     const Request& angle = all.back();
-    const std::vector<Result> tight = integrate(tighter, {&angle, 1}, progress, nullptr, effort);
-    const double until = agree_until(problem, angle, results.back(), tight.front());
+    Comparison compared = comparison(problem, end);
+    const Result other = comparison_run(problem, angle, progress, effort, compared);
+    const Result plain = std::move(results.back());
     results.pop_back();
     for (std::size_t i = 0; i < requests.size(); ++i)
-        if (requests[i].horizon) results[i].reproducible_until = std::min(until, results[i].end_time);
+        if (requests[i].horizon) tell_reproducibility(problem, angle, plain, other, compared, results[i]);
     return results;
 }
 

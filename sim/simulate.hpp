@@ -59,6 +59,12 @@ struct Extremum {
     double min = 0, t_min = 0, max = 0, t_max = 0;
 };
 
+// From the last instant before it; no end: up to that of the run.
+struct Interval {
+    double from = 0;
+    std::optional<double> to;
+};
+
 struct Counters {
     long steps = 0;  // accepted
     long rejected = 0;
@@ -98,7 +104,7 @@ struct Request {
     std::vector<PointRequest> points;
     std::vector<Channel> extrema;  // located on the dense output
     bool turning_points = true;    // apexes and zero crossings of θ, which need a look at every ripple
-    bool horizon = false;          // until when θ is reproducible; costs a second run
+    bool horizon = false;          // during which intervals θ is reproducible (horizon.hpp); costs a second run
 };
 
 struct Result {
@@ -110,10 +116,15 @@ struct Result {
     std::vector<Collision> collisions;
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
-    std::vector<Extremum> extrema;             // one per Request::extrema
-    double energy_residual_max = 0;            // [J]
-    double energy_scale = 0;                   // [J]
-    std::optional<double> reproducible_until;  // [s]
+    std::vector<Extremum> extrema;   // one per Request::extrema
+    double energy_residual_max = 0;  // [J]
+    double energy_scale = 0;         // [J]
+    // With Request::horizon:
+    std::optional<double> reproducible_until;       // the first loss, or the end [s]
+    std::vector<Interval> not_reproducible;         // [s]
+    std::optional<double> reproducible_again_from;  // after the last of these, where it ends before the run [s]
+    std::string compared_with;                      // method and tolerance of the second run
+    std::string reproducibility;                    // all of it in a sentence
     Counters counters;
     double wall_seconds = 0;
     bool beyond_model = false;          // it bends through angles that its model does not hold for

@@ -97,6 +97,10 @@ TEST(Summary, HasEveryNameInItsOrder) {
     sim::Result result = one_collision();
     result.warnings = {"the cam never reaches the beam"};
     result.reproducible_until = 3.25;
+    result.not_reproducible = {{3.25, 8.5}, {9, {}}};
+    result.reproducible_again_from = 9.5;
+    result.compared_with = "rk8 at rtol 1e-10";
+    result.reproducibility = "not all along";
     const std::string printed = [&] {
         Scratch scratch;
         write_summary(scratch / "s.json", {}, result, kTheta);
@@ -113,7 +117,9 @@ TEST(Summary, HasEveryNameInItsOrder) {
               "{'model': 'first-order', 'modes': 2, 'end_time': 1.5, 'steps': 44000, 'rhs_evaluations': 90000, "
               "'wall_seconds': 0.0, 'events': {'theta_zero': [{'t': 0.369993889, 'theta_dot': -5.5}]}, 'extrema': "
               "{'theta': {'min': -1.0, 't_min': 0.5, 'max': 2.0, 't_max': 1.0}}, 'energy_residual_max': 0.0, "
-              "'energy_scale': 0.0, 'impacts': 2, 'collisions': 2, 'reproducible_until': 3.25, 'warnings': "
+              "'energy_scale': 0.0, 'impacts': 2, 'collisions': 2, 'reproducible_until': 3.25, 'not_reproducible': "
+              "[[3.25, 8.5], [9.0, None]], 'reproducible_again_from': 9.5, 'compared_with': 'rk8 at rtol 1e-10', "
+              "'reproducibility': 'not all along', 'warnings': "
               "['the cam never reaches the beam']}\n");
 }
 
