@@ -16,10 +16,19 @@ struct Pair {
     double t;
 };
 
+// An order of all numbers: empty cells come last.
+bool comes_before(double x, double y) { return x < y || (std::isnan(y) && !std::isnan(x)); }
+
+bool is_same_instant(double x, double y) {
+    if (std::isnan(x) || std::isnan(y)) return std::isnan(x) && std::isnan(y);
+    return x == y || std::abs(x - y) <= kSameInstant * std::max(1.0, std::abs(x));
+}
+
 std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
     std::vector<std::size_t> order(t.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return t[i] < t[k]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t k) { return comes_before(t[i], t[k]); });
     return order;
 }
 
@@ -33,10 +42,10 @@ std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double u
     const std::vector<std::size_t> oa = in_order_of(*ta), ob = in_order_of(*tb);
     for (std::size_t i = 0, k = 0; i < oa.size() && k < ob.size();) {
         const double x = (*ta)[oa[i]], y = (*tb)[ob[k]];
-        if (std::abs(x - y) <= kSameInstant * std::max(1.0, std::abs(x))) {
-            if (x <= until) pairs.push_back({oa[i], ob[k], x});
+        if (is_same_instant(x, y)) {
+            if (!(x > until)) pairs.push_back({oa[i], ob[k], x});
             ++i, ++k;
-        } else if (x < y || std::isnan(y)) {
+        } else if (comes_before(x, y)) {
             ++i;
         } else {
             ++k;

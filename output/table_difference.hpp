@@ -1,6 +1,7 @@
 // How two tables of one motion differ, column by column, at the instants that both have.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ struct TableDifference {
     bool within(double share) const;
 };
 
-// Rows belong together by their "t" (equal to a billionth), or by their number where a table has none.
-// Only rows with t <= `until` are compared.
-TableDifference difference(const NamedTable& a, const NamedTable& b, double until = 1e300);
+// Rows belong together by their "t" (equal to a billionth), or by their number where a table has none; those whose "t"
+// is empty by their order. Rows with t > `until` are not compared.
+TableDifference difference(const NamedTable& a, const NamedTable& b,
+                           double until = std::numeric_limits<double>::infinity());
 
 }  // namespace beamcam::output

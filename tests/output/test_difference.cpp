@@ -166,6 +166,17 @@ TEST(TableDifference, AnEmptyCellIsNoNumber) {
     EXPECT_TRUE(difference(table({0}, {0.0}), table({0}, {-0.0})).within(0));
 }
 
+TEST(TableDifference, RowsWithoutAnInstantBelongTogetherByTheirOrder) {
+    const double inf = std::numeric_limits<double>::infinity();
+    const NamedTable some = table({1, NAN, 0.5, NAN, inf, -inf, 0}, {1, 2, 3, 4, 5, 6, 7});
+    EXPECT_TRUE(difference(some, some).identical());
+    EXPECT_EQ(difference(some, some).rows_compared, 7u);
+    EXPECT_EQ(difference(some, table({1, NAN, 0.5, NAN, inf, -inf, 0}, {1, 2, 3, 9, 5, 6, 7})).columns[1].largest, 5);
+    EXPECT_FALSE(difference(some, table({1, NAN, 0.5, 2, inf, -inf, 0}, {1, 2, 3, 4, 5, 6, 7})).same_shape());
+    const NamedTable none = table({NAN, NAN, NAN}, {1, 2, 3});
+    EXPECT_TRUE(difference(none, none).identical());
+}
+
 TEST(TableDifference, MissingColumnsAreTold) {
     const TableDifference d = difference({{"t", "x"}, {{0}, {1}}}, {{"t", "y"}, {{0}, {1}}});
     EXPECT_EQ(d.only_in_a, std::vector<std::string>{"x"});
