@@ -56,51 +56,102 @@ void sync_directory(const fs::path& directory) {
     close(descriptor);
 }
 
+// The directory that the descriptor stands for, whatever its name leads to by now.
+fs::path path_of(int directory, const fs::path& name) {
+    std::error_code error;
+    const fs::path path = fs::read_symlink("/proc/self/fd/" + std::to_string(directory), error);
+    return error ? fs::weakly_canonical(name, error) : path;  // no /proc
+}
+
+// `real` is the parent directory of the file, links followed.
+void require_below(const fs::path& file, const fs::path& real, const fs::path& folder) {
+    std::error_code error;
+    const fs::path base = fs::weakly_canonical(fs::absolute(folder), error);
+    const auto [in_base, in_real] = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
+    if (!error && in_base == base.end()) return;
+    throw IoError("cannot write " + file.string() + ": a symbolic link leads it out of " + folder.string() + ", to " +
+                  real.string() + "; remove the link, or choose that folder with -o");
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& target) : target_(target), real_(followed(target)) {
-    refuse_what_is_no_file(target_, real_);
+AtomicFile::AtomicFile(Target target) : target_(std::move(target)), real_(followed(target_.path)) {
+    refuse_what_is_no_file(target_.path, real_);
+    directory_ = open(real_.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (directory_ < 0) throw write_error(target_.path, errno);
+    try {
+        if (!target_.within.empty())
+            require_below(target_.path, path_of(directory_, real_.parent_path()), target_.within);
+        create();
+    } catch (...) {
+        close(directory_);
+        throw;
+    }
+}
+
+void AtomicFile::create() {
+    if (faccessat(directory_, ".", W_OK | X_OK, AT_EACCESS) != 0) throw write_error(target_.path, errno);
     std::random_device random;
     for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
         temporary_ = real_.parent_path() / hidden_name(real_.filename().string(), random());
+        if (std::error_code error; fs::exists(fs::symlink_status(temporary_, error))) continue;
+        if (target_.before_creation) target_.before_creation(temporary_);
         // Registered first: a signal between the two lines must not leave the file behind.
         registered_.emplace(temporary_);
-        descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // less the umask
-        if (descriptor_ < 0 && errno != EEXIST) throw write_error(target_, errno);
+        descriptor_ = openat(directory_, temporary_.filename().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                             0666);  // less the umask
+        if (descriptor_ < 0 && errno != EEXIST) throw write_error(target_.path, errno);
     }
-    if (descriptor_ < 0) throw write_error(target_, EEXIST);
+    if (descriptor_ < 0) throw write_error(target_.path, EEXIST);
     pending_ = true;
 }
 
 AtomicFile::~AtomicFile() {
     if (descriptor_ >= 0) close(descriptor_);
-    if (pending_) unlink(temporary_.c_str());
+    if (pending_) unlinkat(directory_, temporary_.filename().c_str(), 0);
+    close(directory_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw write_error(target_, errno);
+        if (written < 0) throw write_error(target_.path, errno);
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
 
 void AtomicFile::commit(Durability durability) {
-    if (!pending_) throw std::logic_error("AtomicFile: " + target_.string() + " is committed already");
-    if (durability == Durability::synced && fsync(descriptor_) != 0) throw write_error(target_, errno);
+    if (!pending_) throw std::logic_error("AtomicFile: " + target_.path.string() + " is committed already");
+    if (durability == Durability::synced && fsync(descriptor_) != 0) throw write_error(target_.path, errno);
     // Closed before it is renamed: network file systems report a full disk only here.
-    if (close(std::exchange(descriptor_, -1)) != 0) throw write_error(target_, errno);
-    if (rename(temporary_.c_str(), real_.c_str()) != 0) throw write_error(target_, errno);
+    if (close(std::exchange(descriptor_, -1)) != 0) throw write_error(target_.path, errno);
+    if (target_.before_rename) target_.before_rename(temporary_);
+    if (renameat(directory_, temporary_.filename().c_str(), directory_, real_.filename().c_str()) != 0)
+        throw write_error(target_.path, errno);
     pending_ = false;
     registered_.reset();
     if (durability == Durability::synced) sync_directory(real_.parent_path());
 }
 
-void write_file(const fs::path& target, std::string_view bytes, Durability durability) {
+void write_file(const Target& target, std::string_view bytes, Durability durability) {
     AtomicFile file(target);
     file.write(bytes);
     file.commit(durability);
+}
+
+void require_within(const fs::path& file, const fs::path& folder) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(followed(file).parent_path(), error);
+    if (error) throw write_error(file, error.value());
+    require_below(file, real, folder);
+}
+
+bool is_there(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (status.type() == fs::file_type::none) throw read_error(file, error.value());
+    return fs::exists(status);
 }
 
 void ensure_directory(const fs::path& directory) {

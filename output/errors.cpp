@@ -45,4 +45,10 @@ IoError read_error(const std::filesystem::path& file, int error_number) {
     return IoError("cannot read " + file.string() + ": " + std::generic_category().message(error_number));
 }
 
+IoError io_error(const std::filesystem::filesystem_error& error) {
+    std::string files = error.path1().string();
+    if (!error.path2().empty()) files += ", " + error.path2().string();
+    return IoError("cannot use " + files + ": " + error.code().message() + remedy(error.code().value()));
+}
+
 }  // namespace beamcam::output

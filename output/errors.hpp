@@ -32,5 +32,7 @@ struct UnsupportedOption : std::runtime_error {
 IoError write_error(const std::filesystem::path& file, int error_number);
 // "cannot read film.mp4: No such file or directory".
 IoError read_error(const std::filesystem::path& file, int error_number);
+// What the standard library throws, with its path and cause.
+IoError io_error(const std::filesystem::filesystem_error& error);
 
 }  // namespace beamcam::output

@@ -1,12 +1,8 @@
 #include "output/manifest.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <ctime>
 
 #include "output/atomic_file.hpp"
 #include "output/sha256.hpp"
@@ -17,73 +13,44 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kSaveEvery = 64;  // files: a killed run loses the record of no more
-
-// Held while the manifest of a directory is read, changed and replaced. Where a file system does not lock
-// directories, two processes that end in the same instant may lose an entry, never a file.
-class DirectoryLock {
-  public:
-    explicit DirectoryLock(const fs::path& directory)
-        : descriptor_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        if (descriptor_ < 0) return;
-        while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-        }
-    }
-    ~DirectoryLock() {
-        if (descriptor_ >= 0) close(descriptor_);
-    }
-    DirectoryLock(const DirectoryLock&) = delete;
-    DirectoryLock& operator=(const DirectoryLock&) = delete;
-
-  private:
-    int descriptor_;
-};
-
 fs::path directory_of(const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); }
 
-MadeFiles load(const fs::path& directory) {
+struct FileIdentity {
+    std::uintmax_t size = 0;
+    std::string stamp;  // the inode is new whenever a file is replaced, the time whenever it is written to
+};
+
+// Throws IoError when the file is gone.
+FileIdentity identity_of(const fs::path& file) {
+    struct stat status;
+    if (stat(file.c_str(), &status) != 0) throw read_error(file, errno);
+    const std::int64_t modified = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
+    return {static_cast<std::uintmax_t>(status.st_size),
+            std::to_string(status.st_ino) + ":" + std::to_string(modified)};
+}
+
+// Which of the versions stands there; null when it is none.
+const MadeFile* standing(const fs::path& file, const std::vector<MadeFile>& versions) {
+    const FileIdentity there = identity_of(file);
+    std::string digest;
+    for (auto made = versions.rbegin(); made != versions.rend(); ++made) {
+        if (made->sha256.empty() || made->size != there.size) continue;
+        if (!made->stamp.empty() && made->stamp == there.stamp) return &*made;
+        if (digest.empty()) digest = sha256_of_file(file);
+        if (made->sha256 == digest) return &*made;
+    }
+    return nullptr;
+}
+
+bool is_file(const fs::path& file) {
+    std::error_code unreadable;
+    return fs::is_regular_file(file, unreadable);
+}
+
+MadeFiles read_manifest(const fs::path& directory) {
     const fs::path manifest = directory / Manifest::kFileName;
-    std::error_code error;
-    if (!fs::is_regular_file(manifest, error)) return {};
+    if (!is_there(manifest) || !is_file(manifest)) return {};
     return parse_manifest(read_file(manifest)).value_or(MadeFiles{});
-}
-
-// The file's time stamp [ns]; 0 where it has none.
-std::int64_t modified(const fs::path& file) {
-    struct stat status;
-    if (stat(file.c_str(), &status) != 0) return 0;
-    return status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
-}
-
-std::int64_t now() {
-    timespec time;
-    // The clock that stamps files: it ticks more coarsely than others, and must not be ahead of them.
-    clock_gettime(CLOCK_REALTIME_COARSE, &time);
-    return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
-}
-
-// The inode is new whenever a file is replaced, the time whenever it is written to.
-std::string stamp_of(const fs::path& file) {
-    struct stat status;
-    if (stat(file.c_str(), &status) != 0) return {};
-    return std::to_string(status.st_ino) + ":" + std::to_string(modified(file));
-}
-
-bool is_unchanged(const fs::path& file, const MadeFile& made) {
-    if (made.sha256.empty() || fs::file_size(file) != made.size) return false;
-    return (!made.stamp.empty() && stamp_of(file) == made.stamp) || sha256_of_file(file) == made.sha256;
-}
-
-// Put there by a run that was killed before it could record it.
-bool is_left_behind(const fs::path& file, const MadeFile& made) {
-    return made.making != 0 && modified(file) >= made.making;
-}
-
-void forget_vanished(const fs::path& directory, MadeFiles& files) {
-    std::erase_if(files, [&directory](const auto& entry) {
-        std::error_code error;
-        return entry.second.making == 0 && !fs::exists(directory / entry.first, error) && !error;
-    });
 }
 
 }  // namespace
@@ -91,103 +58,140 @@ void forget_vanished(const fs::path& directory, MadeFiles& files) {
 Manifest::~Manifest() {
     try {
         save();
-        withdraw();
-    } catch (const std::exception&) {  // the outputs themselves are whole; only their record is missing
+    } catch (const std::exception&) {  // the outputs themselves are whole, and the journal lists them
     }
 }
 
-const MadeFiles& Manifest::known_in(const fs::path& directory) {
-    const auto found = known_.find(directory);
-    return found != known_.end() ? found->second : known_.emplace(directory, load(directory)).first->second;
+// ---- reading -------------------------------------------------------------------------------------
+
+Manifest::Versions Manifest::load(const fs::path& directory) {
+    Versions all;
+    for (auto& [name, made] : read_manifest(directory)) all[name].push_back(made);
+    for (const fs::path& journal : journals_in(directory)) {
+        std::string text;
+        try {
+            text = read_file(journal);
+        } catch (const IoError&) {  // its run has ended meanwhile
+            continue;
+        }
+        for (auto& [name, made] : parse_journal(text).placed) all[name].push_back(made);
+    }
+    return all;
 }
 
-void Manifest::require_replaceable(const fs::path& file) {
-    std::error_code error;
-    if (force_ || !fs::exists(file, error)) return;
-    if (!fs::is_regular_file(file, error)) return;  // AtomicFile says what is wrong with it
-    const MadeFile* made = known(file);
-    const char* reason = made == nullptr ? "exists and was not made by beamcam"
-                         : !is_unchanged(file, *made) && !is_left_behind(file, *made)
-                             ? "was changed after beamcam made it"
-                             : nullptr;
-    if (reason != nullptr)
-        throw WouldOverwrite(file.string() + " " + reason +
-                             "; move it, choose another name, or replace it with --force");
-}
-
-std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
-    const MadeFiles known = load(directory_of(file));
-    const auto made = known.find(file.filename().string());
-    if (made == known.end() || made->second.sha256.empty()) return std::nullopt;
-    return Entry{made->second, is_unchanged(file, made->second)};
+Manifest::Versions& Manifest::known_in(const fs::path& directory) {
+    std::optional<Versions>& known = directories_[directory].known;
+    if (!known) known = load(directory);
+    return *known;
 }
 
 const MadeFile* Manifest::known(const fs::path& file) {
-    const MadeFiles& all = known_in(directory_of(file));
-    const auto made = all.find(file.filename().string());
-    return made == all.end() ? nullptr : &made->second;
+    const Versions& all = known_in(directory_of(file));
+    const auto versions = all.find(file.filename().string());
+    return versions == all.end() ? nullptr : standing(file, versions->second);
+}
+
+void Manifest::require_replaceable(const fs::path& file) {
+    const std::lock_guard lock(mutex_);
+    require_own(file);
+}
+
+void Manifest::require_own(const fs::path& file) {
+    if (force_ || !is_there(file) || !is_file(file)) return;  // AtomicFile refuses what is no file
+    if (known(file)) return;
+    Directory& directory = directories_[directory_of(file)];
+    directory.known = load(directory_of(file));  // another run may have made it meanwhile
+    if (known(file)) return;
+    throw WouldOverwrite(file.string() +
+                         (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
+                                                                              : " exists and was not made by beamcam") +
+                         "; move it, choose another name, or replace it with --force");
 }
 
 bool Manifest::is_made_from(const fs::path& file, const std::string& inputs) {
-    std::error_code error;
-    if (inputs.empty() || !fs::is_regular_file(file, error)) return false;
+    if (inputs.empty() || !is_file(file)) return false;
+    const std::lock_guard lock(mutex_);
     const MadeFile* made = known(file);
-    return made != nullptr && made->origin.inputs == inputs && is_unchanged(file, *made);
+    return made != nullptr && made->origin.inputs == inputs;
 }
 
-void Manifest::announce(const std::vector<fs::path>& files) {
-    std::map<fs::path, std::set<std::string>> by_directory;
-    for (const fs::path& file : files) by_directory[directory_of(file)].insert(file.filename().string());
-    const std::int64_t since = now();
-    for (auto& [directory, names] : by_directory) try {
-            const DirectoryLock lock(directory);
-            MadeFiles all = load(directory);
-            for (const std::string& name : names) all[name].making = since;
-            write_file(directory / kFileName, manifest_json(all), Durability::buffered);
-            announced_[directory].merge(names);
-        } catch (const std::exception&) {  // whoever writes there next tells what is wrong
-        }
+std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
+    const Versions known = load(directory_of(file));
+    const auto versions = known.find(file.filename().string());
+    if (versions == known.end()) return std::nullopt;
+    const MadeFile* made = standing(file, versions->second);
+    return Entry{made ? *made : versions->second.back(), made != nullptr};
 }
 
-// Takes back what was announced and not made.
-void Manifest::withdraw() {
-    for (const auto& [directory, names] : announced_) {
-        const DirectoryLock lock(directory);
-        MadeFiles all = load(directory);
-        for (const std::string& name : names)
-            if (const auto entry = all.find(name); entry != all.end()) {
-                entry->second.making = 0;
-                if (entry->second.sha256.empty()) all.erase(entry);
-            }
-        std::error_code error;
-        if (all.empty())
-            fs::remove(directory / kFileName, error);
-        else
-            write_file(directory / kFileName, manifest_json(all));
-    }
-    announced_.clear();
+// ---- writing -------------------------------------------------------------------------------------
+
+Journal& Manifest::journal_in(const fs::path& directory) {
+    std::unique_ptr<Journal>& journal = directories_[directory].journal;
+    if (!journal) journal = std::make_unique<Journal>(directory);
+    return *journal;
 }
 
-void Manifest::record(const fs::path& file, const Origin& origin) {
-    const fs::path directory = directory_of(file);
-    const std::string name = file.filename().string();
-    unsaved_[directory][name] = {sha256_of_file(file), fs::file_size(file), origin, stamp_of(file), 0};
-    if (const auto announced = announced_.find(directory); announced != announced_.end()) {
-        announced->second.erase(name);
-        if (announced->second.empty()) announced_.erase(announced);
-    }
-    if (++unsaved_count_ >= kSaveEvery) save();
+Target Manifest::target(const fs::path& file, Origin origin) {
+    Target target(file);
+    target.before_creation = [this](const fs::path& temporary) {
+        const std::lock_guard lock(mutex_);
+        journal_in(directory_of(temporary)).add(journal_line(temporary.filename().string()));
+    };
+    target.before_rename = [this, file, origin = std::move(origin)](const fs::path& temporary) {
+        const FileIdentity identity = identity_of(temporary);
+        const MadeFile made{sha256_of_file(temporary), identity.size, origin, identity.stamp};
+        const std::string name = file.filename().string();
+        const std::lock_guard lock(mutex_);
+        require_own(file);  // the user may have put one there meanwhile
+        journal_in(directory_of(file)).add(journal_line(name, made));
+        known_in(directory_of(file))[name].push_back(made);
+    };
+    return target;
 }
 
 void Manifest::save() {
-    for (auto directory = unsaved_.begin(); directory != unsaved_.end(); directory = unsaved_.erase(directory)) {
-        const DirectoryLock lock(directory->first);
-        MadeFiles files = load(directory->first);
-        for (const auto& [name, made] : directory->second) files[name] = made;
-        forget_vanished(directory->first, files);
-        write_file(directory->first / kFileName, manifest_json(files));
+    const std::lock_guard lock(mutex_);
+    for (auto& [directory, state] : directories_)
+        if (state.journal) settle(directory, state.journal);
+}
+
+void Manifest::recover(const fs::path& directory) {
+    const std::lock_guard lock(mutex_);
+    const fs::path place = directory_of(directory / Manifest::kFileName);
+    for (const fs::path& journal : journals_in(place))
+        if (is_abandoned(journal)) {
+            journal_in(place);
+            return settle(place, directories_[place].journal);
+        }
+}
+
+// Puts what the journals say into the manifest. Those of runs that are gone are removed, with what they have half
+// written.
+void Manifest::settle(const fs::path& directory, std::unique_ptr<Journal>& own) {
+    const DirectoryLock lock(directory);
+    std::vector<fs::path> abandoned;
+    for (const fs::path& journal : journals_in(directory))
+        if (is_abandoned(journal)) abandoned.push_back(journal);
+    MadeFiles files;
+    for (const auto& [name, versions] : load(directory)) {
+        if (!is_file(directory / name)) continue;  // gone
+        const MadeFile* made = versions.size() > 1 ? standing(directory / name, versions) : nullptr;
+        files[name] = made ? *made : versions.back();
     }
-    unsaved_count_ = 0;
+    if (files != read_manifest(directory)) {
+        Target manifest(directory / kFileName);
+        manifest.before_creation = [&](const fs::path& temporary) {
+            own->add(journal_line(temporary.filename().string()));
+        };
+        write_file(manifest, manifest_json(files));
+    }
+    for (const fs::path& journal : abandoned) {
+        remove_temporaries(directory, parse_journal(read_file(journal)));
+        std::error_code ignored;
+        fs::remove(journal, ignored);
+    }
+    own->remove();
+    own.reset();
 }
 
 }  // namespace beamcam::output

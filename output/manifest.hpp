@@ -2,19 +2,26 @@
 // existing file is replaced only if it is listed there and unchanged since, or when the user says --force. One that was
 // made from the same inputs need not be made again.
 //
-// The manifest is rewritten atomically and under a lock on its directory, so that several processes may
-// work in one directory. A damaged manifest counts as empty and is replaced at the next `save`.
+// A file is known before it appears: its digest goes into a journal (journal.hpp) before it is put in its place, so
+// that a run that is killed at any instant leaves no file that the next one takes for the user's, nor the other way
+// round.
+//
+// The manifest is rewritten atomically and under a lock on its directory, so that several processes may work in one
+// directory. A damaged manifest counts as empty and is replaced at the next `save`.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "output/errors.hpp"
+#include "output/journal.hpp"
 #include "output/records.hpp"
+#include "output/target.hpp"
 
 namespace beamcam::output {
 
@@ -35,12 +42,14 @@ class Manifest {
     // The file stands there, unchanged since it was made from these inputs.
     bool is_made_from(const std::filesystem::path& file, const std::string& inputs);
 
-    // These are about to be made: if the program is killed between putting one in its place and recording it, the next
-    // run still knows it as beamcam's own, by its time. Call after `require_replaceable`; failing is no error.
-    void announce(const std::vector<std::filesystem::path>& files);
-    // Call after the file is in its place. Saved every few files and by `save`.
-    void record(const std::filesystem::path& file, const Origin& origin = {});
+    // Hand it to the writer of the file, from any thread: the file is recorded as it appears, and not put in the place
+    // of one that is not beamcam's own. This object must outlive the writer.
+    Target target(const std::filesystem::path& file, Origin origin = {});
+    // Writes what was recorded into the manifests.
     void save();
+
+    // Records what runs that were killed have finished in this directory, and removes what they have half written.
+    void recover(const std::filesystem::path& directory);
 
     // What the manifest beside a file says of it; nothing when it is not listed.
     struct Entry : MadeFile {
@@ -49,15 +58,24 @@ class Manifest {
     static std::optional<Entry> find(const std::filesystem::path& file);
 
   private:
-    const MadeFiles& known_in(const std::filesystem::path& directory);
+    // All that a file of this name may be, the latest last: a run that was killed may or may not have replaced it.
+    using Versions = std::map<std::string, std::vector<MadeFile>>;
+    struct Directory {
+        std::optional<Versions> known;  // as first read, and what this run has put there
+        std::unique_ptr<Journal> journal;
+    };
+
+    static Versions load(const std::filesystem::path& directory);
+    static void settle(const std::filesystem::path& directory, std::unique_ptr<Journal>& own);
+
+    Versions& known_in(const std::filesystem::path& directory);
     const MadeFile* known(const std::filesystem::path& file);
-    void withdraw();
+    Journal& journal_in(const std::filesystem::path& directory);
+    void require_own(const std::filesystem::path& file);
 
     bool force_;
-    std::map<std::filesystem::path, MadeFiles> known_;                  // by directory, as first read
-    std::map<std::filesystem::path, MadeFiles> unsaved_;                // by directory
-    std::map<std::filesystem::path, std::set<std::string>> announced_;  // by directory, not recorded yet
-    std::size_t unsaved_count_ = 0;
+    std::mutex mutex_;  // guards what follows
+    std::map<std::filesystem::path, Directory> directories_;
 };
 
 }  // namespace beamcam::output

@@ -61,7 +61,7 @@ class PngSequence {
 };
 
 // Throws IoError as well. Frames of a sequence need not be synced one by one.
-void write_png(const std::filesystem::path& file, const render::Image& image, const PngOptions& options = {},
+void write_png(const Target& file, const render::Image& image, const PngOptions& options = {},
                Durability durability = Durability::synced);
 
 }  // namespace beamcam::output

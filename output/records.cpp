@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <type_traits>
 
 #include "output/atomic_file.hpp"
@@ -108,6 +109,33 @@ void add_reproducibility(const sim::Result& result, Json& json) {
 
 constexpr const char* kManifestFormat = "beamcam manifest 1";
 
+Json json_of(const MadeFile& made) {
+    Json entry = {{"sha256", made.sha256}, {"size", made.size}};
+    const auto add = [&entry](const char* key, const std::string& text) {
+        if (!text.empty()) entry[key] = text;
+    };
+    add("version", made.origin.version);
+    add("scene", made.origin.scene);
+    add("inputs", made.origin.inputs);
+    add("stamp", made.stamp);
+    return entry;
+}
+
+// Nothing where it is not one.
+std::optional<MadeFile> made_file_of(const Json& entry) {
+    if (!entry.is_object()) return {};
+    const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
+    if (!digest.is_string() || !size.is_number_unsigned()) return {};
+    const auto text = [&entry](const char* key) {
+        const Json value = entry.value(key, Json());
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    return MadeFile{digest.get<std::string>(), size.get<std::uintmax_t>(),
+                    Origin{text("inputs"), text("version"), text("scene")}, text("stamp")};
+}
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 Json json_of(const sim::Timing& time) {
     if (time.repeats == 0) return nullptr;
     return {{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}};
@@ -156,11 +184,11 @@ std::string impacts_csv(const sim::Result& result) {
     return text;
 }
 
-void write_impacts(const std::filesystem::path& file, const sim::Result& result) {
-    const std::string ending = file.extension().string();
+void write_impacts(const Target& file, const sim::Result& result) {
+    const std::string ending = file.path.extension().string();
     if (ending == ".json") return write_file(file, impacts_json(result));
     if (ending == ".csv") return write_file(file, impacts_csv(result));
-    throw UnsupportedOption("cannot write " + file.string() + ": impacts end in .json or .csv");
+    throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
 }
 
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
@@ -187,7 +215,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     return text_of(json);
 }
 
-void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
+void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
                    const std::vector<sim::Channel>& extrema, const Work* work) {
     write_file(file, summary_json(problem, result, extrema, work));
 }
@@ -259,17 +287,7 @@ std::string manifest_json(const MadeFiles& files) {
     Json json;
     json["format"] = kManifestFormat;
     json["files"] = Json::object();
-    for (const auto& [name, made] : files) {
-        Json& entry = json["files"][name] = {{"sha256", made.sha256}, {"size", made.size}};
-        const auto tell = [&entry](const char* key, const std::string& word) {
-            if (!word.empty()) entry[key] = word;
-        };
-        tell("version", made.origin.version);
-        tell("scene", made.origin.scene);
-        tell("inputs", made.origin.inputs);
-        tell("stamp", made.stamp);
-        if (made.making != 0) entry["making"] = made.making;
-    }
+    for (const auto& [name, made] : files) json["files"][name] = json_of(made);
     return text_of(json);
 }
 
@@ -280,20 +298,32 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
     if (!entries.is_object()) return {};
     MadeFiles files;
     for (const auto& item : entries.items()) {
-        const Json& entry = item.value();
-        if (!entry.is_object()) return {};
-        const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
-        if (!digest.is_string() || !size.is_number_unsigned()) return {};
-        const auto word = [&entry](const char* key) {
-            const Json value = entry.value(key, Json());
-            return value.is_string() ? value.get<std::string>() : std::string();
-        };
-        const Json making = entry.value("making", Json());
-        files[item.key()] = {digest.get<std::string>(), size.get<std::uintmax_t>(),
-                             Origin{word("inputs"), word("version"), word("scene")}, word("stamp"),
-                             making.is_number_integer() ? making.get<std::int64_t>() : 0};
+        const auto made = made_file_of(item.value());
+        if (!made) return {};
+        files[item.key()] = *made;
     }
     return files;
+}
+
+std::string journal_line(const std::string& temporary) { return line_of({{"temporary", temporary}}); }
+
+std::string journal_line(const std::string& name, const MadeFile& made) {
+    return line_of({{"name", name}, {"made", json_of(made)}});
+}
+
+JournalLines parse_journal(const std::string& text) {
+    JournalLines all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
+        if (!json.is_object()) continue;
+        const Json temporary = json.value("temporary", Json()), name = json.value("name", Json());
+        if (temporary.is_string()) all.temporaries.push_back(temporary.get<std::string>());
+        if (!name.is_string()) continue;
+        if (const auto made = made_file_of(json.value("made", Json())))
+            all.placed.emplace_back(name.get<std::string>(), *made);
+    }
+    return all;
 }
 
 }  // namespace beamcam::output

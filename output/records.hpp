@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "output/errors.hpp"
+#include "output/target.hpp"
 #include "output/work.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/channels.hpp"
@@ -27,13 +28,13 @@ std::string impacts_json(const sim::Result& result);  // {"impacts": […], "col
 std::string impacts_csv(const sim::Result& result);   // the impacts alone
 
 // By the name's ending, .json or .csv. Throws UnsupportedOption for another, IoError.
-void write_impacts(const std::filesystem::path& file, const sim::Result& result);
+void write_impacts(const Target& file, const sim::Result& result);
 
 // `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
 // problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
-void write_summary(const std::filesystem::path& file, const sim::Problem& problem, const sim::Result& result,
+void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
                    const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
@@ -51,12 +52,10 @@ struct Origin {
 
 // What beamcam knows of a file it made.
 struct MadeFile {
-    std::string sha256;       // empty: not finished yet
+    std::string sha256;
     std::uintmax_t size = 0;  // [bytes]
     Origin origin;
     std::string stamp;  // of the file system, as long as nobody touched it; spares reading it; empty: not known
-    // When a run began to make it anew [ns]; 0: that is done. Stays behind only if the run was killed.
-    std::int64_t making = 0;
     bool operator==(const MadeFile&) const = default;
 };
 using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory
@@ -67,5 +66,15 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
 std::string manifest_json(const MadeFiles& files);
 // Nothing where the text is not a manifest.
 std::optional<MadeFiles> parse_manifest(const std::string& text);
+
+// Lines of a journal: a temporary file that is about to be created, and a file that is about to be put in its place.
+std::string journal_line(const std::string& temporary);
+std::string journal_line(const std::string& name, const MadeFile& made);
+struct JournalLines {
+    std::vector<std::string> temporaries;
+    std::vector<std::pair<std::string, MadeFile>> placed;  // by file name, in the order of the text
+};
+// Leaves out lines that are cut off.
+JournalLines parse_journal(const std::string& text);
 
 }  // namespace beamcam::output

@@ -112,14 +112,14 @@ void write_csv(std::ostream& out, const sim::Table& table) {
     if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
 }
 
-void write_csv(const std::filesystem::path& file, const sim::Table& table) {
+void write_csv(const Target& file, const sim::Table& table) {
     AtomicFile atomic(file);
     csv(table, [&atomic](const std::string& text) { atomic.write(text); });
     atomic.commit();
 }
 
-void write_npz(const std::filesystem::path& file, const sim::Table& table) {
-    refuse_what_zip_cannot_hold(file, table);
+void write_npz(const Target& file, const sim::Table& table) {
+    refuse_what_zip_cannot_hold(file.path, table);
     AtomicFile atomic(file);
     const std::string header = npy_header(table.rows());
     std::uint64_t offset = 0;
@@ -140,11 +140,11 @@ void write_npz(const std::filesystem::path& file, const sim::Table& table) {
     atomic.commit();
 }
 
-void write_table(const std::filesystem::path& file, const sim::Table& table) {
-    const std::string ending = file.extension().string();
+void write_table(const Target& file, const sim::Table& table) {
+    const std::string ending = file.path.extension().string();
     if (ending == ".csv") return write_csv(file, table);
     if (ending == ".npz") return write_npz(file, table);
-    throw UnsupportedOption("cannot write " + file.string() + ": tables end in .csv or .npz");
+    throw UnsupportedOption("cannot write " + file.path.string() + ": tables end in .csv or .npz");
 }
 
 }  // namespace beamcam::output

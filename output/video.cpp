@@ -270,8 +270,7 @@ struct VideoWriter::Impl {
     VideoStatistics cost;
     std::thread worker;
 
-    Impl(const std::filesystem::path& target, const VideoOptions& wanted)
-        : file(target), options(wanted), module(load_module()) {
+    Impl(const Target& target, const VideoOptions& wanted) : file(target), options(wanted), module(load_module()) {
         open();
         worker = std::thread([this] { work(); });
     }
@@ -495,8 +494,8 @@ struct VideoWriter::Impl {
     }
 };
 
-VideoWriter::VideoWriter(const std::filesystem::path& file, const VideoOptions& options) {
-    if (const auto found = problems(options, file.extension().string()); !found.empty()) {
+VideoWriter::VideoWriter(const Target& file, const VideoOptions& options) {
+    if (const auto found = problems(options, file.path.extension().string()); !found.empty()) {
         std::string text;
         for (const std::string& problem : found) text += (text.empty() ? "" : "\n") + problem;
         throw UnsupportedOption(text);
@@ -550,7 +549,7 @@ VideoStatistics VideoWriter::statistics() const {
     return impl_->cost;
 }
 
-long concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file) {
+long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file) {
     const BeamcamVideoModule& module = load_module();
     std::vector<std::string> texts;
     for (const auto& segment : segments) texts.push_back(segment.string());
@@ -561,19 +560,19 @@ long concatenate(const std::vector<std::filesystem::path>& segments, const std::
     const std::string path = target.temporary_path().string();
     std::int64_t frames = 0;
     BeamcamVideoError error = {};
-    switch (module.concat(names.data(), path.c_str(), container_of(file.extension().string()), &frames, &error)) {
+    switch (module.concat(names.data(), path.c_str(), container_of(file.path.extension().string()), &frames, &error)) {
         case beamcam_video_ok:
             break;
         case beamcam_video_missing_codec:
             throw MissingCodec(error.text);
         case beamcam_video_write_failed:
-            throw write_error(file, error.error_number);
+            throw write_error(file.path, error.error_number);
         case beamcam_video_read_failed:
             throw IoError(error.text);
         case beamcam_video_differs:
             throw Mismatch(error.text);
         case beamcam_video_failed:
-            throw std::runtime_error("the film " + file.string() + " failed: " + error.text);
+            throw std::runtime_error("the film " + file.path.string() + " failed: " + error.text);
     }
     target.commit();
     return static_cast<long>(frames);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "output/errors.hpp"
+#include "output/target.hpp"
 #include "output/video_format.hpp"
 #include "render/image.hpp"
 #include "render/tiles.hpp"
@@ -62,7 +63,7 @@ struct VideoStatistics {
 class VideoWriter {
   public:
     // Throws UnsupportedOption, MissingCodec, IoError.
-    VideoWriter(const std::filesystem::path& file, const VideoOptions& options);
+    VideoWriter(const Target& file, const VideoOptions& options);
     // Without `finish` the film is dropped and nothing is left of it.
     ~VideoWriter();
     VideoWriter(const VideoWriter&) = delete;
@@ -111,6 +112,6 @@ struct Mismatch : IoError {
 
 // One film out of segments, in their order, packets as they are: every picture decodes to what it was. Metadata is the
 // first one's. Returns how many pictures there are. Throws Mismatch, MissingCodec, IoError.
-long concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file);
+long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file);
 
 }  // namespace beamcam::output

@@ -19,6 +19,8 @@ struct Capture {
     std::function<void(const Pictures&, long frame, const render::Image&)> picture;
     // A figure as pixels, whatever the ending of its file.
     std::function<void(const render::Image&)> figure;
+    // A motion that a picture compares, by the picture's and its own index in the plan; before anything is drawn.
+    std::function<void(std::size_t picture, std::size_t index, const sim::Result&)> compared;
 };
 
 }  // namespace beamcam::scenes

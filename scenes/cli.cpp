@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <type_traits>
@@ -123,6 +124,8 @@ int command_line(int argc, const char* const* argv) {
         return fail(kBadScene, e.what());
     } catch (const output::UnsupportedOption& e) {
         return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
+    } catch (const Incomplete& e) {
+        return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
     } catch (const render::PictureError& e) {
         return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
     } catch (const sim::SolverError& e) {
@@ -133,6 +136,8 @@ int command_line(int argc, const char* const* argv) {
         return fail(kMissingPart, fmt::format("beamcam: {}", e.what()));
     } catch (const output::IoError& e) {
         return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
+    } catch (const std::filesystem::filesystem_error& e) {
+        return fail(kInputOutput, fmt::format("beamcam: {}", output::io_error(e).what()));
     } catch (const UnreadableFile& e) {
         return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const sim::Interrupted&) {

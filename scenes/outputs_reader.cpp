@@ -475,7 +475,12 @@ void read_outputs(Findings& findings, const Node* node, const Node& root, const 
         if (auto output = read_output({findings, scene, root, source, i}, node->items[i]))
             outputs.emplace_back(&node->items[i], std::move(*output));
     if (outputs.size() == node->items.size()) refuse_shared_files(findings, outputs);
-    for (auto& [place, output] : outputs) scene.outputs.push_back(std::move(output));
+    for (auto& [object, output] : outputs) {
+        const LineColumn at = locate(source.text, object->place.offset);
+        scene.output_places.push_back(
+            object->place.source == 0 ? fmt::format("{}:{}:{}", source.name, at.line, at.column) : source.name);
+        scene.outputs.push_back(std::move(output));
+    }
 }
 
 std::optional<Size> parse_size(std::string_view text) {

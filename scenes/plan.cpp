@@ -53,7 +53,7 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
         other.request.poses.front().times = times.frames;
         other.request.poses.back().times = times.survey;
         other.request.tables.front().times = times.chart;
-        if (other.request.tables.size() > 1) other.request.tables[1].times = times.trace;
+        if (other.problem.cam) other.request.tables[1].times = times.trace;
     }
     if (!p.compared.empty()) return;
     request.poses[p.poses].times = std::move(times.frames);
@@ -480,29 +480,40 @@ bool Pictures::makes_poster() const { return poster && std::ranges::binary_searc
 
 Plan plan(const Scene& scene, const Ask& ask, const Known& known) { return Planner(scene, ask, known).make(); }
 
-void settle(Plan& plan, const Scene& scene, const FindImpacts& find) {
+namespace {
+
+// Slow around the impacts of all that is shown; "impact:N" counts those of the first.
+FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
+    const sim::Result first = find(p.compared.front().problem, p.end_time);
+    std::vector<sim::Impact> all = first.impacts;
+    for (std::size_t i = 1; i < p.compared.size(); ++i) {
+        const sim::Result other = find(p.compared[i].problem, p.end_time);
+        all.insert(all.end(), other.impacts.begin(), other.impacts.end());
+    }
+    std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
+    return p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
+                                           : film_times(p.span, p.end_time, first, all);
+}
+
+}  // namespace
+
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
     std::optional<sim::Result> own;
+    sim::Request none;
     for (Pictures& p : plan.pictures) {
         if (p.settled) continue;
-        p.settled = true;
-        if (p.compared.empty()) {
-            if (!own) own = find(scene.problem, *plan.impacts_until);
-            put_times(p, plan.simulation->request, times_of(p, p.end_time, *own));
-            continue;
+        const bool compares = !p.compared.empty();
+        if (!compares && !own) own = find(scene.problem, *plan.impacts_until);
+        try {
+            put_times(p, compares ? none : plan.simulation->request,
+                      compares ? times_of_compared(p, find) : times_of(p, p.end_time, *own));
+            p.settled = true;
+        } catch (const render::PictureError& error) {
+            if (!refuse) throw;
+            refuse(p, error.what());
         }
-        // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
-        const sim::Result first = find(p.compared.front().problem, p.end_time);
-        std::vector<sim::Impact> all = first.impacts;
-        for (std::size_t i = 1; i < p.compared.size(); ++i) {
-            const sim::Result other = find(p.compared[i].problem, p.end_time);
-            all.insert(all.end(), other.impacts.begin(), other.impacts.end());
-        }
-        std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
-        sim::Request none;
-        put_times(p, none,
-                  p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
-                                                  : film_times(p.span, p.end_time, first, all));
     }
+    std::erase_if(plan.pictures, [](const Pictures& p) { return !p.settled; });
     plan.impacts_until.reset();
 }
 

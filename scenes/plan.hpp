@@ -65,7 +65,7 @@ struct Variant {
 struct ComparedMotion {
     std::string label;
     sim::Problem problem;
-    sim::Request request;  // poses: frames, survey; tables: chart and, with a cam, trace
+    sim::Request request;  // poses: frames, survey; tables: chart and, with a cam, trace; what is added stands behind
     std::optional<Cost> cost;
 };
 
@@ -175,10 +175,12 @@ bool is_slow_motion(const Pictures& p);
 std::string shard_file(const std::string& file, int shard, int shards);
 
 // Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
-// is called once for the scene's own motion, if a picture needs that, and for each compared one. Throws what `find`
-// throws and render::PictureError.
+// is called once for the scene's own motion, if a picture needs that, and for each compared one. A picture of an
+// instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is thrown. Throws what
+// `find` throws and render::PictureError.
 using FindImpacts = std::function<sim::Result(const sim::Problem& problem, double until)>;
-void settle(Plan& plan, const Scene& scene, const FindImpacts& find);
+using RefusePicture = std::function<void(const Pictures& p, const std::string& why)>;
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
 
 // Words of the plan: "lit", "video".
 const char* view_name(const render::View& view);

@@ -218,11 +218,11 @@ class EntryTest {
     fs::path put(long frame, const char* what, const output::Raster& picture) {
         fs::path file = *options_.report / entry_.name / fmt::format("{:04}-{}.png", frame, what);
         const std::string bytes = output::encode_png(output::to_image(picture));
-        const std::lock_guard lock(mutex_);
+        output::require_within(file, *options_.report);
         output::ensure_directory(file.parent_path());
-        report_files_.require_replaceable(file);
-        output::write_file(file, bytes, output::Durability::buffered);
-        report_files_.record(file);
+        output::Target target = report_files_.target(file);
+        target.within = *options_.report;
+        output::write_file(target, bytes, output::Durability::buffered);
         return file;
     }
 
@@ -278,7 +278,7 @@ class EntryTest {
     fs::path folder_;
     std::unique_ptr<NewReferences> fresh_;
     double horizon_ = 0;
-    std::mutex mutex_;  // of result_.frames and the report's files
+    std::mutex mutex_;  // of result_.frames
 };
 
 // ---- entries that share one motion ----------------------------------------------------------------------
@@ -362,7 +362,8 @@ class Group {
         Capture capture{
             std::move(results),
             [&](const Pictures&, long frame, const render::Image& image) { job.test->judge_picture(frame, image); },
-            [&](const render::Image& image) { job.test->judge_picture(0, image); }};
+            [&](const render::Image& image) { job.test->judge_picture(0, image); },
+            {}};
         RunOptions run_options = options.run;
         run_options.no_cache = true;  // what is tested is what this program does now
         try {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -24,6 +25,7 @@
 #include "output/tables.hpp"
 #include "output/video.hpp"
 #include "output/work.hpp"
+#include "render/error.hpp"
 #include "render/film.hpp"
 #include "scenes/demand.hpp"
 #include "scenes/fan_out.hpp"
@@ -91,6 +93,7 @@ struct Shop {
     Motions motions;
     output::Work work;
     Times times;
+    std::size_t refused = 0;  // outputs that cannot be made
     Clock::time_point started = Clock::now();
 };
 
@@ -133,6 +136,8 @@ class Runner {
         ask_for_others();
         shop_.motions.make();
         take(plan_.simulation ? std::move(capture_->results) : std::vector<sim::Result>());
+        for (std::size_t i = 0; i < plan_.pictures.size() && capture_->compared; ++i)
+            for (std::size_t k = 0; k < compared_[i].size(); ++k) capture_->compared(i, k, compared_[i][k]);
         for (std::size_t i = 0; i < plan_.figures.size(); ++i)
             capture_->figure(figure_image(figure(i), figure_output(plan_.figures[i])));
         for (std::size_t i = 0; i < plan_.pictures.size(); ++i) draw(i);
@@ -141,6 +146,7 @@ class Runner {
     // All that can be refused before any work.
     void prepare() {
         tell_left();
+        recover();
         claim_files();
         require_encoder();
     }
@@ -150,12 +156,15 @@ class Runner {
     void find_impacts(double far) {
         if (!plan_.impacts_until) return;
         const auto start = Clock::now();
-        settle(plan_, scene_, [&](const sim::Problem& problem, double until) {
-            sim::Request request;
-            request.end_time = until;
-            request.turning_points = false;
-            return shop_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
-        });
+        settle(
+            plan_, scene_,
+            [&](const sim::Problem& problem, double until) {
+                sim::Request request;
+                request.end_time = until;
+                request.turning_points = false;
+                return shop_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
+            },
+            [&](const Pictures& p, const std::string& why) { refuse(p.output, why); });
         times_.simulate += seconds_since(start);
         claim_files();  // now that the number of frames is known
     }
@@ -180,8 +189,24 @@ class Runner {
         write_tables();
         write_impacts();
         write_figures();
-        for (std::size_t i = 0; i < plan_.pictures.size(); ++i) draw(i);
+        for (std::size_t i = 0; i < plan_.pictures.size(); ++i) attempt(plan_.pictures[i].output, [&] { draw(i); });
         write_summaries();
+    }
+
+    // A picture that cannot be drawn costs its own output alone.
+    void attempt(std::size_t output, const std::function<void()>& work) {
+        try {
+            work();
+        } catch (const render::PictureError& error) {
+            refuse(output, error.what());
+        }
+    }
+    void refuse(std::size_t output, const std::string& why) {
+        progress_.end();
+        const bool listed = output < scene_.output_places.size();
+        output::tell("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
+                     file_of(scene_.outputs[output]), why);
+        ++shop_.refused;
     }
 
     // What a failed run reached is worth looking at, under a name that no script takes for the result.
@@ -192,9 +217,8 @@ class Runner {
             if (is_stdout(t.file) || t.table >= partial.tables.size() || partial.tables[t.table].rows() == 0) continue;
             fs::path file = path_of(t.file);
             file.replace_extension(".partial.csv");
-            manifest_.require_replaceable(file);
-            output::write_csv(file, reached_rows(partial.tables[t.table]));
-            wrote(file, "as far as the solver came", {});
+            output::write_csv(target_of(file, {}), reached_rows(partial.tables[t.table]));
+            wrote(file, "as far as the solver came");
         }
     }
 
@@ -309,21 +333,34 @@ class Runner {
             if (options_.directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
                 throw output::IoError(
                     fmt::format("{}: there is no directory {}; make it first", file.string(), folder.string()));
+            if (!options_.directory.empty()) output::require_within(file, options_.directory);
             manifest_.require_replaceable(file);
         }
         if (!options_.directory.empty())
             for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
-        manifest_.announce(claimed);
     }
 
-    void wrote(const fs::path& file, const std::string& what, const std::string& inputs) {
-        record(file, inputs);
+    // What runs that were killed have left where this scene's files are, finished or not.
+    void recover() {
+        std::set<fs::path> folders;
+        for (const Output& output : scene_.outputs)
+            if (!is_stdout(file_of(output))) folders.insert(path_of(file_of(output)).parent_path());
+        for (const fs::path& folder : folders) manifest_.recover(folder);
+    }
+
+    output::Target target_of(const fs::path& file, const std::string& inputs) const {
+        output::Target target = manifest_.target(file, origin(file, inputs));
+        target.within = options_.directory;
+        return target;
+    }
+
+    void wrote(const fs::path& file, const std::string& what) {
+        note_written(file);
         progress_.end();
         if (!options_.quiet) output::tell("wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
     }
 
-    void record(const fs::path& file, const std::string& inputs) {
-        manifest_.record(file, origin(file, inputs));
+    void note_written(const fs::path& file) {
         std::error_code ignored;
         ++work_.files_written;
         work_.bytes_written += static_cast<long>(fs::file_size(file, ignored));
@@ -414,7 +451,7 @@ class Runner {
         std::set<output::Codec> tried;
         for (const Pictures& p : plan_.pictures)
             if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
-                const output::VideoWriter trial(path_of(p.file), video_options(p));
+                const output::VideoWriter trial(target_of(path_of(p.file), {}), video_options(p));
                 work_.encoder_modules = 1;
                 ++work_.encoders;
             }
@@ -429,8 +466,8 @@ class Runner {
                 output::write_csv(std::cout, table);
                 output::flush_data();
             } else {
-                output::write_table(path_of(t.file), table);
-                wrote(path_of(t.file), fmt::format("{} rows", table.rows()), inputs_of(t));
+                output::write_table(target_of(path_of(t.file), inputs_of(t)), table);
+                wrote(path_of(t.file), fmt::format("{} rows", table.rows()));
                 note(table_work(t), static_cast<double>(table.rows() * table.channels.size()), start,
                      {path_of(t.file)});
             }
@@ -454,20 +491,23 @@ class Runner {
     }
 
     void write_figures() {
-        for (std::size_t i = 0; i < plan_.figures.size(); ++i) {
-            stop_if_interrupted();
-            const auto begun = Clock::now();
-            const FigureFile& f = plan_.figures[i];
-            const FigureOutput& how = figure_output(f);
-            for (const auto& [file, bytes] : figure_files(figure(i), how, scene_of_figure(scene_, how))) {
-                output::write_file(path_of(file), bytes);
-                wrote(path_of(file), file == how.file ? f.figure : "", inputs_of(f));
-            }
-            note(figure_work(f), 1, begun, {path_of(f.file)});
-            ++work_.figures_drawn;
-            ++work_.font_sets;
-            times_.write += seconds_since(begun);
+        for (std::size_t i = 0; i < plan_.figures.size(); ++i)
+            attempt(plan_.figures[i].output, [&] { write_figure(i); });
+    }
+
+    void write_figure(std::size_t i) {
+        stop_if_interrupted();
+        const auto begun = Clock::now();
+        const FigureFile& f = plan_.figures[i];
+        const FigureOutput& how = figure_output(f);
+        for (const auto& [file, bytes] : figure_files(figure(i), how, scene_of_figure(scene_, how))) {
+            output::write_file(target_of(path_of(file), inputs_of(f)), bytes);
+            wrote(path_of(file), file == how.file ? f.figure : "");
         }
+        note(figure_work(f), 1, begun, {path_of(f.file)});
+        ++work_.figures_drawn;
+        ++work_.font_sets;
+        times_.write += seconds_since(begun);
     }
 
     void write_impacts() {
@@ -475,11 +515,9 @@ class Runner {
             if (is_stdout(i.file)) {
                 output::print_data(output::impacts_json(result_));
             } else {
-                output::write_impacts(path_of(i.file), result_);
-                wrote(path_of(i.file),
-                      fmt::format("{} in {}", counted(result_.impacts.size(), "impact"),
-                                  counted(result_.collisions.size(), "collision")),
-                      inputs_of(i));
+                output::write_impacts(target_of(path_of(i.file), inputs_of(i)), result_);
+                wrote(path_of(i.file), fmt::format("{} in {}", counted(result_.impacts.size(), "impact"),
+                                                   counted(result_.collisions.size(), "collision")));
             }
         }
     }
@@ -490,8 +528,9 @@ class Runner {
             if (is_stdout(s.file)) {
                 output::print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
             } else {
-                output::write_summary(path_of(s.file), scene_.problem, result_, extrema, &work_);
-                wrote(path_of(s.file), result_.reproducibility, inputs_of(s));
+                output::write_summary(target_of(path_of(s.file), inputs_of(s)), scene_.problem, result_, extrema,
+                                      &work_);
+                wrote(path_of(s.file), result_.reproducibility);
             }
         }
     }
@@ -545,9 +584,8 @@ class Runner {
             const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
             if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
             if (result.beyond_model) beyond = fmt::format(" · bends beyond {}", sim::name(each.problem.beam.model));
-            const bool traced = result.tables.size() > 1;
             render::Motion motion =
-                motion_of(each.problem, result, 0, 0, traced ? std::optional<std::size_t>(1) : std::nullopt);
+                motion_of(each.problem, result, 0, 0, each.problem.cam ? std::optional<std::size_t>(1) : std::nullopt);
             motion.label = each.label;
             motion.stored = compared_poses_[index][i].frames;
             motion.survey = compared_poses_[index][i].survey;
@@ -595,13 +633,13 @@ class Runner {
             output::VideoOptions options = video_options(p);
             if (options.codec == output::Codec::gif) options.palette = palette_of(film);
             options.metadata = film_metadata(p);
-            video = std::make_unique<output::VideoWriter>(path_of(p.file), options);
+            video = std::make_unique<output::VideoWriter>(target_of(path_of(p.file), inputs_of(p)), options);
             ++work_.encoders;
         }
         const long count = static_cast<long>(p.draw.size());
         progress_.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
         Gate gate;
-        std::mutex mutex;  // of the manifest, the times and the count
+        std::mutex mutex;  // of the times and the counts
         long done = 0;
         const bool poster = video && p.makes_poster();
         const std::map<std::string, std::string> meta =
@@ -617,14 +655,15 @@ class Runner {
                 path_of(p.kind == Pictures::Kind::still
                             ? p.file
                             : numbered_file(p.file, p.first_frame + p.draw[static_cast<std::size_t>(k)]));
+            const output::Target target = target_of(file, inputs_of(p));
             const auto start = Clock::now();
             if (p.kind == Pictures::Kind::still)
-                output::write_png(file, image, {std::nullopt, meta});
+                output::write_png(target, image, {std::nullopt, meta});
             else
-                output::write_file(file, frames.encode(image, changed), output::Durability::buffered);
+                output::write_file(target, frames.encode(image, changed), output::Durability::buffered);
             const std::lock_guard lock(mutex);
             times_.write += seconds_since(start);
-            if (p.kind == Pictures::Kind::frames) record(file, inputs_of(p));
+            if (p.kind == Pictures::Kind::frames) note_written(file);
             progress_.reach(static_cast<double>(++done));
         };
         auto make_worker = [&]() -> Worker {
@@ -652,7 +691,7 @@ class Runner {
                 }
                 if (!video) return put(k, image, own->changed(), *frames);
                 if (poster && p.draw[static_cast<std::size_t>(k)] == *p.poster)
-                    output::write_png(path_of(p.poster_file), image, {std::nullopt, meta});
+                    output::write_png(target_of(path_of(p.poster_file), inputs_of(p)), image, {std::nullopt, meta});
                 input->convert(image, own->changed());
                 gate.pass(k, [&] {
                     input->send();
@@ -704,8 +743,8 @@ class Runner {
             work_.frames_encoded += spent.frames;
         }
         if (p.kind != Pictures::Kind::frames) {
-            wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "", inputs_of(p));
-            if (video && p.makes_poster()) wrote(path_of(p.poster_file), "poster", inputs_of(p));
+            wrote(path_of(p.file), video ? fmt::format("{} frames", count) : "");
+            if (video && p.makes_poster()) wrote(path_of(p.poster_file), "poster");
             return;
         }
         progress_.end();
@@ -799,6 +838,8 @@ void tell(const Shop& shop) {
 
 void run(std::span<const Scene> scenes, const RunOptions& options) {
     refuse_clashes(scenes);
+    std::size_t outputs = 0;
+    for (const Scene& scene : scenes) outputs += scene.outputs.size();
     Shop shop(options);
     std::vector<std::unique_ptr<Runner>> runners;
     for (const Scene& scene : scenes) runners.push_back(std::make_unique<Runner>(scene, shop));
@@ -809,6 +850,7 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     shop.manifest.save();
     shop.history.save();
     if (options.verbose) tell(shop);
+    if (shop.refused > 0) throw Incomplete(fmt::format("{} of {} not made", shop.refused, counted(outputs, "output")));
 }
 
 void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }

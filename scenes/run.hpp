@@ -29,12 +29,18 @@ struct Stopped : std::runtime_error {
     Stopped() : std::runtime_error("interrupted") {}
 };
 
+// Some outputs could not be made, which was told; all others were.
+struct Incomplete : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 // Two scenes would write one file.
 struct NameClash : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// "-" as a file name is standard output. Throws what sim, render and output throw, NameClash and Stopped.
+// "-" as a file name is standard output. Throws what sim, render and output throw, NameClash, Stopped and, at
+// the end, Incomplete.
 void run(std::span<const Scene> scenes, const RunOptions& options);
 void run(const Scene& scene, const RunOptions& options);
 

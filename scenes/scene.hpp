@@ -153,6 +153,13 @@ struct Scene {
     sim::Problem problem;
     double end_time = 1.5;  // [s], > 0
     std::vector<Output> outputs;
+    // Where each stands, for messages: "fall.json:12:5"; none of those that a command adds.
+    std::vector<std::string> output_places;
+
+    void set_outputs(std::vector<Output> others) {
+        outputs = std::move(others);
+        output_places.clear();
+    }
 };
 
 // The film that a scene without outputs yields.

@@ -121,8 +121,7 @@ int act(const Arguments& args) {
             data_printed = true;
             continue;
         }
-        output::write_file(file, text);
-        manifest.record(file);
+        output::write_file(manifest.target(file), text);
         say(args.common, "wrote " + file);
     }
     manifest.save();

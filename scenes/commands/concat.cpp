@@ -27,9 +27,7 @@ int act(const Arguments& args) {
     }
     output::Manifest manifest(args.common.force);
     manifest.require_replaceable(args.file);
-    manifest.announce({args.file});
-    const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, args.file);
-    manifest.record(args.file);
+    const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, manifest.target(args.file));
     manifest.save();
     say(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
     return 0;

@@ -60,12 +60,11 @@ class DifferencePictures {
     };
 
     void write(const std::string& file, const output::Raster& a, const output::Raster& b) {
-        manifest_.require_replaceable(file);
         // What the tolerance lets pass is worth seeing too, when nothing else changed.
         const int threshold = static_cast<int>(args_.tolerance.value_or(0));
         const bool beyond = output::difference(a, b, threshold).changed > 0;
-        output::write_png(file, output::to_image(output::difference_picture(a, b, beyond ? threshold : 0)));
-        manifest_.record(file);
+        output::write_png(manifest_.target(file),
+                          output::to_image(output::difference_picture(a, b, beyond ? threshold : 0)));
         say(args_.common, fmt::format("wrote {}", file));
     }
 

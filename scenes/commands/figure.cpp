@@ -81,7 +81,7 @@ int act(const Arguments& args) {
         throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
     if (const auto refusal = refusal_of(*recipe, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
-    scene.outputs = {wanted(args, *recipe)};
+    scene.set_outputs({wanted(args, *recipe)});
     const RunOptions options = run_options(args.common, "");
     run_or_plan({&scene, 1}, options, args.common);
     return 0;

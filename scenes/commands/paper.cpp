@@ -93,8 +93,9 @@ class Writer {
     void write(const std::string& file, const std::string& bytes) {
         if (output::interrupted()) throw Stopped();
         const fs::path path = fs::path(args_.directory) / file;
-        output::write_file(path, bytes);
-        manifest_.record(path, {{}, std::string(kVersion), {}});
+        output::Target target = manifest_.target(path, {{}, std::string(kVersion), {}});
+        target.within = args_.directory;
+        output::write_file(target, bytes);
         ++count_;
     }
     void finish() {

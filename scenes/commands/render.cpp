@@ -242,7 +242,7 @@ int act(const Arguments& args) {
         if (std::string problem = problem_with_span(film.span, scene.end_time); !problem.empty())
             throw UsageError(problem);
     require_poster_inside(film.span, scene.end_time);
-    scene.outputs = {render_output(args, std::move(film))};
+    scene.set_outputs({render_output(args, std::move(film))});
     RunOptions options = run_options(args.common, "");
     options.ask = asked_part(args, scene);
     run_or_plan({&scene, 1}, options, args.common);

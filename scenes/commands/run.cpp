@@ -1,8 +1,13 @@
 #include "scenes/run.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
+#include "output/standard_output.hpp"
+#include "scenes/cli.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/reader.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -15,13 +20,25 @@ struct Arguments {
 };
 
 int act(const Arguments& args) {
+    // A scene that cannot be read costs its own outputs alone.
     std::vector<Scene> scenes;
-    for (const std::string& path : args.scenes)
-        scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
+    int code = kDone;
+    const auto refuse = [&code](int why, const std::string& text) {
+        output::tell("{}", text);
+        if (code == kDone) code = why;
+    };
+    for (const std::string& path : args.scenes) try {
+            scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
+        } catch (const SceneError& error) {
+            refuse(kBadScene, error.what());
+        } catch (const UnreadableFile& error) {
+            refuse(kInputOutput, fmt::format("beamcam: {}\n", error.what()));
+        }
+    if (scenes.empty()) return code;
     RunOptions options = run_options(args.common, args.directory);
     if (args.shard) options.ask = shard_argument(*args.shard);
     run_or_plan(scenes, options, args.common);
-    return 0;
+    return code;
 }
 
 }  // namespace

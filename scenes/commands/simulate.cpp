@@ -76,7 +76,7 @@ std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) 
 
 int act(const Arguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
-    scene.outputs = simulate_outputs(args, scene);
+    scene.set_outputs(simulate_outputs(args, scene));
     const RunOptions options = run_options(args.common, "");
     run_or_plan({&scene, 1}, options, args.common);
     return 0;

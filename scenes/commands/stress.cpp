@@ -44,8 +44,8 @@ std::vector<sim::StressResult> survive_all(const sim::Campaign& campaign, const 
     return results;
 }
 
-void write(const std::string& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    const std::string ending = ending_of(file);
+void write(const output::Target& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    const std::string ending = file.path.extension().string();
     if (ending == ".png")
         output::write_png(file, render::survival_map(campaign, results));
     else
@@ -64,10 +64,7 @@ int act(const Arguments& args) {
     const sim::Campaign campaign = sim::stress_campaign(args.full);
     const std::vector<sim::StressResult> results = survive_all(campaign, args.common);
     print_data(output::stress_text(campaign, results));
-    for (const std::string& file : args.files) {
-        write(file, campaign, results);
-        manifest.record(file);
-    }
+    for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
     manifest.save();
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });

@@ -45,8 +45,7 @@ void need_room(const Arguments& args, output::Manifest& manifest) {
 }
 
 void write_own(output::Manifest& manifest, const fs::path& file, const std::string& text) {
-    output::write_file(file, text);
-    manifest.record(file);
+    output::write_file(manifest.target(file), text);
 }
 
 void write_reports(const Arguments& args, const RegressionResult& result, output::Manifest& manifest) {

@@ -88,6 +88,48 @@ TEST(AtomicFile, MakesTheFileThatADanglingLinkNames) {
     EXPECT_EQ(read_file(scratch / "real.txt"), "new");
 }
 
+// The last part of a path, a folder on the way, and a folder that does not exist yet.
+TEST(AtomicFile, NoLinkLeadsItOutOfTheFolderItMustLieIn) {
+    Scratch scratch;
+    const fs::path folder = scratch / "out", elsewhere = scratch / "elsewhere";
+    for (const fs::path& each : {folder / "sub", elsewhere}) fs::create_directories(each);
+    fs::create_symlink("../elsewhere", folder / "link");
+    fs::create_symlink(elsewhere / "b.txt", folder / "b.txt");
+    fs::create_symlink("sub", folder / "inside");
+    for (const char* name : {"link/a.txt", "b.txt", "inside/../link/a.txt"}) {
+        Target target(folder / name);
+        target.within = folder;
+        const std::string message = message_of([&] { write_file(target, "x"); });
+        EXPECT_NE(message.find("symbolic link leads it out of"), std::string::npos) << name << ": " << message;
+        EXPECT_NE(message_of([&] { require_within(folder / name, folder); }), "no error") << name;
+    }
+    EXPECT_NE(message_of([&] { require_within(folder / "link/new/a.txt", folder); }), "no error");
+    EXPECT_TRUE(fs::is_empty(elsewhere));
+    Target target(folder / "inside/a.txt");
+    target.within = folder;
+    write_file(target, "x");
+    EXPECT_EQ(read_file(folder / "sub/a.txt"), "x");
+    fs::create_directory_symlink(folder, scratch / "alias");  // the folder itself may be a link
+    target.within = scratch / "alias";
+    EXPECT_EQ(message_of([&] { write_file(target, "y"); }), "no error");
+}
+
+// The folder is swapped for a link between the look at it and the rename.
+TEST(AtomicFile, ALinkThatAppearsMeanwhileLeadsNowhere) {
+    Scratch scratch;
+    fs::create_directories(scratch / "out/sub");
+    fs::create_directory(scratch / "elsewhere");
+    Target target(scratch / "out/sub/a.txt");
+    target.within = scratch / "out";
+    AtomicFile file(target);
+    file.write("x");
+    fs::rename(scratch / "out/sub", scratch / "out/moved");
+    fs::create_directory_symlink(scratch / "elsewhere", scratch / "out/sub");
+    file.commit();
+    EXPECT_TRUE(fs::is_empty(scratch / "elsewhere"));
+    EXPECT_EQ(read_file(scratch / "out/moved/a.txt"), "x");
+}
+
 TEST(AtomicFile, AcceptsTheLongestNameAFileMayHave) {
     Scratch scratch;
     const std::string name(255, 'n');

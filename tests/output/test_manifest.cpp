@@ -10,8 +10,7 @@ namespace fs = std::filesystem;
 void make(const fs::path& file, const std::string& content) {
     Manifest manifest(false);
     manifest.require_replaceable(file);
-    write_file(file, content);
-    manifest.record(file);
+    write_file(manifest.target(file), content);
 }
 
 std::string refusal(const fs::path& file) {
@@ -109,10 +108,9 @@ TEST(Manifest, ProcessesSideBySideLoseNoEntry) {
 
 TEST(Manifest, KnowsWhatAFileWasMadeFrom) {
     Scratch scratch;
-    write_file(scratch / "a.csv", "first");
     {
         Manifest manifest(false);
-        manifest.record(scratch / "a.csv", {"recipe", "", ""});
+        write_file(manifest.target(scratch / "a.csv", {"recipe", "", ""}), "first");
     }
     EXPECT_TRUE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
     EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "other"));
@@ -122,42 +120,132 @@ TEST(Manifest, KnowsWhatAFileWasMadeFrom) {
     EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
 }
 
-TEST(Manifest, AFileThatAKilledRunPutInItsPlaceIsOnesOwn) {
-    Scratch scratch;
-    const pid_t child = fork();
-    if (child == 0) {
-        Manifest manifest(false);
-        manifest.announce({scratch / "a.csv", scratch / "b.csv"});
-        write_file(scratch / "a.csv", "made");
-        _exit(0);  // as a kill does: no destructor, no record
-    }
-    waitpid(child, nullptr, 0);
-    EXPECT_EQ(refusal(scratch / "a.csv"), "");
-    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
-    // What stood there before stays foreign.
-    write_file(scratch / "b.csv", "precious");
-    fs::last_write_time(scratch / "b.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
-    EXPECT_NE(refusal(scratch / "b.csv"), "");
+// ---- runs that are killed ------------------------------------------------------------------------
+
+// Runs `body` in a process that ends as a kill ends it: no destructor runs.
+template <typename Body>
+void killed(Body body) {
+    exit_code_of([&] {
+        auto* manifest = new Manifest(false);  // leaked on purpose
+        body(*manifest);
+        return 0;
+    });
 }
 
-TEST(Manifest, WhatWasAnnouncedAndNotMadeIsForgottenByARunThatEnds) {
+TEST(Manifest, AFileThatAKilledRunPutInItsPlaceIsOnesOwn) {
     Scratch scratch;
-    make(scratch / "a.csv", "first");
+    killed([&](Manifest& manifest) { write_file(manifest.target(scratch / "a.csv", {"recipe", "", ""}), "made"); });
+    EXPECT_EQ(refusal(scratch / "a.csv"), "");
+    EXPECT_TRUE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+}
+
+TEST(Manifest, AFileThatTheUserPutsWhereAKilledRunWasAboutToIsTheUsers) {
+    Scratch scratch;
+    killed([&](Manifest& manifest) {
+        auto* file = new AtomicFile(manifest.target(scratch / "a.csv"));
+        file->write("half");
+    });
+    write_file(scratch / "a.csv", "precious");
+    EXPECT_NE(refusal(scratch / "a.csv").find("not made by beamcam"), std::string::npos);
+}
+
+// Killed between the journal's line and the new name: either content is beamcam's own, and no third one.
+TEST(Manifest, WhicheverOfTwoVersionsAKillLeavesIsOnesOwn) {
+    for (const bool renamed : {false, true}) {
+        Scratch scratch;
+        make(scratch / "a.csv", "first");
+        killed([&](Manifest& manifest) {
+            Target target = manifest.target(scratch / "a.csv");
+            if (!renamed)
+                target.before_rename = [record = target.before_rename](const fs::path& temporary) {
+                    record(temporary);
+                    _exit(0);
+                };
+            write_file(target, "second");
+        });
+        EXPECT_EQ(read_file(scratch / "a.csv"), renamed ? "second" : "first");
+        EXPECT_EQ(refusal(scratch / "a.csv"), "");
+        Manifest(false).recover(scratch.path());
+        EXPECT_EQ(refusal(scratch / "a.csv"), "");
+        EXPECT_EQ(scratch.names(), (std::vector<std::string>{".beamcam.json", "a.csv"}));
+        write_file(scratch / "a.csv", "edited");
+        EXPECT_NE(refusal(scratch / "a.csv").find("changed after beamcam made it"), std::string::npos);
+    }
+}
+
+TEST(Manifest, RecoveryRemovesTheHalfWrittenFilesOfKilledRunsAndNoOthers) {
+    Scratch scratch;
+    killed([&](Manifest& manifest) { (new AtomicFile(manifest.target(scratch / "a.csv")))->write("half"); });
+    for (const char* own : {".mine.part", ".a.csv.0123abcd.part", "a.part"}) write_file(scratch / own, "precious");
+    ASSERT_EQ(scratch.names().size(), 5u);  // and the journal
+    Manifest living(false);
+    AtomicFile file(living.target(scratch / "b.csv"));
+    Manifest(false).recover(scratch.path());
+    std::vector<std::string> left = {".a.csv.0123abcd.part", ".mine.part", "a.part",
+                                     file.temporary_path().filename().string()};
+    for (const std::string& name : left) EXPECT_TRUE(fs::exists(scratch / name)) << name;
+    EXPECT_EQ(scratch.names().size(), left.size() + 1);  // and the journal of the one that lives
+    file.commit();
+    living.save();
+    EXPECT_EQ(refusal(scratch / "b.csv"), "");
+}
+
+// A journal may have come with a folder of somebody else.
+TEST(Manifest, AForgedJournalRemovesNothingElse) {
+    Scratch scratch;
+    fs::create_directory(scratch / "sub");
+    const std::vector<std::string> files = {"precious.txt", ".precious.part", ".a.12345678.part.txt",
+                                            ".a.ghijklmn.part", "sub/.a.01234567.part"};
+    std::string lines;
+    for (const std::string& name : files) {
+        write_file(scratch / name, "precious");
+        lines += journal_line(name);
+    }
+    write_file(scratch / ".beamcam.01234567.journal", lines + journal_line("../" + scratch.path().filename().string()));
+    Manifest(false).recover(scratch.path());
+    EXPECT_FALSE(fs::exists(scratch / ".beamcam.01234567.journal"));
+    for (const std::string& name : files) EXPECT_TRUE(fs::exists(scratch / name)) << name;
+}
+
+TEST(Manifest, ALineOfTheJournalThatIsCutOffIsLeftOut) {
+    const MadeFile made{"00", 3, {"recipe", "", ""}, "1:2"};
+    const std::string text = journal_line(".a.01234567.part") + journal_line("a", made) + journal_line("b", made);
+    const JournalLines lines = parse_journal(text.substr(0, text.size() - 5));
+    EXPECT_EQ(lines.temporaries, std::vector<std::string>{".a.01234567.part"});
+    ASSERT_EQ(lines.placed.size(), 1u);
+    EXPECT_EQ(lines.placed[0].second, made);
+}
+
+TEST(Manifest, AFileThatAppearsWhileARunWorksIsNotReplaced) {
+    Scratch scratch;
+    Manifest manifest(false);
+    manifest.require_replaceable(scratch / "a.csv");
+    AtomicFile file(manifest.target(scratch / "a.csv"));
+    write_file(scratch / "a.csv", "precious");
+    EXPECT_THROW(file.commit(), WouldOverwrite);
+    EXPECT_EQ(read_file(scratch / "a.csv"), "precious");
+}
+
+TEST(Manifest, TwoRunsMayMakeTheSameFile) {
+    Scratch scratch;
+    Manifest manifest(false);
+    manifest.require_replaceable(scratch / "a.csv");
+    AtomicFile file(manifest.target(scratch / "a.csv"));
+    make(scratch / "a.csv", "of the other");
+    EXPECT_NO_THROW(file.commit());
+}
+
+TEST(Manifest, LeavesNothingOfARunThatMadeNothing) {
+    Scratch scratch;
     {
         Manifest manifest(false);
-        manifest.announce({scratch / "a.csv", scratch / "b.csv"});
+        const AtomicFile given_up(manifest.target(scratch / "a.csv"));
     }
-    const auto files = parse_manifest(read_file(scratch / Manifest::kFileName));
-    ASSERT_TRUE(files.has_value());
-    EXPECT_EQ(files->size(), 1u);
-    EXPECT_EQ(files->at("a.csv").making, 0);
-    EXPECT_EQ(refusal(scratch / "a.csv"), "");
-    write_file(scratch / "b.csv", "precious");
-    EXPECT_NE(refusal(scratch / "b.csv"), "");
+    EXPECT_EQ(scratch.names(), std::vector<std::string>{});
 }
 
 TEST(Manifest, NamesOfAnyBytesSurvive) {
-    const MadeFiles files = {{"Balken θ \"x\"\n.mp4", {"00", 3, {"recipe", "0.1", "{}"}, "1:2", 4}}};
+    const MadeFiles files = {{"Balken θ \"x\"\n.mp4", {"00", 3, {"recipe", "0.1", "{}"}, "1:2"}}};
     EXPECT_EQ(parse_manifest(manifest_json(files)), files);
 }
 

@@ -1,0 +1,138 @@
+// What runs do to the files of a folder: nothing of the user's is lost, nothing half-written or unrecorded stays, and a
+// mistake costs its own output alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using testing::slurp;
+
+// A film with a poster, which is finished long before the film is.
+constexpr const char* kFilm =
+    "$BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --size 1280x720 --fps 240 -q -j1 --no-cache";
+
+// Ends the run with the signal as soon as the poster is there.
+std::string stopped_at_poster(const std::string& signal) {
+    return std::string(kFilm) + " & p=$!; while kill -0 $p 2>/dev/null && [ ! -e out/f.png ]; do :; done; kill -" +
+           signal + " $p; wait $p";
+}
+
+TEST(FileSafety, WhatASignalLeavesIsRecordedOrAbsent) {
+    for (const std::string signal : {"INT", "TERM", "KILL"}) {
+        const Folder folder;
+        fs::create_directory(folder / "out");
+        folder.write("s.json", R"({"time": {"end": 1.5}})");
+        const Finished stopped = shell(folder, "trap - INT; " + stopped_at_poster(signal));
+        EXPECT_EQ(stopped.code, signal == "KILL" ? 137 : 130) << stopped.err;
+        ASSERT_TRUE(fs::exists(folder / "out/f.png"));
+        const Finished again =
+            shell(folder, "$BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --to 0.05 --size 96x96 -q");
+        EXPECT_EQ(again.code, 0) << signal << again.err;
+        std::vector<std::string> left;
+        for (const auto& file : fs::directory_iterator(folder / "out")) left.push_back(file.path().filename().string());
+        EXPECT_THAT(left, ::testing::UnorderedElementsAre("f.mp4", "f.png", ".beamcam.json")) << signal;
+    }
+}
+
+TEST(FileSafety, AFileThatTheUserPutsWhereAKilledRunWasAboutToIsKept) {
+    const Folder folder;
+    fs::create_directory(folder / "out");
+    folder.write("s.json", R"({"time": {"end": 1.5}})");
+    EXPECT_EQ(shell(folder, stopped_at_poster("KILL")).code, 137);
+    ASSERT_FALSE(fs::exists(folder / "out/f.mp4"));
+    folder.write("out/f.mp4", "my own film");
+    const Finished again = shell(folder, "$BEAMCAM render s.json -o out/f.mp4 --to 0.05 --size 96x96 -q");
+    EXPECT_EQ(again.code, 6);
+    EXPECT_THAT(again.err, HasSubstr("out/f.mp4 exists and was not made by beamcam"));
+    EXPECT_EQ(slurp(folder / "out/f.mp4"), "my own film");
+}
+
+TEST(FileSafety, OutputsDoNotLeaveTheirFolderThroughLinks) {
+    const Folder folder;
+    for (const char* each : {"out", "elsewhere"}) fs::create_directory(folder / each);
+    fs::create_directory_symlink("../elsewhere", folder / "out/link");
+    fs::create_symlink("../elsewhere/t.csv", folder / "out/t.csv");
+    for (const char* file : {"link/t.csv", "link/new/t.csv", "t.csv"}) {
+        folder.write("s.json", std::string(R"({"time": {"end": 0.1}, "outputs": [{"type": "trajectory", "file": ")") +
+                                   file + R"("}]})");
+        const Finished finished = shell(folder, "$BEAMCAM run s.json -o out -q --force");
+        EXPECT_EQ(finished.code, 6) << file << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("a symbolic link leads it out of out"));
+        EXPECT_TRUE(fs::is_empty(folder / "elsewhere")) << file;
+    }
+}
+
+TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
+    const Folder folder;
+    folder.write("s.json",
+                 "{\"time\": {\"end\": 0.3}, \"outputs\": [\n"
+                 "  {\"type\": \"still\", \"file\": \"a.png\", \"at\": 0.1, \"size\": [96, 96]},\n"
+                 "  {\"type\": \"still\", \"file\": \"b.png\", \"at\": \"impact:9\", \"size\": [96, 96]},\n"
+                 "  {\"type\": \"trajectory\", \"file\": \"t.csv\"}]}\n");
+    folder.write("other.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "trajectory", "file": "other.csv"}]})");
+    folder.write("broken.json", R"({"time": {"end": -1}})");
+    const Finished finished = shell(folder, "$BEAMCAM run missing.json s.json broken.json other.json -o out -q");
+    EXPECT_EQ(finished.code, 3);
+    EXPECT_THAT(finished.err, HasSubstr("s.json:3:3: b.png: there is no impact 9"));
+    EXPECT_THAT(finished.err, HasSubstr("missing.json: there is no such file"));
+    EXPECT_THAT(finished.err, HasSubstr("broken.json:1:18"));
+    for (const char* made : {"out/a.png", "out/t.csv", "out/other.csv"}) EXPECT_TRUE(fs::exists(folder / made)) << made;
+    EXPECT_EQ(shell(folder, "$BEAMCAM run missing.json other.json -o out -q").code, 6);
+    EXPECT_EQ(shell(folder, "$BEAMCAM run broken.json other.json -o out -q").code, 3);
+}
+
+// A folder in the place of a file, no permission, a manifest that is none: never a bug of the program.
+TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"mkdir -p out/t.csv", "out/t.csv is a directory"},
+        {"mkdir -p out/.beamcam.json", "out/.beamcam.json"},
+        {"mkdir out; touch out/t.csv; chmod 0 out/t.csv; printf '{\"format\": \"beamcam manifest 1\", \"files\": "
+         "{\"t.csv\": {\"sha256\": \"00\", \"size\": 0}}}' > out/.beamcam.json",
+         "out/t.csv: Permission denied"},
+        {"mkdir out; touch out/.beamcam.json; chmod 0 out/.beamcam.json; touch out/t.csv",
+         "out/.beamcam.json: Permission denied"},
+        {"mkdir out; chmod a-x out", "Permission denied"},
+        {"mkdir out; chmod a-w out", "out/t.csv: Permission denied"},
+        {"touch out", "out"},
+        {"ln -s out out", "out"}};
+    for (const auto& [setting, message] : cases) {
+        const Folder folder;
+        folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "trajectory", "file": "t.csv"}]})");
+        // Root may read and write anything.
+        const Finished finished =
+            shell(folder,
+                  "chmod 777 .; run() { if [ $(id -u) = 0 ]; then setpriv --reuid 65534 --clear-groups \"$@\"; "
+                  "else \"$@\"; fi; }; run sh -c '" +
+                      std::string("umask 0; ") + std::string(setting).replace(0, 0, "") +
+                      "' 2>/dev/null; run $BEAMCAM run s.json -o out -q --no-cache; c=$?; chmod -R u+rwx out; exit $c");
+        EXPECT_EQ(finished.code, 6) << setting << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(message)) << setting;
+    }
+}
+
+TEST(FileSafety, AFileThatMayNotBeReadIsNotToldToBeEmpty) {
+    const Folder folder;
+    for (const char* command : {"hash x.png", "hash x.mp4", "info x.png", "info x.csv", "diff x.csv x.csv",
+                                "diff x.png x.png", "run x.json", "test x.json", "check x.json"})
+        for (const char* content : {"", "x"}) {
+            const Finished finished =
+                shell(folder, std::string("chmod 777 .; f=$(echo '") + command +
+                                  "' | grep -o 'x[.][a-z0-9]*' | head -1); rm -f $f; printf '" + content +
+                                  "' > $f; chmod 0 $f; if [ $(id -u) = 0 ]; then setpriv --reuid 65534 "
+                                  "--clear-groups $BEAMCAM " +
+                                  command + "; else $BEAMCAM " + command + "; fi");
+            EXPECT_EQ(finished.code, 6) << command << finished.err;
+            EXPECT_THAT(finished.err, HasSubstr("Permission denied")) << command;
+        }
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
