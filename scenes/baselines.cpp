@@ -75,8 +75,7 @@ class Reader {
         messages_ = std::move(parsed.messages);
         read_root(parsed.root);
         for (Message& message : findings_.take()) messages_.push_back(std::move(message));
-        if (!messages_.empty() || !reports_.empty())
-            throw SceneError(describe({all_.source}, std::move(messages_)) + reports_);
+        if (!messages_.empty()) throw SceneError(describe({all_.source}, std::move(messages_)));
         return std::move(all_);
     }
 
@@ -154,10 +153,17 @@ class Reader {
         if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
         f.quantity("reproducible_until", dimension::kTime, entry.reproducible_until);
         f.finish();
-        if (!scene || !output || !read_scene_of(*scene, overrides, path, entry.scene)) return;
-        if (!read_output_of(*output, path + ".output", scene_file(*scene), entry)) return;
-        entry.tolerance = defaults_for(entry).overridden_by(defaults_).overridden_by(own);
+        if (!scene || !output) return;
+        // What is wrong with a scene costs its own entry alone.
+        if (read_scene_of(*scene, overrides, path, entry) &&
+            read_output_of(*output, path + ".output", scene_file(*scene), entry))
+            entry.tolerance = defaults_for(entry).overridden_by(defaults_).overridden_by(own);
         all_.entries.push_back(std::move(entry));
+    }
+
+    bool refuse(Baseline& entry, const Node& node, const std::string& text) {
+        entry.problem += describe({all_.source}, Message{node.place, text});
+        return false;
     }
 
     void read_overrides(const Node& node, const std::string& path, std::vector<std::string>& overrides) {
@@ -202,14 +208,13 @@ class Reader {
 
     // A file beside this one, or a scene that stands here.
     bool read_scene_of(const Node& node, const std::vector<std::string>& overrides, const std::string& path,
-                       Scene& scene) {
+                       Baseline& entry) {
         Source source;
         if (node.kind == Node::Kind::string) {
             try {
                 source = load_source(scene_file(node));
             } catch (const UnreadableFile& error) {
-                findings_.error(node.place, path + ".scene", fmt::format("{}.scene: {}", path, error.what()));
-                return false;
+                return refuse(entry, node, fmt::format("{}.scene: {}", path, error.what()));
             }
         } else if (node.kind == Node::Kind::object) {
             // Everything else becomes blanks, so that the places stay those of this file.
@@ -218,16 +223,16 @@ class Reader {
             for (std::size_t i = 0; i < source.text.size(); ++i)
                 if ((i < begin || i >= end) && source.text[i] != '\n') source.text[i] = ' ';
         } else {
-            findings_.error(node.place, path + ".scene",
-                            fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, shown(node)));
-            return false;
+            return refuse(entry, node,
+                          fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, shown(node)));
         }
         Reading reading = read_scene(std::move(source), overrides);
         if (!reading.scene) {
-            reports_ += reading.report();
+            refuse(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
+            entry.problem += reading.report();
             return false;
         }
-        scene = std::move(*reading.scene);
+        entry.scene = std::move(*reading.scene);
         return true;
     }
 
@@ -238,7 +243,7 @@ class Reader {
         list.place = node.place;
         list.items = {node};
         Findings found;
-        entry.scene.outputs.clear();
+        entry.scene.set_outputs({});
         entry.scene.name = entry.name;
         // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
         const Source resolved{scene_name, to_json(entry.scene), true};
@@ -248,23 +253,21 @@ class Reader {
         for (Message& message : found.take()) {
             for (std::size_t at = 0; (at = message.text.find("outputs.0", at)) != std::string::npos; at += path.size())
                 message.text.replace(at, 9, path);
-            messages_.push_back(std::move(message));
+            if (message.fatal) entry.problem += describe({all_.source}, message);
         }
         if (!fine || entry.scene.outputs.empty()) return false;
         if (std::holds_alternative<VideoOutput>(entry.output())) {
-            findings_.error(
-                node.place, path,
+            return refuse(
+                entry, node,
                 fmt::format("{}: films are guarded before they are encoded; write \"type\": \"frames\"", path));
-            return false;
         }
         if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) {
             const double last = frames->span.to.value_or(entry.scene.end_time);
             if ((last - frames->span.from) * frames->span.fps.value() > kMostPictures) {
-                findings_.error(
-                    node.place, path,
+                return refuse(
+                    entry, node,
                     fmt::format("{}: more than {} pictures; use \"from\" and \"to\", or fewer frames a second", path,
                                 kMostPictures));
-                return false;
             }
         }
         return true;
@@ -287,7 +290,6 @@ class Reader {
     Tolerance defaults_;
     Findings findings_;
     std::vector<Message> messages_;
-    std::string reports_;  // of the scenes
 };
 
 // ---- writing -------------------------------------------------------------------------------------

@@ -47,6 +47,8 @@ struct Baseline {
     bool physics = true;  // false: only the picture is guarded
     std::vector<Accepted> accepted;
     std::optional<double> reproducible_until;  // [s]
+    // Why the scene or its output cannot be read, with its place; then the entry has a name only. Empty: it can.
+    std::string problem;
 
     bool has_pictures() const;
     const Output& output() const { return scene.outputs.front(); }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "output/sha256.hpp"
 #include "render/fonts.hpp"
 #include "render/lit.hpp"
@@ -15,17 +17,27 @@ std::string Fingerprint::id() const {
     return hash.hex().substr(0, 12);
 }
 
-Fingerprint flat_fingerprint() {
+namespace {
+
+Fingerprint fingerprint_of_libraries() {
     Fingerprint found;
     for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
+    // Read before main, so that it cannot be taken back (main.cpp).
+    if (const char* disabled = std::getenv("PIXMAN_DISABLE")) found.parts["PIXMAN_DISABLE"] = disabled;
+    return found;
+}
+
+}  // namespace
+
+Fingerprint flat_fingerprint() {
+    Fingerprint found = fingerprint_of_libraries();
     for (const render::FontFile& font : render::font_files())
         found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
     return found;
 }
 
 Fingerprint figure_fingerprint() {
-    Fingerprint found;
-    for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
+    Fingerprint found = fingerprint_of_libraries();
     for (const render::FontFile& font : render::font_files(render::Typefaces::print))
         if (!font.path.empty())
             found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);

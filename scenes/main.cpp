@@ -1,4 +1,11 @@
 // The program: arguments in, exit code out.
+#include <cstdlib>
+#include <initializer_list>
+
 #include "scenes/cli.hpp"
 
-int main(int argc, char** argv) { return beamcam::scenes::command_line(argc, argv); }
+int main(int argc, char** argv) {
+    // Pictures must not depend on these, nor standard output on what libraries tell of themselves.
+    for (const char* name : {"FREETYPE_PROPERTIES", "FC_DEBUG"}) unsetenv(name);
+    return beamcam::scenes::command_line(argc, argv);
+}

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kTable = "motion.csv", *kImpacts = "impacts.json";
 constexpr int kSteps = 200;              // of a picture's motion: 13 kB a file
 constexpr double kTimeScale = 1e-3;      // [s]: a usual contact's duration; times are compared to a share of it
 constexpr double kSmallestShare = 0.01;  // of a quantity's largest value: below it relative differences mean nothing
@@ -188,23 +187,26 @@ MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& 
     return record;
 }
 
-void write_record(const fs::path& folder, const sim::Table& table, const std::vector<sim::Impact>& impacts,
-                  double until) {
-    output::write_csv(folder / kTable, table);
-    output::write_file(folder / kImpacts, impacts_text(impacts, until));
+RecordNames::RecordNames(std::size_t motion)
+    : table(motion == 0 ? "motion.csv" : fmt::format("motion-{}.csv", motion)),
+      impacts(motion == 0 ? "impacts.json" : fmt::format("impacts-{}.json", motion)) {}
+
+void write_record(const fs::path& folder, const RecordNames& names, const sim::Table& table,
+                  const std::vector<sim::Impact>& impacts, double until) {
+    output::write_csv(folder / names.table, table);
+    output::write_file(folder / names.impacts, impacts_text(impacts, until));
 }
 
-std::optional<MotionRecord> read_record(const fs::path& folder) {
-    std::error_code error;
-    if (!fs::exists(folder / kTable, error) || !fs::exists(folder / kImpacts, error)) return std::nullopt;
+std::optional<MotionRecord> read_record(const fs::path& folder, const RecordNames& names) {
+    if (!output::is_there(folder / names.table) || !output::is_there(folder / names.impacts)) return std::nullopt;
     MotionRecord record;
-    record.table = output::read_table(folder / kTable);
-    auto impacts = parse_impacts(output::read_file(folder / kImpacts));
+    record.table = output::read_table(folder / names.table);
+    auto impacts = parse_impacts(output::read_file(folder / names.impacts));
     if (!impacts)
         throw output::IoError(
             fmt::format("cannot read {}: it is no list of impacts, or it is damaged; restore it, or make "
                         "it again with --update",
-                        (folder / kImpacts).string()));
+                        (folder / names.impacts).string()));
     record.impacts = std::move(*impacts);
     return record;
 }

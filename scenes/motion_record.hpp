@@ -28,11 +28,15 @@ sim::TableRequest motion_behind_picture(const sim::Problem& problem, double unti
 // What of the run belongs to the entry. An impact that lasts beyond `until` counts with what is known at its touch.
 MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
 
-// motion.csv and impacts.json in a folder.
-void write_record(const std::filesystem::path& folder, const sim::Table& table, const std::vector<sim::Impact>& impacts,
-                  double until);
+// Names of the two files of a motion: 0 is the scene's own, the others are those that its picture compares, from 1.
+struct RecordNames {
+    explicit RecordNames(std::size_t motion);
+    std::string table, impacts;  // motion.csv, impacts.json; motion-1.csv, impacts-1.json
+};
+void write_record(const std::filesystem::path& folder, const RecordNames& names, const sim::Table& table,
+                  const std::vector<sim::Impact>& impacts, double until);
 // Nothing when the folder has none. Throws IoError when what it has is damaged.
-std::optional<MotionRecord> read_record(const std::filesystem::path& folder);
+std::optional<MotionRecord> read_record(const std::filesystem::path& folder, const RecordNames& names);
 
 struct MotionVerdict {
     Verdict verdict = Verdict::identical;

@@ -4,19 +4,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <mutex>
-#include <system_error>
 
 #include "output/atomic_file.hpp"
 #include "output/interrupt.hpp"
 #include "output/manifest.hpp"
 #include "output/png.hpp"
 #include "output/png_reader.hpp"
+#include "output/sha256.hpp"
+#include "output/standard_output.hpp"
 #include "render/error.hpp"
 #include "scenes/capture.hpp"
+#include "scenes/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/fingerprint.hpp"
 #include "scenes/motion_record.hpp"
+#include "scenes/references.hpp"
 #include "scenes/suggest.hpp"
 
 namespace beamcam::scenes {
@@ -49,92 +53,62 @@ Fingerprint fingerprint_of(Drawn how) {
     throw std::logic_error("a way of drawing that has no fingerprint");
 }
 
-// ---- references ------------------------------------------------------------------------------------
-
-// The new references of one entry: written beside the old ones, which they replace as a whole or not at all.
-class NewReferences {
-  public:
-    explicit NewReferences(const fs::path& folder)
-        : folder_(folder), fresh_(folder.string() + ".new"), old_(folder.string() + ".old") {
-        std::error_code ignored;
-        fs::remove_all(fresh_, ignored);
-        output::ensure_directory(fresh_);
-    }
-    // Until `keep` everything can be taken back.
-    ~NewReferences() {
-        std::error_code ignored;
-        fs::remove_all(fresh_, ignored);
-        if (!swapped_ || kept_) return;
-        fs::remove_all(folder_, ignored);
-        if (fs::exists(old_, ignored)) fs::rename(old_, folder_, ignored);
-    }
-    NewReferences(const NewReferences&) = delete;
-    NewReferences& operator=(const NewReferences&) = delete;
-
-    const fs::path& folder() const { return fresh_; }
-
-    void swap() {
-        std::error_code error;
-        fs::remove_all(old_, error);
-        if (fs::exists(folder_, error)) fs::rename(folder_, old_, error);
-        if (!error) fs::rename(fresh_, folder_, error);
-        if (error) throw output::write_error(folder_, error.value());
-        swapped_ = true;
-    }
-    void keep() {
-        std::error_code ignored;
-        fs::remove_all(old_, ignored);
-        kept_ = true;
-    }
-
-  private:
-    fs::path folder_, fresh_, old_;
-    bool swapped_ = false, kept_ = false;
-};
+std::string describe(const sim::SolverError& error) {
+    return fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what());
+}
 
 // ---- one entry ---------------------------------------------------------------------------------------
 
 class EntryTest {
   public:
+    // `update`: null when references stay as they are.
     EntryTest(const Baselines& baselines, const Baseline& entry, const RegressionOptions& options, EntryResult& result,
-              output::Manifest& report_files)
+              output::Manifest& report_files, ReferenceUpdate* update)
         : entry_(entry),
           options_(options),
           result_(result),
           report_files_(report_files),
+          update_(update),
           tolerance_(entry.tolerance.overridden_by(options.tolerance)),
           folder_(baselines.references / entry.name) {
-        result_.name = entry.name;
         if (entry.has_pictures()) result_.picture = Verdict::identical;
         if (entry.physics || !entry.has_pictures()) result_.motion = Verdict::identical;
-        if (is_updated()) fresh_ = std::make_unique<NewReferences>(folder_);
+        if (update_) fresh_ = update_->begin(entry.name);
     }
 
     const Baseline& entry() const { return entry_; }
     bool asks_for_motion() const { return result_.motion.has_value(); }
     void ask_for_no_motion() { result_.motion.reset(); }
-    bool is_updated() const {
-        return std::find(options_.update.begin(), options_.update.end(), entry_.name) != options_.update.end();
-    }
-    NewReferences* fresh() { return fresh_.get(); }
+    bool is_updated() const { return fresh_.has_value(); }
     EntryResult& result() { return result_; }
 
-    void judge_motion(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
+    void judge_motion(const sim::Table& all, const std::vector<sim::Impact>& impacts, double until,
                       std::optional<double> reproducible_until) {
+        const sim::Table table = without_residuals(all);
         if (fresh_) {
-            write_record(fresh_->folder(), table, impacts, until);
+            write_record(*fresh_, RecordNames(0), table, impacts, until);
             horizon_ = std::min(until, reproducible_until.value_or(until));
         }
-        const auto expected = read_record(folder_);
-        if (!expected) {
-            result_.motion = Verdict::missing;
-            result_.motion_lines = {fmt::format("no motion is kept in {}", folder_.string())};
-            return;
+        judge_record(RecordNames(0), "", record_of(table, impacts, until), entry_.reproducible_until.value_or(until));
+    }
+
+    // What is recorded of a motion that the picture compares: as far as it was reproducible when it was accepted.
+    sim::TableRequest motion_compared(std::size_t index, const sim::Problem& problem, double until) const {
+        sim::TableRequest request = motion_behind_picture(problem, until);
+        if (is_updated()) return request;
+        if (const auto expected = read_record(folder_, RecordNames(index + 1)))
+            if (const std::vector<double>* t = expected->table.find("t")) request.times = *t;
+        return request;
+    }
+    void judge_compared(std::size_t index, const std::string& label, sim::Table table,
+                        const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until) {
+        const RecordNames names(index + 1);
+        if (fresh_) {
+            if (reproducible_until) cut(table, *reproducible_until);
+            write_record(*fresh_, names, table, impacts, table.values.front().back());
         }
-        const MotionVerdict found =
-            compare(*expected, record_of(table, impacts, until), tolerance_, entry_.reproducible_until.value_or(until));
-        result_.motion = found.verdict;
-        result_.motion_lines = found.lines;
+        const double until = table.values.front().back();
+        judge_record(names, label + ": ", record_of(table, impacts, until), until);
     }
 
     // From any thread.
@@ -143,8 +117,15 @@ class EntryTest {
         output::to_raster(image, raster);
         FrameResult found;
         found.sha256 = output::digest(raster);
-        if (!is_accepted(frame, found.sha256)) compare_with_reference(frame, raster, found);
-        if (fresh_) output::write_png(fresh_->folder() / picture_name(frame), image, {}, output::Durability::buffered);
+        const bool accepted = is_accepted(frame, found.sha256);
+        if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
+        with_old_reference([&] {
+            if (!accepted)
+                compare_with_reference(frame, raster, found);
+            else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
+                found.verdict = Verdict::different;
+        });
+        if (fresh_) output::write_png(*fresh_ / picture_name(frame), image);
         const std::lock_guard lock(mutex_);
         result_.frames[frame] = std::move(found);
     }
@@ -153,11 +134,47 @@ class EntryTest {
         if (result_.picture) conclude_pictures();
     }
 
-    void make_impossible(const std::string& why) {
-        if (result_.picture) result_.picture = Verdict::different;
-        if (result_.motion) result_.motion = Verdict::different;
+    // There is nothing to judge. `exit_code`: what the program is to end with.
+    void make_impossible(const std::string& why, Verdict verdict = Verdict::different, int exit_code = kDiffers) {
+        if (result_.picture) result_.picture = verdict;
+        if (result_.motion) result_.motion = verdict;
         (result_.motion ? result_.motion_lines : result_.picture_lines) = {why};
+        result_.exit_code = exit_code;
+        if (fresh_) update_->drop(entry_.name);
         fresh_.reset();
+    }
+
+    // Does some work; what fails costs this entry alone. False: it has failed.
+    bool attempt(const std::function<void()>& work) {
+        try {
+            work();
+            return true;
+        } catch (const sim::SolverError& error) {  // such as one of a variant that a figure compares the scene with
+            make_impossible(describe(error));
+        } catch (const render::PictureError& error) {  // such as an impact that there is no more
+            make_impossible(error.what());
+        } catch (const output::IoError& error) {  // such as a damaged reference
+            make_impossible(error.what(), Verdict::missing, kInputOutput);
+        } catch (const fs::filesystem_error& error) {
+            make_impossible(output::io_error(error).what(), Verdict::missing, kInputOutput);
+        }
+        return false;
+    }
+
+    // Nothing is accepted yet of the renderer that drew the pictures, and nothing else is wrong with the entry.
+    bool differs_by_renderer(const std::string& renderer) const {
+        const auto is_fine = [](const auto& each) { return each.second.reference_accepted; };
+        return result_.picture == Verdict::different && result_.exit_code == 0 &&
+               result_.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
+               std::ranges::all_of(result_.frames, is_fine) && !entry_.accepted.empty() &&
+               entry_.accepted.front().sha256.size() == result_.frames.size() &&
+               std::ranges::none_of(entry_.accepted, [&](const Accepted& a) { return a.renderer == renderer; });
+    }
+    void tell_of_renderer(const std::string& renderer) {
+        if (!options_.add_digest && differs_by_renderer(renderer))
+            result_.picture_lines.push_back(fmt::format(
+                "nothing is accepted yet of this renderer, {} (beamcam doctor); look at the picture, and --add-digest",
+                renderer));
     }
 
     // What the baselines file is to say, when this entry changes it.
@@ -170,13 +187,78 @@ class EntryTest {
             result_.updated = true;
             return change;
         }
-        if (!options_.add_digest || result_.picture != Verdict::equivalent) return std::nullopt;
+        if (!options_.add_digest || (result_.picture != Verdict::equivalent && !differs_by_renderer(renderer)))
+            return std::nullopt;
         change.accepted.push_back(digests(renderer));
         result_.digest_added = true;
         return change;
     }
 
+    // Digests of the new reference pictures by file name.
+    std::map<std::string, std::string> new_pictures() const {
+        std::map<std::string, std::string> all;
+        for (const auto& [frame, found] : result_.frames) all[picture_name(frame)] = found.sha256;
+        return all;
+    }
+
   private:
+    // Reads what may be damaged; then an update replaces it.
+    void with_old_reference(const std::function<void()>& work) const {
+        try {
+            work();
+        } catch (const output::IoError&) {
+            if (!fresh_) throw;
+        }
+    }
+
+    // A table of all channels holds an error of the solver, which no two solvers share.
+    sim::Table without_residuals(const sim::Table& table) const {
+        const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output());
+        if (!asked || !asked->channels.empty()) return table;
+        sim::Table kept;
+        for (std::size_t i = 0; i < table.channels.size(); ++i)
+            if (table.channels[i].kind != sim::ChannelKind::energy_residual) {
+                kept.channels.push_back(table.channels[i]);
+                kept.values.push_back(table.values[i]);
+            }
+        return kept;
+    }
+
+    // The rows up to `until`; the first one stays.
+    static void cut(sim::Table& table, double until) {
+        const std::vector<double>& t = table.values.front();
+        const auto kept = std::max<std::ptrdiff_t>(1, std::upper_bound(t.begin(), t.end(), until) - t.begin());
+        for (std::vector<double>& column : table.values) column.resize(static_cast<std::size_t>(kept));
+    }
+
+    void judge_record(const RecordNames& names, const std::string& label, const MotionRecord& actual, double horizon) {
+        std::vector<std::string>& lines = result_.motion_lines;
+        std::optional<MotionRecord> expected;
+        with_old_reference([&] { expected = read_record(folder_, names); });
+        if (!expected) {
+            result_.motion = Verdict::missing;
+            lines.push_back(fmt::format("{}no motion is kept in {}", label, folder_.string()));
+            return;
+        }
+        if (const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output()); asked && asked->channels.empty())
+            remove_column(expected->table, "energy_residual");
+        const MotionVerdict found = compare(*expected, actual, tolerance_, horizon);
+        result_.motion = worse(*result_.motion, found.verdict);
+        for (const std::string& line : found.lines) lines.push_back(label + line);
+        for (const std::string& name : {names.table, names.impacts})
+            if (!is_as_marked(name)) {
+                result_.motion = worse(*result_.motion, Verdict::different);
+                lines.push_back(fmt::format("{} is not what --update put there", (folder_ / name).string()));
+            }
+    }
+
+    static void remove_column(output::NamedTable& table, std::string_view name) {
+        const auto at = std::find(table.names.begin(), table.names.end(), name);
+        if (at == table.names.end()) return;
+        table.columns.erase(table.columns.begin() + (at - table.names.begin()));
+        table.names.erase(at);
+    }
+
     bool is_accepted(long frame, const std::string& digest) const {
         return std::any_of(entry_.accepted.begin(), entry_.accepted.end(), [&](const Accepted& accepted) {
             const auto at = static_cast<std::size_t>(frame);
@@ -184,23 +266,37 @@ class EntryTest {
         });
     }
 
+    const ReferenceFile* marked(const std::string& name) const {
+        const auto file = marked_.find(name);
+        return file == marked_.end() ? nullptr : &file->second;
+    }
+    // Folders that were made before there were markers tell nothing.
+    bool is_as_marked(const std::string& name) const {
+        const ReferenceFile* file = marked(name);
+        return marked_.empty() || (file && output::sha256_of_file(folder_ / name) == file->sha256);
+    }
+
+    // The reference picture belongs to one of the accepted digests, or there is none.
+    bool is_reference_accepted(long frame) const {
+        const std::string name = picture_name(frame);
+        if (!output::is_there(folder_ / name)) return true;
+        const ReferenceFile* file = marked(name);
+        const bool as_marked = file && output::sha256_of_file(folder_ / name) == file->sha256;
+        return is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(folder_ / name)));
+    }
+
     void compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
-        found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
         const fs::path reference = folder_ / picture_name(frame);
-        std::error_code error;
-        if (fs::exists(reference, error)) {
-            const output::Raster expected = output::read_png(reference);
-            found.expected = reference;
-            found.compared = true;
-            found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
-            if (found.comparison.same_size() && !entry_.accepted.empty())
-                found.verdict = found.comparison.difference.share() <= tolerance_.share.value_or(0)
-                                    ? Verdict::equivalent
-                                    : Verdict::different;
-            write_difference(frame, expected, actual, found);
-        } else {
-            write_actual(frame, actual, found);
-        }
+        if (!output::is_there(reference)) return write_actual(frame, actual, found);
+        const output::Raster expected = output::read_png(reference);
+        found.expected = reference;
+        found.compared = true;
+        found.reference_accepted = entry_.accepted.empty() || is_accepted(frame, output::digest(expected));
+        found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
+        const bool near =
+            found.comparison.same_size() && found.comparison.difference.share() <= tolerance_.share.value_or(0);
+        if (near && found.reference_accepted && !entry_.accepted.empty()) found.verdict = Verdict::equivalent;
+        write_difference(frame, expected, actual, found);
     }
 
     void write_actual(long frame, const output::Raster& actual, FrameResult& found) {
@@ -253,14 +349,15 @@ class EntryTest {
 
     std::string in_words(const std::pair<const long, FrameResult>& worst) const {
         const std::size_t changed = result_.frames.size() - result_.frames_with(Verdict::identical);
+        if (!worst.second.reference_accepted)
+            return fmt::format("{} is not the picture that was accepted: its digest is not among those of the entry",
+                               (folder_ / picture_name(worst.first)).string());
         const std::string which = result_.frames.size() > 1
                                       ? fmt::format("{} of {} pictures changed, most number {}: ", changed,
                                                     result_.frames.size(), worst.first)
                                       : "";
         if (!worst.second.compared)
             return which + fmt::format("the reference {} is not there", (folder_ / picture_name(worst.first)).string());
-        if (worst.second.comparison.same_size() && worst.second.comparison.difference.identical())
-            return which + "the reference picture has these pixels, but their digest is not among the accepted";
         return which + scenes::in_words(worst.second.comparison);
     }
 
@@ -274,9 +371,11 @@ class EntryTest {
     const RegressionOptions& options_;
     EntryResult& result_;
     output::Manifest& report_files_;
+    ReferenceUpdate* update_;
     Tolerance tolerance_;
     fs::path folder_;
-    std::unique_ptr<NewReferences> fresh_;
+    const ReferenceFiles marked_ = marked_files(folder_).value_or(ReferenceFiles{});
+    std::optional<fs::path> fresh_;  // where the new references go
     double horizon_ = 0;
     std::mutex mutex_;  // of result_.frames
 };
@@ -290,24 +389,30 @@ class Group {
     void add(EntryTest& test) { jobs_.push_back({&test, {}, 0, 0}); }
 
     void run(const RegressionOptions& options, RegressionResult& all) {
+        std::erase_if(jobs_, [](Job& job) { return !job.test->attempt([&] { prepare(job); }); });
+        if (jobs_.empty()) return;
+        std::vector<sim::Request> requests;
+        for (const Job& job : jobs_)
+            for (sim::Request& request : requests_of(job.plan)) requests.push_back(std::move(request));
         std::vector<sim::Result> results;
         try {
-            std::vector<sim::Request> requests;
-            for (Job& job : jobs_) {
-                prepare(job);
-                for (sim::Request& request : requests_of(job.plan)) requests.push_back(std::move(request));
-            }
             results = sim::simulate(problem(), requests, [](double) { return !output::interrupted(); });
         } catch (const sim::SolverError& error) {
-            return fail(fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));
-        } catch (const render::PictureError& error) {  // such as an impact that there is no more
-            return fail(error.what());
+            if (jobs_.size() == 1) return jobs_.front().test->make_impossible(describe(error));
+            for (const Job& job : jobs_) {  // one that looks less far may come to its end
+                Group alone;
+                alone.add(*job.test);
+                alone.run(options, all);
+            }
+            return;
         }
         ++all.simulations;
         auto next = results.begin();
         for (Job& job : jobs_) {
             const auto last = next + static_cast<std::ptrdiff_t>(requests_of(job.plan).size());
-            judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options);
+            job.test->attempt([&] {
+                judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options);
+            });
             next = last;
             all.pictures += job.test->result().frames.size();
         }
@@ -320,10 +425,6 @@ class Group {
         std::size_t motion = 0;  // the table of the plan's request that is recorded
         double until = 0;        // the last instant that the entry looks at [s]
     };
-
-    void fail(const std::string& why) {
-        for (Job& job : jobs_) job.test->make_impossible(why);
-    }
 
     const sim::Problem& problem() const { return jobs_.front().test->entry().scene.problem; }
 
@@ -353,6 +454,13 @@ class Group {
             job.motion = job.plan.tables.front().table;
         else if (job.test->asks_for_motion())
             request.tables.push_back(motion_behind_picture(scene.problem, job.until));
+        if (!job.test->asks_for_motion()) return;
+        for (Pictures& p : job.plan.pictures)
+            for (std::size_t i = 0; i < p.compared.size(); ++i) {
+                ComparedMotion& other = p.compared[i];
+                other.request.tables.push_back(job.test->motion_compared(i, other.problem, p.end_time));
+                if (job.test->is_updated()) other.request.horizon = true;
+            }
     }
 
     static void judge(Job& job, std::vector<sim::Result> results, const RegressionOptions& options) {
@@ -364,16 +472,14 @@ class Group {
             [&](const Pictures&, long frame, const render::Image& image) { job.test->judge_picture(frame, image); },
             [&](const render::Image& image) { job.test->judge_picture(0, image); },
             {}};
+        if (job.test->asks_for_motion())
+            capture.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
+                job.test->judge_compared(index, job.plan.pictures[picture].compared[index].label, result.tables.back(),
+                                         result.impacts, result.reproducible_until);
+            };
         RunOptions run_options = options.run;
         run_options.no_cache = true;  // what is tested is what this program does now
-        try {
-            scenes::draw(job.plan, job.test->entry().scene, capture, run_options);
-        } catch (const sim::SolverError& error) {  // of a variant of the scene that a figure compares it with
-            return job.test->make_impossible(
-                fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));
-        } catch (const render::PictureError& error) {  // such as a figure of an impact that there is no more
-            return job.test->make_impossible(error.what());
-        }
+        scenes::draw(job.plan, job.test->entry().scene, capture, run_options);
         job.test->finish();
     }
 
@@ -385,7 +491,13 @@ class Group {
 class Regression {
   public:
     Regression(const std::string& path, const RegressionOptions& options)
-        : path_(path), options_(options), baselines_(read_baselines(path)), report_files_(options.run.force) {}
+        : path_(path), options_(options), baselines_(read_baselines(path)), report_files_(options.run.force) {
+        if (path_ == "-") return;
+        const std::string told = ReferenceUpdate::recover(baselines_.references);
+        if (told.empty()) return;
+        output::tell("{}: {}\n", path_, told);
+        baselines_ = read_baselines(path);
+    }
 
     RegressionResult go() {
         const auto started = std::chrono::steady_clock::now();
@@ -413,9 +525,31 @@ class Regression {
             if (names.empty() || std::find(names.begin(), names.end(), entry.name) != names.end())
                 chosen.push_back(&entry);
         result_.entries.resize(chosen.size());
-        for (std::size_t i = 0; i < chosen.size(); ++i)
-            tests_.push_back(
-                std::make_unique<EntryTest>(baselines_, *chosen[i], options_, result_.entries[i], report_files_));
+        if (!options_.update.empty())
+            update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            EntryResult& result = result_.entries[i];
+            result.name = chosen[i]->name;
+            if (!chosen[i]->problem.empty()) {
+                refuse(result, chosen[i]->problem, kBadScene);
+                continue;
+            }
+            try {
+                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, result, report_files_,
+                                                             update_.get()));
+            } catch (const output::IoError& error) {  // a damaged marker
+                if (update_) throw;
+                refuse(result, fmt::format("{}\n", error.what()), kInputOutput);
+            }
+        }
+    }
+
+    // There is no test for an entry that cannot be read.
+    static void refuse(EntryResult& result, const std::string& problem, int exit_code) {
+        output::tell("{}", problem);
+        result.picture = Verdict::missing;
+        result.picture_lines = {problem.substr(0, problem.find('\n'))};
+        result.exit_code = exit_code;
     }
 
     std::vector<Group> groups() {
@@ -439,28 +573,37 @@ class Regression {
         std::map<Drawn, Fingerprint> known;
         for (const auto& test : tests_) {
             std::string id;
-            if (test->entry().has_pictures() && (test->fresh() || options_.add_digest)) {
+            const bool differs = test->result().picture == Verdict::different && test->result().exit_code == 0;
+            if (test->entry().has_pictures() && (test->is_updated() || options_.add_digest || differs)) {
                 const Drawn how = drawn(test->entry());
                 if (!known.contains(how)) known[how] = fingerprint_of(how);
                 id = known[how].id();
                 renderers[id] = known[how].parts;
             }
+            test->tell_of_renderer(id);
             if (auto change = test->edit(id)) edits.push_back(std::move(*change));
         }
         if (edits.empty()) return;
-        // All or nothing: the folders go back to what they were if the file cannot be written.
         const std::string text = edited(baselines_, edits, renderers);
-        for (const auto& test : tests_)
-            if (test->fresh()) test->fresh()->swap();
-        output::write_file(path_, text);
-        for (const auto& test : tests_)
-            if (test->fresh()) test->fresh()->keep();
+        if (update_)
+            update_->commit(baselines_.source.text, text, new_pictures());
+        else
+            output::write_file(path_, text);
         result_.changed = true;
+    }
+
+    // Of each entry that is updated.
+    std::map<std::string, std::map<std::string, std::string>> new_pictures() const {
+        std::map<std::string, std::map<std::string, std::string>> all;
+        for (const auto& test : tests_)
+            if (test->is_updated()) all[test->entry().name] = test->new_pictures();
+        return all;
     }
 
     std::string path_;
     const RegressionOptions& options_;
     Baselines baselines_;
+    std::unique_ptr<ReferenceUpdate> update_;
     output::Manifest report_files_;
     RegressionResult result_;
     std::vector<std::unique_ptr<EntryTest>> tests_;

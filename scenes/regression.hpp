@@ -21,6 +21,7 @@ struct FrameResult {
     std::string sha256;  // of what was drawn
     PictureComparison comparison;
     bool compared = false;                               // with a reference picture
+    bool reference_accepted = true;                      // the reference picture belongs to an accepted digest
     std::filesystem::path expected, actual, difference;  // files, where there are any
     // How far it is from what is expected: what reports begin with.
     double weight() const;
@@ -33,6 +34,7 @@ struct EntryResult {
     std::vector<std::string> picture_lines, motion_lines;  // what there is to say
     std::string old_digest, new_digest;                    // of the first picture that is another, on --update
     bool updated = false, digest_added = false;
+    int exit_code = 0;  // what the program is to end with when there was nothing to judge; 0: judged
 
     Verdict verdict() const;
     // The frame that changed most, when one changed.

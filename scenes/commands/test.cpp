@@ -86,6 +86,8 @@ int act(const Arguments& args) {
     tell(args, result);
     bool fine = !result.changed;
     for (const EntryResult& entry : result.entries)
+        if (entry.exit_code != 0 && entry.exit_code != kDiffers) return entry.exit_code;
+    for (const EntryResult& entry : result.entries)
         fine = fine && entry.verdict() <= (args.strict ? Verdict::identical : Verdict::equivalent);
     return fine ? kDone : kDiffers;
 }
@@ -102,7 +104,8 @@ void add_test(Grammar& grammar) {
                "Replace what these entries expect by what they are now (ends with 7, for somebody to look)")
         .several();
     app.flag("--add-digest", args->add_digest,
-             "Accept the digests of this machine beside the others, where pictures are equivalent (ends with 7)");
+             "Accept the digests of this machine beside the others, where pictures are equivalent, or where nothing is "
+             "accepted yet of its libraries and fonts (ends with 7)");
     app.flag("--strict", args->strict, "What is only equivalent fails too");
     app.option("--tolerance", &args->tolerance, "KEY=X,...",
                "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
@@ -114,7 +117,7 @@ void add_test(Grammar& grammar) {
     app.option("--progress", &args->common.progress, "STYLE",
                "Progress on standard error: auto, bar, plain, json or none");
     app.flag("--json", args->common.json, "As JSON");
-    app.flag("--force", args->common.force, "Replace reports that beamcam did not make");
+    app.flag("--force", args->common.force, "Replace reports and references that beamcam did not make");
     add_quiet(app, args->common);
     app.bind(args, act);
 }

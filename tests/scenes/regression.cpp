@@ -147,18 +147,19 @@ TEST(Regression, UpdateTouchesOnlyTheEntriesItNames) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fall --only hit").code, 2);
 }
 
-// Another machine's pixels: the accepted digest is not ours, the reference is two levels off.
+// Another machine's pixels, accepted and kept: two levels off those of this one.
 TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
     const Guarded folder;
     folder.update();
-    const std::string digest = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
-    folder.swap("b.json", digest, std::string(64, '0'));
+    const std::string own = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
     ASSERT_EQ(
         shell(
             folder,
             "ffmpeg -v error -i b/fast/0000.png -vf 'lutrgb=r=max(val-2\\,0)' -y b/x.png && mv b/x.png b/fast/0000.png")
             .code,
         0);
+    const std::string digest = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
+    folder.swap("b.json", own, digest);
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast").code, 7);  // flat views are exact by default
     const Finished equivalent = shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2");
     EXPECT_EQ(equivalent.code, 0) << equivalent.out << equivalent.err;
@@ -167,7 +168,7 @@ TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=1,share=1").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --strict").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --add-digest").code, 7);
-    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(std::string(64, '0')));  // both are accepted now
+    for (const std::string& each : {own, digest}) EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(each));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
 }
 
@@ -240,12 +241,12 @@ TEST(Regression, DamagedReferencesAreErrorsNotVerdicts) {
     folder.write("b/fall/0000.png", png.substr(0, png.size() / 2));
     const Finished cut = shell(folder, "$BEAMCAM test b.json --only fall");
     EXPECT_EQ(cut.code, 6);
-    EXPECT_THAT(cut.err, HasSubstr("b/fall/0000.png"));
+    EXPECT_THAT(cut.out, HasSubstr("b/fall/0000.png"));
     folder.write("b/fall/0000.png", png);
     folder.write("b/fall/motion.csv", "t,theta\n0,zero\n");
     const Finished table = shell(folder, "$BEAMCAM test b.json --only fall");
     EXPECT_EQ(table.code, 6);
-    EXPECT_THAT(table.err, HasSubstr("motion.csv:2:3"));
+    EXPECT_THAT(table.out, HasSubstr("motion.csv:2:3"));
     std::filesystem::remove(folder / "b/fall/motion.csv");
     EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --only fall").out, HasSubstr("motion missing"));
 }
@@ -259,8 +260,134 @@ TEST(Regression, AnUpdateThatCannotBeWrittenLosesNothing) {
     EXPECT_EQ(finished.code, 6) << finished.out << finished.err;
     EXPECT_EQ(slurp(folder / "b.json"), text);
     EXPECT_EQ(slurp(folder / "b/fall/0000.png"), picture);
-    EXPECT_FALSE(std::filesystem::exists(folder / "b/fall.new"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "b/fall.old"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
+}
+
+// ---- what must not pass ----------------------------------------------------------------------------
+
+TEST(Regression, AMotionThatThePictureComparesIsJudgedAsTheScenesOwn) {
+    const Folder folder;
+    const auto write = [&](const std::string& text, const std::string& stiffness) {
+        std::string changed = text;
+        if (const std::size_t at = changed.find("1e8"); at != std::string::npos) changed.replace(at, 3, stiffness);
+        folder.write("b.json", changed);
+    };
+    write(R"({"entries": {"g": {"scene": {"time": {"end": 0.6}}, "output": {"type": "still", "at": 0.4,
+        "size": [320, 180], "view": {"style": "flat"}, "compare": [{"label": "stiff"},
+        {"label": "soft", "set": {"beam.modes": 3, "contact.stiffness": 1e8}}]}}}})",
+          "1e8");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update g").code, 7);
+    const std::string accepted = slurp(folder / "b.json");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+    for (const char* stiffness : {"1.001e8", "1.01e8"}) {
+        write(accepted, stiffness);
+        const Finished changed = shell(folder, "$BEAMCAM test b.json");
+        EXPECT_EQ(changed.code, 7) << stiffness;
+        EXPECT_THAT(changed.out, HasSubstr("motion different: soft: "));
+    }
+    folder.write("b.json", accepted);
+    std::filesystem::remove(folder / "b/g/motion-2.csv");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json").out, HasSubstr("soft: no motion is kept"));
+}
+
+TEST(Regression, AReferenceWhoseDigestWasNotAcceptedFails) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --report r").code, 7);
+    const std::string right = slurp(folder / "b/fall/0000.png");
+    folder.write("b/fall/0000.png", slurp(folder / "r/fall/0000-actual.png"));
+    for (const char* title : {"another", ""}) {  // also where the picture itself is the accepted one
+        folder.write("s.json", std::string(R"({"time": {"end": 0.35}, "title": ")") + title + "\"}");
+        const Finished finished = shell(folder, "$BEAMCAM test b.json --only fall");
+        EXPECT_EQ(finished.code, 7) << title;
+        EXPECT_THAT(finished.out, HasSubstr("b/fall/0000.png is not the picture that was accepted"));
+    }
+    folder.write("b/fall/0000.png", right);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --strict").code, 0);
+}
+
+TEST(Regression, AMotionThatUpdateDidNotAcceptFails) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "contact": {"stiffness": 1.01e8}})");
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM simulate s.json --trajectory b/motion/motion.csv --channels theta --rate 50 "
+                    "--impacts b/motion/impacts.json --force -q")
+                  .code,
+              0);
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --only motion");
+    EXPECT_EQ(finished.code, 7);
+    EXPECT_THAT(finished.out, HasSubstr("b/motion/motion.csv is not what --update put there"));
+}
+
+// ---- what an update must not touch -------------------------------------------------------------------
+
+TEST(Regression, UpdateRefusesAFolderThatIsNotItsOwn) {
+    for (const char* references : {"scenes", ".", "..", "ABSOLUTE"}) {
+        const Folder folder;
+        std::filesystem::create_directories(folder / "scenes/fall");
+        std::filesystem::create_directories(folder / "x/fall");
+        std::filesystem::create_directories(folder / "fall");
+        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
+            folder.write(each, "two weeks of work");
+        std::string named = references;
+        if (named == "ABSOLUTE") named = (folder / "scenes").string();
+        const std::string at = std::string(references) == ".." ? "x/b.json" : "b.json";
+        folder.write(at, R"({"references": ")" + named + R"(", "entries": {"fall": {"scene": {"time": {"end": 0.1}},
+            "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}}}})");
+        const Finished finished = shell(folder, "$BEAMCAM test " + at + " --update fall");
+        EXPECT_EQ(finished.code, 6) << references << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("fall is not a folder of references"));
+        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
+            EXPECT_EQ(slurp(folder / each), "two weeks of work") << references;
+        EXPECT_EQ(shell(folder, "$BEAMCAM test " + at + " --update fall --force").code, 7);
+        EXPECT_EQ(slurp(folder / "scenes/fall/notes.txt"), "two weeks of work") << references;
+    }
+}
+
+// ---- one entry's misfortune --------------------------------------------------------------------------
+
+TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
+    const Guarded folder;
+    folder.update();
+    const std::string right = slurp(folder / "b.json");
+    folder.write("b/hit/motion.csv", "t,theta\n0,zero\n");
+    const Finished damaged = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(damaged.code, 6) << damaged.out;
+    for (const char* line : {"identical   fall", "identical   fast", "missing     hit", "b/hit/motion.csv:2:3"})
+        EXPECT_THAT(damaged.out, HasSubstr(line));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit").code, 6);  // it was changed by hand
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit --force").code, 7);
+    folder.swap("b.json", R"("motion": {"scene": "s.json")", R"("motion": {"scene": "gone.json")");
+    const Finished gone = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(gone.code, 3) << gone.out;
+    EXPECT_THAT(gone.err, HasSubstr("b.json:7:25: entries.motion.scene: gone.json: there is no such file"));
+    for (const char* line : {"identical   fall", "identical   fast", "identical   hit", "missing     motion"})
+        EXPECT_THAT(gone.out, HasSubstr(line));
+    folder.write("b.json", right);
+    folder.swap("b.json", R"("at": "0.2 s")", R"("at": "impact:9")");
+    const Finished unreachable = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(unreachable.code, 7);
+    EXPECT_THAT(unreachable.out, HasSubstr("there is no impact 9"));
+    for (const char* line : {"different   fall", "identical   hit", "identical   motion"})
+        EXPECT_THAT(unreachable.out, HasSubstr(line));
+}
+
+// ---- what is no change -------------------------------------------------------------------------------
+
+TEST(Regression, AnErrorOfTheSolverIsNoMotion) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.6}})");
+    folder.write("b.json", R"({"entries": {"m": {"scene": "s.json", "output": {"type": "trajectory", "rate": 200}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update m").code, 7);
+    EXPECT_THAT(slurp(folder / "b/m/motion.csv"), Not(HasSubstr("energy_residual")));
+    for (const char* solver : {R"("rtol": 1e-9)", R"("method": "rk8")"}) {
+        folder.write("s.json", std::string(R"({"time": {"end": 0.6}, "solver": {)") + solver + "}}");
+        const Finished finished = shell(folder, "$BEAMCAM test b.json");
+        EXPECT_EQ(finished.code, 0) << finished.out;
+        EXPECT_THAT(finished.out, HasSubstr("equivalent  m"));
+    }
 }
 
 // The schema that editors use says the same as the reader, but for what only the reader can know.
