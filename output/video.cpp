@@ -10,14 +10,15 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "output/atomic_file.hpp"
 #include "output/palette.hpp"
 #include "output/video_library.hpp"
-#include "output/video_module.hpp"
 #include "output/yuv.hpp"
+#include "render/memory.hpp"
 
 namespace beamcam::output {
 
@@ -34,26 +35,15 @@ std::string presets_in_words() {
     return text;
 }
 
-// ---- module ------------------------------------------------------------------------------------
-
-const BeamcamVideoModule& load_module() {
-    using Door = const BeamcamVideoModule* (*)();
-    const BeamcamVideoModule* module = reinterpret_cast<Door>(video_library_symbol("beamcam_video_module"))();
-    if (module->version != kBeamcamVideoModuleVersion)
-        throw MissingCodec("the module beamcam_video.so belongs to another version of beamcam; install beamcam again");
-    return *module;
-}
-
 // ---- what each kind of film asks of FFmpeg -------------------------------------------------------
 
 enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
-using Pairs = std::vector<std::pair<std::string, std::string>>;
 struct Recipe {
     const char* container;
-    std::vector<const char*> encoders;
+    std::vector<std::string> encoders;
     const char* pixel_format;
     PixelLayout layout;
-    Pairs encoder_options, container_options;
+    OptionList encoder_options, container_options;
     std::string missing;
 };
 
@@ -158,8 +148,7 @@ Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
     Recipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
     add_encoder(r, o);
     r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
-    for (const char* encoder : r.encoders)
-        r.missing += (encoder == r.encoders.front() ? "" : " or ") + std::string(encoder);
+    for (const std::string& encoder : r.encoders) r.missing += (encoder == r.encoders.front() ? "" : " or ") + encoder;
     r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
     // faststart: the index stands first, so that players begin before they have the whole file.
     // use_metadata_tags: keys of our own are kept.
@@ -234,7 +223,7 @@ std::vector<std::string> problems(const VideoOptions& o, std::string_view ending
 
 // A picture on its way: a frame that belongs to the module.
 struct VideoInput::Slot {
-    BeamcamVideoFrame* frame = nullptr;
+    FramePlanes* frame = nullptr;
     int uses = 0;         // places in the queue, and one for being the latest picture
     render::Tiles stale;  // where it is not what its input converted last
 };
@@ -249,9 +238,8 @@ struct VideoWriter::Impl {
     VideoOptions options;
     PixelLayout layout = PixelLayout::yuv420;
     std::optional<PaletteTable> table;  // of a GIF
-    const BeamcamVideoModule& module;
-    BeamcamVideoSession* session = nullptr;
-    std::unique_ptr<VideoInput> own;  // of `write`
+    std::unique_ptr<Encoder> encoder;   // the worker's, but for making frames, until `stop`
+    std::unique_ptr<VideoInput> own;    // of `write`
 
     mutable std::mutex mutex;  // guards what follows
     std::condition_variable changed;
@@ -270,15 +258,18 @@ struct VideoWriter::Impl {
     VideoStatistics cost;
     std::thread worker;
 
-    Impl(const Target& target, const VideoOptions& wanted) : file(target), options(wanted), module(load_module()) {
+    Impl(const Target& target, const VideoOptions& wanted) : file(target), options(wanted) {
         open();
-        worker = std::thread([this] { work(); });
+        try {
+            worker = std::thread([this] { work(); });
+        } catch (const std::system_error&) {
+            throw IoError("cannot make " + target.path.string() +
+                          ": no thread can be started for the encoder; close some programs or raise the limits "
+                          "(ulimit -u, ulimit -v)");
+        }
     }
 
-    ~Impl() {
-        stop(true);
-        if (session != nullptr) module.close(session);
-    }
+    ~Impl() { stop(true); }
 
     void open() {
         const Recipe recipe = recipe_of(options, file.target().extension().string());
@@ -287,41 +278,35 @@ struct VideoWriter::Impl {
             longest_hold = std::lround(kLongestHold * options.fps);
             options.metadata["beamcam-rate-mode"] = "variable";  // what `concat` looks for
         }
-        std::vector<const char*> metadata, encoders, encoder_options, container_options;
-        for (const auto& [key, value] : options.metadata) metadata.insert(metadata.end(), {key.c_str(), value.c_str()});
-        for (const auto& [key, value] : recipe.encoder_options)
-            encoder_options.insert(encoder_options.end(), {key.c_str(), value.c_str()});
-        for (const auto& [key, value] : recipe.container_options)
-            container_options.insert(container_options.end(), {key.c_str(), value.c_str()});
-        for (const char* encoder : recipe.encoders) encoders.push_back(encoder);
-        for (auto* list : {&metadata, &encoders, &encoder_options, &container_options}) list->push_back(nullptr);
         std::vector<std::uint32_t> colors = options.palette;
         if (!colors.empty()) table.emplace(colors);
         colors.resize(256, 0xff000000U);
         const FrameRate fps = frame_rate(options.fps);
-        const std::string path = file.temporary_path().string();
-        const BeamcamVideoSettings settings = {path.c_str(),
-                                               options.width,
-                                               options.height,
-                                               fps.rate,
-                                               fps.base,
-                                               options.threads,
-                                               recipe.container,
-                                               encoders.data(),
-                                               recipe.pixel_format,
-                                               encoder_options.data(),
-                                               container_options.data(),
-                                               recipe.missing.c_str(),
-                                               colors.data(),
-                                               metadata.data()};
-        BeamcamVideoError error = {};
-        const BeamcamVideoStatus opened = module.open(&settings, &session, &error);
-        if (opened == beamcam_video_failed)  // what no rule of ours knew
+        EncoderSettings settings;
+        settings.file = file.temporary_path();
+        settings.named = file.target();
+        settings.width = options.width;
+        settings.height = options.height;
+        settings.rate = fps.rate;
+        settings.rate_base = fps.base;
+        settings.threads = options.threads;
+        settings.container = recipe.container;
+        settings.encoders = recipe.encoders;
+        settings.pixel_format = recipe.pixel_format;
+        settings.encoder_options = recipe.encoder_options;
+        settings.container_options = recipe.container_options;
+        settings.missing = recipe.missing;
+        if (layout == PixelLayout::indices) std::copy(colors.begin(), colors.end(), settings.palette.emplace().begin());
+        settings.metadata.assign(options.metadata.begin(), options.metadata.end());
+        try {
+            encoder = video_library().open_encoder(settings);
+        } catch (const CodecFailure& error) {                       // what no rule of ours knew
+            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
             throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
                                     std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                    " pixels here (" + error.text +
+                                    " pixels here (" + error.what() +
                                     "); choose a smaller size, or write frames (NAME-####.png)");
-        check(opened, error);
+        }
     }
 
     // Slots for one more input.
@@ -329,30 +314,11 @@ struct VideoWriter::Impl {
         const std::lock_guard lock(mutex);
         std::vector<Slot*> more;
         for (std::size_t i = 0; i < kSlotsOfAnInput; ++i) {
-            BeamcamVideoFrame* frame = module.make_frame(session);
-            if (frame == nullptr) throw std::bad_alloc();
-            slots.push_back({frame, 0, render::Tiles(options.width, options.height)});
+            slots.push_back({&encoder->make_frame(), 0, render::Tiles(options.width, options.height)});
             slots.back().stale.add_all();
             more.push_back(&slots.back());
         }
         return more;
-    }
-
-    // Throws what a status of the module means to the user.
-    void check(BeamcamVideoStatus status, const BeamcamVideoError& error) const {
-        switch (status) {
-            case beamcam_video_ok:
-                return;
-            case beamcam_video_missing_codec:
-                throw MissingCodec(error.text);
-            case beamcam_video_write_failed:
-                throw write_error(file.target(), error.error_number);
-            case beamcam_video_read_failed:
-            case beamcam_video_differs:
-            case beamcam_video_failed:
-                break;
-        }
-        throw std::runtime_error("the film " + file.target().string() + " failed: " + error.text);
     }
 
     void work() {
@@ -375,40 +341,51 @@ struct VideoWriter::Impl {
         }
     }
 
-    // After what waits to be shown again has had its time.
+    // After what waits to be shown again has had its time. What fails is left where the next `write` or `finish` finds
+    // it, and ends `work`.
     void encode(Slot& slot, std::unique_lock<std::mutex>& lock) {
-        if (waiting > 0) module.hold(session, std::exchange(waiting, 0));
+        const long held = std::exchange(waiting, 0);
         lock.unlock();
         const Clock::time_point start = Clock::now();
-        BeamcamVideoError error = {};
-        const BeamcamVideoStatus status = module.encode(session, slot.frame, &error);
+        std::exception_ptr error;
+        try {
+            if (held > 0) encoder->hold(held);
+            encoder->encode(*slot.frame);
+        } catch (...) {
+            error = std::current_exception();
+        }
         const double spent = seconds_since(start);
         lock.lock();
         cost.encode_seconds += spent;
-        if (status == beamcam_video_ok)
+        if (!error) {
             ++cost.frames;
-        else
-            give_up(status, error);
-    }
-
-    // A film that ends with a picture held ends with its last frame, so that it lasts as long as it should. After
-    // `stop`.
-    void end_hold() {
-        if (failure || waiting == 0) return;
-        --waiting;
-        --cost.held;
-        std::unique_lock lock(mutex);
-        encode(*latest, lock);
-    }
-
-    // Leaves the reason where the next `write` or `finish` finds it, and ends `work`.
-    void give_up(BeamcamVideoStatus status, const BeamcamVideoError& error) {
-        closing = abandoned = true;
-        try {
-            check(status, error);
-        } catch (...) {
-            failure = std::current_exception();
+            return;
         }
+        closing = abandoned = true;
+        failure = error;
+    }
+
+    // What is left after the last picture was queued, and the end of the file.
+    void finish() {
+        stop(false);
+        std::unique_lock lock(mutex);
+        // A film that ends with a picture held ends with its last frame, so that it lasts as long as it should.
+        if (!failure && waiting > 0) {
+            --waiting;
+            --cost.held;
+            encode(*latest, lock);
+        }
+        if (failure) std::rethrow_exception(failure);
+        const Clock::time_point start = Clock::now();
+        encoder->finish();
+        cost.encode_seconds += seconds_since(start);
+        file.commit();
+    }
+
+    // The picture queued last; null before the first.
+    Slot* last() {
+        const std::lock_guard lock(mutex);
+        return latest;
     }
 
     // Waits until `ready`, which runs under the lock. Throws what the encoder met.
@@ -445,7 +422,7 @@ struct VideoWriter::Impl {
         cost.convert_seconds += spent;
     }
 
-    void convert(const render::Image& image, const BeamcamVideoFrame& frame, const render::Tiles& part) const {
+    void convert(const render::Image& image, const FramePlanes& frame, const render::Tiles& part) const {
         YuvaPlanes planes;
         for (std::size_t i = 0; i < 4; ++i) {
             planes.plane[i] = frame.plane[i];
@@ -514,8 +491,9 @@ void VideoWriter::write(const render::Image& image) {
 }
 
 void VideoWriter::repeat() {
-    if (impl_->latest == nullptr) throw std::logic_error("VideoWriter: nothing to repeat");
-    impl_->enqueue(*impl_->latest, true);
+    Impl::Slot* last = impl_->last();
+    if (last == nullptr) throw std::logic_error("VideoWriter: nothing to repeat");
+    impl_->enqueue(*last, true);
 }
 
 VideoInput::VideoInput(VideoWriter& film) : film_(*film.impl_), slots_(film_.more_slots()) {}
@@ -533,15 +511,8 @@ void VideoInput::send() {
 }
 
 void VideoWriter::finish() {
-    if (impl_->latest == nullptr) throw std::logic_error("VideoWriter: a film needs at least one picture");
-    impl_->stop(false);
-    impl_->end_hold();
-    if (impl_->failure) std::rethrow_exception(impl_->failure);
-    const Clock::time_point start = Clock::now();
-    BeamcamVideoError error = {};
-    impl_->check(impl_->module.finish(impl_->session, &error), error);
-    impl_->cost.encode_seconds += seconds_since(start);
-    impl_->file.commit();
+    if (impl_->last() == nullptr) throw std::logic_error("VideoWriter: a film needs at least one picture");
+    impl_->finish();
 }
 
 VideoStatistics VideoWriter::statistics() const {
@@ -550,30 +521,9 @@ VideoStatistics VideoWriter::statistics() const {
 }
 
 long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file) {
-    const BeamcamVideoModule& module = load_module();
-    std::vector<std::string> texts;
-    for (const auto& segment : segments) texts.push_back(segment.string());
-    std::vector<const char*> names;
-    for (const std::string& text : texts) names.push_back(text.c_str());
-    names.push_back(nullptr);
     AtomicFile target(file);
-    const std::string path = target.temporary_path().string();
-    std::int64_t frames = 0;
-    BeamcamVideoError error = {};
-    switch (module.concat(names.data(), path.c_str(), container_of(file.path.extension().string()), &frames, &error)) {
-        case beamcam_video_ok:
-            break;
-        case beamcam_video_missing_codec:
-            throw MissingCodec(error.text);
-        case beamcam_video_write_failed:
-            throw write_error(file.path, error.error_number);
-        case beamcam_video_read_failed:
-            throw IoError(error.text);
-        case beamcam_video_differs:
-            throw Mismatch(error.text);
-        case beamcam_video_failed:
-            throw std::runtime_error("the film " + file.path.string() + " failed: " + error.text);
-    }
+    const std::int64_t frames = video_library().concatenate(segments, target.temporary_path(), file.path,
+                                                            container_of(file.path.extension().string()));
     target.commit();
     return static_cast<long>(frames);
 }

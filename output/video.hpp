@@ -105,13 +105,8 @@ class VideoInput {
     Slot* filled_ = nullptr;
 };
 
-// Segments that do not make one film: another codec, size, rate, encoder setting or scene, out of order, or no film.
-struct Mismatch : IoError {
-    using IoError::IoError;
-};
-
 // One film out of segments, in their order, packets as they are: every picture decodes to what it was. Metadata is the
-// first one's. Returns how many pictures there are. Throws Mismatch, MissingCodec, IoError.
+// first one's. Returns how many pictures there are. Throws Mismatch (video_library.hpp), MissingCodec, IoError.
 long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file);
 
 }  // namespace beamcam::output

@@ -10,35 +10,23 @@
 #include <memory>
 #include <string>
 
-#include "output/errors.hpp"
 #include "output/raster.hpp"
+#include "output/video_library.hpp"
 
 namespace beamcam::output {
-
-struct VideoFacts {
-    int width = 0, height = 0;  // [px]
-    long frames = 0;            // as the file says; 0: it does not
-    double seconds = 0;         // as the file says; 0: it does not
-    std::string codec, container;
-    std::map<std::string, std::string> metadata;
-
-    bool is_still() const { return container.ends_with("_pipe") && container != "webp_pipe"; }
-};
 
 class VideoReader {
   public:
     // Throws IoError, MissingCodec.
     explicit VideoReader(const std::filesystem::path& file);
-    ~VideoReader();
-    VideoReader(const VideoReader&) = delete;
-    VideoReader& operator=(const VideoReader&) = delete;
 
-    const VideoFacts& facts() const;
+    const VideoFacts& facts() const { return decoder_->facts(); }
     bool next(Raster& picture);  // false after the last; throws IoError
 
   private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::filesystem::path file_;
+    std::unique_ptr<Decoder> decoder_;
+    long read_ = 0;
 };
 
 // What the FFmpeg libraries of this machine can do. Throws MissingCodec.

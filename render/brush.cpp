@@ -1,16 +1,25 @@
 #include "render/brush.hpp"
 
-#include <cairo.h>
-
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
+#include <utility>
+
+#include "render/cairo_status.hpp"
 
 namespace beamcam::render {
 
+void Brush::begin(cairo_t* cr) {
+    cr_ = cr;
+    exceptions_ = std::uncaught_exceptions();
+}
+
 void Brush::end() {
-    if (cr_) cairo_destroy(cr_);
-    cr_ = nullptr;
+    if (!cr_) return;
+    const cairo_status_t status = cairo_status(cr_);
+    cairo_destroy(std::exchange(cr_, nullptr));
+    if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
 void Brush::use(Color c) { cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a); }

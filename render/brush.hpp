@@ -50,12 +50,12 @@ class Brush {
 
   protected:
     Brush() = default;
-    ~Brush() { end(); }
-    void begin(cairo_t* cr) { cr_ = cr; }  // takes it over; before anything is drawn
-    void end();                            // while its surface is there
-    void use(Color color);                 // for what is painted next
-    void touch(const Box& box);            // ink within it, blurred edges included
-    void pass(const Box& box);             // the path is there
+    ~Brush() noexcept(false) { end(); }
+    void begin(cairo_t* cr);     // takes it over; before anything is drawn
+    void end();                  // while its surface is there; throws what Cairo could not draw
+    void use(Color color);       // for what is painted next
+    void touch(const Box& box);  // ink within it, blurred edges included
+    void pass(const Box& box);   // the path is there
     void new_path();
     // What else tells this path from others.
     void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
@@ -66,6 +66,7 @@ class Brush {
     const Box* limit_ = nullptr;  // nothing is painted beyond
 
   private:
+    int exceptions_ = 0;  // in flight when drawing began
     void pass_line(Vec2 from, Vec2 to);
     void pass_arc(Vec2 centre, double radius, double from, double to);
     void touch_path(double around, bool inside);

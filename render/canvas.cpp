@@ -115,12 +115,13 @@ Metrics metrics(PangoLayout* layout) {
 Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), image_(image), fonts_(fonts) {
     handles_->surface = surface_of(image);
     begin(cairo_create(handles_->surface));
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
         throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn: {}", image.width, image.height,
                                        cairo_status_to_string(cairo_status(cr_))));
     cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
 }
-Canvas::~Canvas() { end(); }
+Canvas::~Canvas() noexcept(false) { end(); }
 
 void Canvas::rounded(const Box& b, double r) {
     constexpr double q = std::numbers::pi / 2;

@@ -39,7 +39,7 @@ struct TextStyle {
 class Canvas : public Brush {
   public:
     Canvas(Image& image, const Fonts& fonts);
-    ~Canvas();
+    ~Canvas() noexcept(false);  // throws what Cairo could not draw: a picture is whole, or an error
 
     void rounded(const Box& box, double radius);
     void paint(Color color);

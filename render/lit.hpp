@@ -61,6 +61,13 @@ class LitRenderer {
     double read_back = 0;  // so far, of lit pictures, once they are drawn [s]
 };
 
+// What the module beamcam_gl.so offers.
+class LitLibrary {
+  public:
+    virtual ~LitLibrary() = default;
+    virtual std::unique_ptr<LitRenderer> make_renderer(int width, int height) const = 0;
+};
+
 // Throws GlError.
 std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height);
 

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "render/blend.hpp"
+#include "render/cairo_status.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -108,9 +109,11 @@ Stencils::Stencil Stencils::stencil_of(const Box& box, cairo_t* cr, const std::f
     cairo_path_destroy(path);
     cairo_set_line_join(own, cairo_get_line_join(cr));
     ink(own);
+    const cairo_status_t status = cairo_status(own);
     cairo_destroy(own);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
+    require_success(status);
     return s;
 }
 

@@ -23,7 +23,7 @@ ROOMS = ["sim", "render", "output", "scenes"]
 PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 1}),
-    ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 2}),
+    ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
     ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 1, "scenes": 3}),

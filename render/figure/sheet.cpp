@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/cairo_status.hpp"
 #include "render/error.hpp"
 #include "render/figure/text.hpp"
 #include "render/font_handles.hpp"
@@ -52,14 +53,12 @@ struct Sheet::Handles {
     std::string stream;  // of PDF and SVG; outlives the surface
     Image image;
     cairo_surface_t* surface = nullptr;
-    void end() {
-        if (surface) {
-            cairo_surface_finish(surface);
-            cairo_surface_destroy(surface);
-        }
-        surface = nullptr;
+    // Writes what is left of a document.
+    void finish() {
+        cairo_surface_finish(surface);
+        require_success(cairo_surface_status(surface));
     }
-    ~Handles() { end(); }
+    ~Handles() { cairo_surface_destroy(surface); }
 };
 
 struct Sheet::Set {
@@ -115,6 +114,7 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
         cairo_svg_surface_set_document_unit(h.surface, CAIRO_SVG_UNIT_MM);
     }
     begin(cairo_create(h.surface));
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
         throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm cannot be drawn: {}", size.width / points(1),
                                        size.height / points(1), cairo_status_to_string(cairo_status(cr_))));
@@ -123,7 +123,7 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
     use(rgb(0xFFFFFF));
     cairo_paint(cr_);
 }
-Sheet::~Sheet() { end(); }
+Sheet::~Sheet() noexcept(false) { end(); }
 
 // A quarter of a pixel, or of the 1/600 inch of a good printer.
 double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? size_.dpi : 600)); }
@@ -306,17 +306,14 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
 
 Image Sheet::image() {
     end();
-    handles_->end();
+    handles_->finish();
     return std::move(handles_->image);
 }
 
 std::string Sheet::bytes() {
     cairo_show_page(cr_);
-    const cairo_status_t status = cairo_status(cr_);
     end();
-    handles_->end();
-    if (status != CAIRO_STATUS_SUCCESS)
-        throw PictureError(fmt::format("the figure cannot be drawn: {}", cairo_status_to_string(status)));
+    handles_->finish();
     std::string file = std::move(handles_->stream);
     if (medium_ != Medium::svg) return file;
     // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.

@@ -56,7 +56,7 @@ class Sheet : public Brush {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
     Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document = {});
-    ~Sheet();
+    ~Sheet() noexcept(false);
 
     const SheetSize& size() const { return size_; }
     double grain() const;  // the smallest distance that shows [pt]

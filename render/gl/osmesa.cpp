@@ -16,10 +16,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <vector>
 
 #include "render/error.hpp"
 #include "render/lit.hpp"
+#include "render/modules.hpp"
 #include "render/tiles.hpp"
 
 namespace beamcam::render {
@@ -325,8 +327,7 @@ class OsmesaRenderer final : public LitRenderer {
         glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glFinish();
-        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+        require_no_error();
     }
 
   private:
@@ -377,8 +378,7 @@ class OsmesaRenderer final : public LitRenderer {
                          out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
         read_back += std::chrono::duration<double>(std::chrono::steady_clock::now() - drawn).count();
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+        require_no_error();
     }
 
     void make_lit_target() {
@@ -460,7 +460,14 @@ class OsmesaRenderer final : public LitRenderer {
         require_target();
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
     }
+    static void require_no_error() {
+        const GLenum error = glGetError();
+        if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (error != GL_NO_ERROR)
+            throw GlError(fmt::format("OpenGL reported error 0x{:x} while drawing; {}", error, kRemedy));
+    }
     static void require_target() {
+        require_no_error();  // a buffer for which there was no memory
         if (const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER); state != GL_FRAMEBUFFER_COMPLETE)
             throw GlError(fmt::format("OpenGL cannot draw into its own memory here (0x{:x}); {}", state, kRemedy));
     }
@@ -567,10 +574,16 @@ class OsmesaRenderer final : public LitRenderer {
     GLuint solid_ = 0, depth_ = 0, solid_vertices_ = 0, solid_buffer_ = 0, solid_target_ = 0, shadow_target_ = 0;
 };
 
+class OsmesaLibrary : public LitLibrary {
+  public:
+    OsmesaLibrary() = default;
+    std::unique_ptr<LitRenderer> make_renderer(int width, int height) const override {
+        return std::make_unique<OsmesaRenderer>(width, height);
+    }
+};
+const OsmesaLibrary kLibrary;
+
 }  // namespace
 }  // namespace beamcam::render
 
-extern "C" __attribute__((visibility("default"))) beamcam::render::LitRenderer* beamcam_make_lit_renderer(int width,
-                                                                                                          int height) {
-    return new beamcam::render::OsmesaRenderer(width, height);
-}
+BEAMCAM_MODULE(static_cast<const beamcam::render::LitLibrary&>(beamcam::render::kLibrary))

@@ -7,6 +7,7 @@
 #include "output/atomic_file.hpp"
 #include "output/sha256.hpp"
 #include "output/video.hpp"
+#include "output/video_library.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -326,6 +327,63 @@ TEST(Film, SecondSignalLeavesNothing) {
     });
     EXPECT_EQ(code, 130);
     EXPECT_TRUE(scratch.names().empty());
+}
+
+// ---- joining -----------------------------------------------------------------------------------------
+
+void write_segment(const std::filesystem::path& file, const std::string& frames, int count) {
+    VideoOptions options = small_film();
+    if (file.extension() == ".webm") options.codec = Codec::vp9;
+    options.metadata = {{"beamcam-frames", frames}};
+    write_film(file, options, count);
+}
+
+std::string error_of_joining(const Scratch& scratch, const std::vector<std::filesystem::path>& segments) {
+    const auto joined = scratch / ("joined" + segments.front().extension().string());
+    try {
+        concatenate(segments, joined);
+    } catch (const IoError& error) {
+        EXPECT_FALSE(std::filesystem::exists(joined));
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Concatenate, ASegmentHoldsTheFramesThatItDeclares) {
+    for (const char* ending : {".mp4", ".mkv", ".webm", ".mov"}) {
+        Scratch scratch;
+        const auto a = scratch / (std::string("a") + ending), b = scratch / (std::string("b") + ending);
+        write_segment(a, "0:5 of 0:10", 5);
+        write_segment(b, "5:10 of 0:10", 4);
+        EXPECT_NE(error_of_joining(scratch, {a, b}).find("4 of its 5 frames"), std::string::npos) << ending;
+        write_segment(b, "5:10 of 0:10", 5);
+        EXPECT_EQ(error_of_joining(scratch, {a, b}), "");
+    }
+}
+
+TEST(Concatenate, ACutSegmentIsRefused) {
+    for (const char* ending : {".mp4", ".mkv", ".webm", ".mov"}) {
+        Scratch scratch;
+        const auto a = scratch / (std::string("a") + ending), b = scratch / (std::string("b") + ending);
+        for (const char* frames : {"5:10 of 0:10", ""}) {
+            write_segment(a, "0:5 of 0:10", 5);
+            write_segment(b, frames, 5);
+            const std::string whole = read_file(b);
+            for (const double share : {0.3, 0.6, 0.9, 0.995}) {
+                write_file(b, whole.substr(0, static_cast<std::size_t>(share * double(whole.size()))));
+                EXPECT_NE(error_of_joining(scratch, {a, b}), "") << ending << " " << share << frames;
+            }
+        }
+    }
+}
+
+// A raw stream has neither.
+TEST(Concatenate, AFilmWithoutRateOrTimeStampsIsRefused) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 5);
+    output_of("/usr/bin/ffmpeg -v error -i " + (scratch / "a.mp4").string() +
+              " -c copy -bsf:v h264_mp4toannexb -f h264 " + (scratch / "raw.mp4").string());
+    EXPECT_NE(error_of_joining(scratch, {scratch / "raw.mp4"}), "");
 }
 
 TEST(VideoOptions, DefaultsAreSound) { EXPECT_TRUE(problems({}).empty()); }
