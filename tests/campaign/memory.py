@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Runs every kind of output with less and less memory (ulimit -v): each run must succeed, or end with a message and a documented
+exit code; no signal, no half-written file, no other cause in the message.
+
+memory.py PROGRAM [--steps MB,MB,…]
+"""
+import argparse
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+
+DOCUMENTED = {0, 5, 6}
+STEPS = [20, 40, 60, 80, 100, 130, 160, 200, 250, 300, 350, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
+SIZE = '"size": [1280, 720]'
+FLAT, LIT, SOLID = ('"view": {"style": "%s"}' % style for style in ("flat", "lit", "solid"))
+OUTPUTS = {
+    "flat still": f'{{"type": "still", "at": 0.1, "file": "a.png", {SIZE}, {FLAT}}}',
+    "large still": f'{{"type": "still", "at": 0.1, "file": "a.png", "size": [4096, 4096], {FLAT}}}',
+    "lit still": f'{{"type": "still", "at": 0.1, "file": "a.png", {SIZE}, {LIT}}}',
+    "solid still": f'{{"type": "still", "at": 0.1, "file": "a.png", {SIZE}, {SOLID}}}',
+    "frames": f'{{"type": "frames", "file": "a-##.png", "fps": 20, {SIZE}, {FLAT}}}',
+    "figure PDF": '{"type": "figure", "figure": "schematic", "file": "a.pdf"}',
+    "figure PNG": '{"type": "figure", "figure": "angle", "file": "a.png"}',
+    "CSV": '{"type": "trajectory", "file": "a.csv", "rate": 1000, "channels": ["theta"]}',
+    "NPZ": '{"type": "trajectory", "file": "a.npz", "rate": 1000, "channels": ["theta"]}',
+    "impacts": '{"type": "impacts", "file": "a.json"}',
+    "summary": '{"type": "summary", "file": "a.json"}',
+    **{f"film {e} {c}": f'{{"type": "video", "file": "a.{e}", "codec": "{c}", "fps": 10, {SIZE}, {FLAT}}}'
+       for e, c in (("mp4", "h264"), ("webm", "vp9"), ("webm", "av1"), ("mov", "prores"), ("mkv", "ffv1"), ("gif", "gif"),
+                    ("apng", "apng"), ("webp", "webp"))},
+    "lit film": f'{{"type": "video", "file": "a.mp4", "fps": 10, {SIZE}, {LIT}}}',
+}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--steps", default=",".join(map(str, STEPS)))
+    args = parser.parse_args()
+    program, problems = os.path.abspath(args.program), []
+    for name, output in OUTPUTS.items():
+        row = []
+        for megabytes in map(int, args.steps.split(",")):
+            with tempfile.TemporaryDirectory() as scratch:
+                folder, limit = pathlib.Path(scratch), megabytes << 20
+                (folder / "s.json").write_text(f'{{"time": {{"end": 0.3}}, "outputs": [{output}]}}', encoding="utf-8")
+                done = subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True, text=True,
+                                      errors="replace", env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
+                                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+                left = [p.name for p in folder.glob("out/*") if done.returncode and p.name != ".beamcam.json"]
+                loader = done.returncode == 127  # the program itself does not fit
+                row.append("-" if loader else str(done.returncode))
+                if not loader and (done.returncode not in DOCUMENTED or left or (done.returncode and "memory" not in done.stderr)):
+                    problems.append(f"{name} with {megabytes} MB: exit {done.returncode}, left {left}: {done.stderr[-300:]}")
+        print(f"{name:16} {' '.join(code.rjust(3) for code in row)}", flush=True)
+    print("\n".join(problems) or "every end was told")
+    sys.exit(1 if problems else 0)
+
+
+main()

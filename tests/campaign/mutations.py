@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+"""Feeds the program damaged files of every kind it reads, through every command that reads them.
+
+mutations.py PROGRAM [--count N] [--seed N] [--jobs N] [--keep FOLDER]
+
+Samples of every kind are made with the program itself: scenes, baselines, CSV and NPZ tables, PNG, PDF and SVG pictures, films
+in every container, the manifest of an output folder, cached motions. Each run gets one of them with a few mutations: bytes
+flipped, parts cut, doubled, exchanged or overwritten with numbers, words and escape sequences; checksums are repaired in half of
+the runs, so that what they guard is reached. Every run must end within a minute, with a documented exit code other than 1
+(bug), without a signal, and with neither control characters nor marks of direction nor broken UTF-8 on standard output or
+standard error. N is 500 by default; inputs that fail are kept in FOLDER.
+"""
+import argparse
+import collections
+import concurrent.futures
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+DOCUMENTED = {0, 2, 3, 4, 5, 6, 7}  # 1 is a bug, 130 an interruption
+LONGEST = 60  # [s]
+MOST_MEMORY = 6 << 30  # [bytes] of address space: a run that asks for more gets a message instead
+UNSAFE = re.compile("[\0-\b\v-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb\U000e0000-\U000e007f]")
+
+FILM = '{"type": "video", "file": "f.%s", "size": [64, 48], "fps": 20, "view": {"style": "flat"}, "rate_mode": "constant"}'
+SCENE = """{"title": "A sample", "time": {"end": 0.2}, "outputs": [
+ {"type": "still", "at": 0.1, "file": "p.png", "size": [64, 48], "view": {"style": "flat"}},
+ {"type": "figure", "figure": "schematic", "file": "d.pdf"},
+ {"type": "figure", "figure": "schematic", "file": "d.svg"},
+ {"type": "trajectory", "file": "t.csv", "channels": ["theta", "gap"], "rate": 100},
+ {"type": "trajectory", "file": "t.npz", "channels": ["theta", "gap"], "rate": 100},
+ {"type": "impacts", "file": "i.json"}, {"type": "summary", "file": "s.json"},
+ """ + ",\n ".join(FILM % e for e in ("mp4", "mkv", "webm", "gif", "apng", "webp", "mov")) + "]}"
+RICH = """{"title": "Many keys", "hub": {"inertia": "2 kg m^2"}, "beam": {"length": "1 m", "modes": 3}, "gravity": 9.81,
+ "cam": {"speed": "10 rpm"}, "contact": {"friction": {"type": "coulomb", "coefficient": 0.1}}, "time": {"end": "0.1 s"},
+ "outputs": [{"type": "video", "file": "v.mp4", "size": [64, 48], "events": [{"at": "impact:1", "freeze": 0.1, "text": "x"}],
+   "compare": [{"label": "a"}, {"label": "b", "set": {"beam.model": "rigid"}}, {"label": "c", "scene": "other.json"}],
+   "layout": {"columns": ["mechanism", {"rows": ["theta", {"panel": "strip", "channels": ["gap"], "window": 0.1}]}]}},
+  {"type": "frames", "file": "f-###.png", "size": [64, 48], "fps": 10, "speed": {"around": "impacts", "factor": 0.1}}]}"""
+BASELINES = """{"tolerance": {"channel": 1}, "entries": {
+ "still": {"scene": {"time": {"end": 0.2}}, "output": {"type": "still", "at": 0.1, "size": [64, 48], "view": {"style": "flat"}}},
+ "other": {"scene": "other.json", "set": ["cam.speed=2"], "output": {"type": "trajectory", "rate": 50, "channels": ["theta"]}}}}"""
+
+# kind: the sample file, and the commands that read it (with {f}); those of a scene get a short end.
+SHORT = ["--set", "time.end=0.02"]
+KINDS = {
+    "scene": ("other.json rich.json scene.json", [
+        ["check", "{f}"], ["check", "{f}"], ["plan", "{f}"], ["plan", "{f}", "--json"], ["run", "{f}", "-n", *SHORT],
+        ["modes", "{f}"], ["figure", "{f}"], ["render", "{f}", "-o", "x.png", "--at", "0", "--size", "64x48", "-q", *SHORT],
+        ["simulate", "{f}", "--impacts", "-", "-q", *SHORT]]),
+    "baselines": ("b.json", [["test", "{f}", "-q"], ["test", "{f}", "--json"]]),
+    "csv": ("t.csv", [["info", "{f}"], ["diff", "{f}", "t.csv"], ["diff", "t.csv", "{f}", "--json"]]),
+    "npz": ("t.npz", [["info", "{f}"], ["diff", "{f}", "t.npz"], ["diff", "{f}", "t.csv", "--json"]]),
+    "png": ("p.png", [["info", "{f}"], ["info", "{f}", "--json"], ["info", "{f}", "--scene"], ["hash", "{f}"], ["diff", "{f}", "p.png"]]),
+    "pdf": ("d.pdf", [["info", "{f}"], ["info", "{f}", "--json"], ["info", "{f}", "--scene"]]),
+    "svg": ("d.svg", [["info", "{f}"], ["info", "{f}", "--json"], ["info", "{f}", "--scene"]]),
+    "film": ("f.mp4 f.mkv f.webm f.gif f.apng f.mov", [["info", "{f}"], ["info", "{f}", "--json"], ["hash", "{f}"], ["diff", "{f}", "f.mp4"]]),
+    "webp": ("f.webp", [["info", "{f}"], ["hash", "{f}"]]),
+    "segment": ("f.mp4 f.mkv f.webm f.mov", [["concat", "{f}", "{f}", "-o", "joined.{e}", "-q"]]),
+    "manifest": (".beamcam.json", [["run", "scene.json", "-q", "-n"], ["info", "t.csv"], ["info", "f.gif", "--json"], ["diff", "t.csv", "t.csv"]]),
+    "cache": (".cache", [["cache"], ["simulate", "other.json", "--impacts", "-"], ["run", "other.json", "-n"]]),
+}
+TEXT = {"scene", "baselines", "csv", "svg", "manifest"}
+
+WORDS = [b"\x1b[31m", b"\x1b]0;x\x07", "\u009b31m".encode(), "\u202e".encode(), "\u2028".encode(), b"\0", b"\\u0000", b"\\u001b[2J",
+         b"\xff", b"\xc3", b"1e999", b"-1", b"0", b"1e-320", b"9223372036854775808", b"-9223372036854775808", b"4294967295",
+         b"16777216", b"null", b"true", b"[]", b"{}", b"\"\"", b"[[[[[[[[", b"{\"a\":" * 70, b"../../x", b"/dev/null", b"-",
+         b"%d%s%n", b"a" * 5000, b"nan", b"inf", b",", b":", b"\"", b"\n", b"//", b"/*", b"impact:1", b"impact:99999999999", b"file:///x"]
+NUMBERS = [0, 1, 0x7f, 0x80, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xffffffff]
+NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
+
+
+def mutate(data, dice, is_text):
+    data = bytearray(data)
+    for _ in range(dice.choice([1, 1, 1, 2, 3, 8])):
+        at = dice.randrange(len(data) + 1)
+        kind = dice.choice(["flip", "byte", "cut", "drop", "double", "swap", "word", "word", "number"] + ["value", "word"] * (2 * is_text))
+        if kind == "flip" and at < len(data):
+            data[at] ^= 1 << dice.randrange(8)
+        elif kind == "byte" and at < len(data):
+            data[at] = dice.randrange(256)
+        elif kind == "cut":
+            del data[at:]
+        elif kind == "drop":
+            del data[at:at + dice.choice([1, 2, 4, 16, 256])]
+        elif kind == "double":
+            data[at:at] = data[at:at + dice.choice([1, 8, 64, 1024])]
+        elif kind == "swap" and len(data) > 64:
+            a, n = dice.randrange(len(data) - 32), dice.randrange(1, 32)
+            at = min(at, len(data) - n)
+            data[a:a + n], data[at:at + n] = data[at:at + n], data[a:a + n]
+        elif kind == "word":
+            data[at:at + dice.choice([0, 0, 1, 8])] = dice.choice(WORDS)
+        elif kind == "number" and not is_text:
+            size, order = dice.choice([1, 2, 4, 8]), dice.choice(["little", "big"])
+            data[at:at + size] = (dice.choice(NUMBERS) & ((1 << 8 * size) - 1)).to_bytes(size, order)
+        elif kind == "value":
+            found = list(NUMBER.finditer(data))
+            if found:
+                one = dice.choice(found)
+                data[one.start():one.end()] = dice.choice(WORDS)
+    return bytes(data)
+
+
+def repair_png(data):
+    """Gives every chunk its checksum; stops where the lengths make no sense."""
+    out, at = bytearray(data[:8]), 8
+    while at + 12 <= len(data):
+        size = struct.unpack(">I", data[at:at + 4])[0]
+        if at + 12 + size > len(data):
+            break
+        body = data[at + 4:at + 8 + size]
+        out += data[at:at + 4] + body + struct.pack(">I", zlib.crc32(body))
+        at += 12 + size
+    return bytes(out + data[at:])
+
+
+def repair_npz(data):
+    """Writes the checksums of stored arrays into the directory."""
+    data, at = bytearray(data), 0
+    while (at := data.find(b"PK\1\2", at)) >= 0 and at + 46 <= len(data):
+        method, = struct.unpack_from("<H", data, at + 10)
+        size, = struct.unpack_from("<I", data, at + 20)
+        offset, = struct.unpack_from("<I", data, at + 42)
+        if offset + 30 <= len(data):
+            begin = offset + 30 + sum(struct.unpack_from("<HH", data, offset + 26))
+            if method == 0 and begin + size <= len(data):
+                struct.pack_into("<I", data, at + 16, zlib.crc32(data[begin:begin + size]))
+        at += 46
+    return bytes(data)
+
+
+class Campaign:
+    def __init__(self, args, samples):
+        self.program, self.samples, self.seed, self.keep = os.path.abspath(args.program), samples, args.seed, args.keep
+
+    def environment(self, folder):
+        return {**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache"), "TERM": "dumb"}
+
+    def run(self, number):
+        dice = random.Random(f"{self.seed} {number}")
+        kind = dice.choice(sorted(KINDS))
+        names, commands = KINDS[kind]
+        name, command = dice.choice(names.split()), dice.choice(commands)
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            for sample in self.samples.iterdir():
+                if sample.is_file():
+                    os.link(sample, folder / sample.name)
+            shutil.copytree(self.samples / ".cache", folder / ".cache")
+            if kind == "baselines":
+                shutil.copytree(self.samples / "b", folder / "b")
+            place = folder / name
+            if kind == "cache":
+                place = dice.choice(sorted(p for p in place.rglob("*") if p.is_file()))
+            data = mutate(place.read_bytes(), dice, kind in TEXT)
+            if dice.random() < 0.5:
+                data = repair_png(data) if place.suffix in {".png", ".apng"} else repair_npz(data) if place.suffix == ".npz" else data
+            if kind not in {"manifest", "cache"}:
+                place = folder / ("x" + place.suffix)
+            place.unlink(missing_ok=True)
+            place.write_bytes(data)
+            line = [part.format(f=place.name, e=place.suffix[1:]) for part in command]
+            problem, code = self.problem(line, folder)
+            if problem and self.keep:
+                os.makedirs(self.keep, exist_ok=True)
+                shutil.copy(place, os.path.join(self.keep, f"{number}-{place.name}"))
+            return kind, " ".join(line), code, problem and f"{number}: {kind}: beamcam {' '.join(line)}: {problem}"
+
+    def problem(self, line, folder):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        try:
+            done = subprocess.run([self.program, *line], cwd=folder, env=self.environment(folder), capture_output=True,
+                                  stdin=subprocess.DEVNULL, timeout=LONGEST, preexec_fn=limit)
+        except subprocess.TimeoutExpired:
+            return f"no end within {LONGEST} s", None
+        if done.returncode not in DOCUMENTED:
+            what = f"signal {-done.returncode}" if done.returncode < 0 else f"exit {done.returncode}"
+            return f"{what}: {done.stderr.decode('utf-8', 'replace')[-300:]}", done.returncode
+        for stream, text in (("standard output", done.stdout), ("standard error", done.stderr)):
+            try:
+                if found := UNSAFE.search(text.decode("utf-8")):
+                    return f"{stream} has {found.group()!r}", done.returncode
+            except UnicodeDecodeError as error:
+                return f"{stream} is not UTF-8: {error}", done.returncode
+        return None, done.returncode
+
+
+def make_samples(program, folder):
+    env = {**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")}
+    (folder / "scene.json").write_text(SCENE, encoding="utf-8")
+    (folder / "rich.json").write_text(RICH, encoding="utf-8")
+    (folder / "other.json").write_text('{"title": "Other", "time": {"end": 0.1}}', encoding="utf-8")
+    (folder / "b.json").write_text(BASELINES, encoding="utf-8")
+    for line, codes in ((["run", "scene.json", "-q"], {0}), (["simulate", "other.json", "--impacts", "-", "-q"], {0}),
+                        (["test", "b.json", "--update", "still", "other", "-q"], {0, 7})):
+        done = subprocess.run([program, *line], cwd=folder, env=env, capture_output=True, text=True)
+        if done.returncode not in codes:
+            sys.exit(f"making samples, {line}: exit {done.returncode}: {done.stderr}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--count", type=int, default=500)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--keep")
+    args = parser.parse_args()
+    counts, codes, problems = collections.Counter(), collections.Counter(), []
+    with tempfile.TemporaryDirectory() as scratch:
+        samples = pathlib.Path(scratch)
+        make_samples(os.path.abspath(args.program), samples)
+        campaign = Campaign(args, samples)
+        with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+            for kind, _, code, problem in pool.map(campaign.run, range(args.count)):
+                counts[kind] += 1
+                codes[code] += 1
+                if problem:
+                    problems.append(problem)
+                    print(problem, file=sys.stderr, flush=True)
+    print("kinds: " + ", ".join(f"{kind} {n}" for kind, n in sorted(counts.items())))
+    print("exit codes: " + ", ".join(f"{code}: {n}" for code, n in sorted(codes.items(), key=str)))
+    print(f"{args.count} mutated inputs, {len(problems)} problems")
+    sys.exit(1 if problems else 0)
+
+
+main()
