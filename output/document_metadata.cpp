@@ -1,15 +1,12 @@
 #include "output/document_metadata.hpp"
 
-#include <libdeflate.h>
-
 #include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <optional>
 #include <string_view>
 
 #include "output/atomic_file.hpp"
+#include "output/inflate.hpp"
 
 namespace beamcam::output {
 
@@ -72,10 +69,11 @@ int hex_digit(char c) {
     return -1;
 }
 
-// Bytes of "(…)" or "<…>" at the front.
-std::optional<std::string> string_object(std::string_view pdf) {
+// Bytes of "(…)" or "<…>" at the front. `is_open`: it begins there and never ends.
+std::optional<std::string> string_object(std::string_view pdf, bool& is_open) {
     while (!pdf.empty() && (pdf.front() == ' ' || pdf.front() == '\n' || pdf.front() == '\r')) pdf.remove_prefix(1);
-    if (pdf.empty()) return std::nullopt;
+    is_open = !pdf.empty() && (pdf.front() == '<' || pdf.front() == '(');
+    if (!is_open) return std::nullopt;
     std::string bytes;
     if (pdf.front() == '<') {
         int high = -1;
@@ -88,7 +86,6 @@ std::optional<std::string> string_object(std::string_view pdf) {
         }
         return std::nullopt;
     }
-    if (pdf.front() != '(') return std::nullopt;
     int depth = 0;
     for (std::size_t i = 0; i < pdf.size(); ++i) {
         const char c = pdf[i];
@@ -130,31 +127,25 @@ std::string from_utf16(std::string_view bytes) {
 }
 
 std::string entry(std::string_view pdf, std::string_view key) {
-    for (std::size_t at = 0; (at = pdf.find(key, at)) != std::string_view::npos; at += key.size())
-        if (const auto bytes = string_object(pdf.substr(at + key.size())))
+    bool is_open = false;  // then every later one would be read to the end, too
+    for (std::size_t at = 0; !is_open && (at = pdf.find(key, at)) != std::string_view::npos; at += key.size())
+        if (const auto bytes = string_object(pdf.substr(at + key.size()), is_open))
             return bytes->starts_with("\xFE\xFF") ? from_utf16(*bytes) : *bytes;
     return {};
 }
 
 // What stands in compressed object streams, where newer writers put the document's information.
 std::string object_streams(std::string_view pdf) {
+    constexpr std::size_t kMost = 256u << 20;  // [bytes]: a scene with a drive table of a million points
     std::string all;
-    const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> inflate(
-        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-    if (!inflate) throw std::bad_alloc();
-    for (std::size_t at = 0; (at = pdf.find("/ObjStm", at)) != std::string_view::npos; at += 7) {
-        std::size_t begin = pdf.find("stream", at), end = pdf.find("endstream", at);
-        if (begin == std::string_view::npos || end == std::string_view::npos || begin >= end) continue;
-        begin += 6;
+    Inflater inflater(kMost);
+    for (std::size_t at = 0; (at = pdf.find("/ObjStm", at)) != std::string_view::npos;) {
+        const std::size_t end = pdf.find("endstream", at);
+        if (end == std::string_view::npos) break;
+        std::size_t begin = std::min(pdf.find("stream", at) + 6, end);
         while (begin < end && (pdf[begin] == '\r' || pdf[begin] == '\n')) ++begin;
-        for (std::size_t room = 1 << 16; room <= 1u << 26; room *= 4) {
-            std::string plain(room, '\0');
-            std::size_t got = 0;
-            const auto result = libdeflate_zlib_decompress(inflate.get(), pdf.data() + begin, end - begin, plain.data(),
-                                                           plain.size(), &got);
-            if (result == LIBDEFLATE_SUCCESS) all.append(plain, 0, got);
-            if (result != LIBDEFLATE_INSUFFICIENT_SPACE) break;
-        }
+        if (const auto plain = inflater.zlib(pdf.substr(begin, end - begin))) all += *plain;
+        at = end;
     }
     return all;
 }

@@ -27,8 +27,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_signal(int) {
     if (signals_seen.fetch_add(1) == 0) return;
-    for (Slot& slot : slots)
-        if (slot.state.load() == slot_used) unlink(slot.path.data());
+    unlink_temporaries();
     _exit(130);
 }
 
@@ -44,6 +43,11 @@ void handle(int signal_number, void (*handler)(int)) {
 }
 
 }  // namespace
+
+void unlink_temporaries() noexcept {
+    for (Slot& slot : slots)
+        if (slot.state.load() == slot_used) unlink(slot.path.data());
+}
 
 void install_handlers() {
     for (int signal_number : {SIGINT, SIGTERM, SIGHUP}) handle(signal_number, on_signal);

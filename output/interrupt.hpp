@@ -10,6 +10,8 @@ namespace beamcam::output {
 // SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) raise the flag. SIGPIPE and
 // SIGXFSZ are ignored, so that a closed pipe or a file-size limit is an error in words.
 void install_handlers();
+// Removes the temporary files of this process. Safe in signal handlers, which end the process then.
+void unlink_temporaries() noexcept;
 
 // True once a signal has come.
 bool interrupted();

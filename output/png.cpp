@@ -175,17 +175,20 @@ bool put_filtered(const render::Image& image, const PngSequence::Others& others,
 // Like RunDeflate; libdeflate wants all rows in one piece.
 class WholeDeflate {
   public:
-    explicit WholeDeflate(std::size_t /*pixel*/) {}
+    WholeDeflate(std::size_t pixel, const render::Image& image) {
+        // All at once: a picture of a gigabyte is not copied while it grows.
+        rows_.reserve((pixel * static_cast<std::size_t>(image.width) + 1) * static_cast<std::size_t>(image.height));
+    }
     void bytes(std::span<const std::uint8_t> data) { rows_.insert(rows_.end(), data.begin(), data.end()); }
     void zeros(std::size_t count) { rows_.resize(rows_.size() + count, 0); }
     std::string finish() && {
         const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
             libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);
         if (!compressor) throw std::bad_alloc();
-        std::string result(libdeflate_zlib_compress_bound(compressor.get(), rows_.size()), '\0');
-        result.resize(
-            libdeflate_zlib_compress(compressor.get(), rows_.data(), rows_.size(), result.data(), result.size()));
-        return result;
+        // Left as it is: most of the room is never used, and memory that is not touched is not taken.
+        const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), rows_.size());
+        const auto room = std::make_unique_for_overwrite<char[]>(most);
+        return {room.get(), libdeflate_zlib_compress(compressor.get(), rows_.data(), rows_.size(), room.get(), most)};
     }
 
   private:
@@ -197,18 +200,20 @@ struct Compressed {
     std::string data;
 };
 
-template <class Deflate>
-Compressed compressed(const render::Image& image, const PngSequence::Others& others) {
-    Deflate rgb(3);
-    if (put_filtered(image, others, true, rgb)) return {true, std::move(rgb).finish()};
-    Deflate rgba(4);
+// `deflate(bytes of a pixel)` makes what takes the rows.
+template <class Make>
+Compressed compressed(const render::Image& image, const PngSequence::Others& others, Make deflate) {
+    if (auto rgb = deflate(3); put_filtered(image, others, true, rgb)) return {true, std::move(rgb).finish()};
+    auto rgba = deflate(4);
     put_filtered(image, others, false, rgba);
     return {false, std::move(rgba).finish()};
 }
 
 std::string png_file(const render::Image& image, const PngSequence::Others& others, const PngOptions& options) {
-    const auto [opaque, data] = options.compression == PngCompression::small ? compressed<WholeDeflate>(image, others)
-                                                                             : compressed<RunDeflate>(image, others);
+    const auto [opaque, data] =
+        options.compression == PngCompression::small
+            ? compressed(image, others, [&](std::size_t pixel) { return WholeDeflate(pixel, image); })
+            : compressed(image, others, [](std::size_t pixel) { return RunDeflate(pixel); });
     std::string file = "\x89PNG\r\n\x1a\n";
     put_chunk(file, "IHDR", header(image, opaque));
     put_chunk(file, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual

@@ -2,8 +2,11 @@
 
 #include <cstdio>
 #include <iostream>
+#include <new>
+#include <string>
 
 #include "output/errors.hpp"
+#include "output/text_safety.hpp"
 
 namespace beamcam::output {
 namespace {
@@ -16,8 +19,14 @@ void print_data(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail();
 }
 
-void print_message(std::string_view text) noexcept {
-    [[maybe_unused]] const std::size_t written = std::fwrite(text.data(), 1, text.size(), stderr);
+void print_text(std::string_view text) { print_data(visible(text)); }
+void print_json(std::string_view text) { print_data(escaped_json(text)); }
+
+void print_message(std::string_view text) noexcept try {
+    const std::string shown = visible(text);
+    [[maybe_unused]] const std::size_t written = std::fwrite(shown.data(), 1, shown.size(), stderr);
+} catch (const std::bad_alloc&) {
+    std::fputs("beamcam: no memory for a message\n", stderr);
 }
 
 void flush_data() {

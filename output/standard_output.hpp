@@ -8,13 +8,15 @@
 
 namespace beamcam::output {
 
-// Writes and flushes. Throws IoError when the reader has gone or the disk is full.
-void print_data(std::string_view text);
+// All of these write and flush, and throw IoError when the reader has gone or the disk is full.
+void print_data(std::string_view text);  // for programs, byte by byte
+void print_text(std::string_view text);  // for people: as text_safety.hpp's `visible`
+void print_json(std::string_view text);  // for programs and people: as `escaped_json`
 
 // Ends what was written to std::cout. Throws IoError as print_data.
 void flush_data();
 
-// A full disk or a reader that has gone does not end the work: there is nobody left to tell.
+// For people, as print_text. A full disk or a reader that has gone does not end the work: nobody is left to read it.
 void print_message(std::string_view text) noexcept;
 template <typename... Values>
 void tell(fmt::format_string<Values...> words, Values&&... values) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "output/name_index.hpp"
+
 namespace beamcam::output {
 
 namespace {
@@ -54,6 +56,12 @@ std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double u
     return pairs;
 }
 
+NameIndex index_of(const std::vector<std::string>& names) {
+    NameIndex index;
+    for (std::size_t i = 0; i < names.size(); ++i) index.add(names[i], i);
+    return index;
+}
+
 bool same_bits(double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (std::isnan(x) && std::isnan(y));
 }
@@ -96,14 +104,15 @@ TableDifference difference(const NamedTable& a, const NamedTable& b, double unti
     d.rows_b = b.rows();
     const std::vector<Pair> rows = common_rows(a, b, until);
     d.rows_compared = rows.size();
+    const NameIndex in_a = index_of(a.names), in_b = index_of(b.names);
     for (std::size_t i = 0; i < a.names.size(); ++i) {
-        if (const std::vector<double>* other = b.find(a.names[i]))
-            d.columns.push_back(compare(a.names[i], a.columns[i], *other, rows));
+        if (const auto other = in_b.find(a.names[i]))
+            d.columns.push_back(compare(a.names[i], a.columns[i], b.columns[*other], rows));
         else
             d.only_in_a.push_back(a.names[i]);
     }
     for (const std::string& name : b.names)
-        if (a.find(name) == nullptr) d.only_in_b.push_back(name);
+        if (!in_a.find(name)) d.only_in_b.push_back(name);
     return d;
 }
 

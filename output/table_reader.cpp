@@ -13,6 +13,8 @@
 #include <optional>
 
 #include "output/atomic_file.hpp"
+#include "output/inflate.hpp"
+#include "output/name_index.hpp"
 
 namespace beamcam::output {
 
@@ -77,7 +79,7 @@ class CsvParser {
             if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
             if (cell.empty()) refuse(column, "a column without a name in the header");
             if (number(cell)) refuse(column, in_quotes(cell) + " where a column's name should stand");
-            if (std::find(table_.names.begin(), table_.names.end(), cell) != table_.names.end())
+            if (!index_.add(cell, table_.names.size()))
                 refuse(column, "the column " + in_quotes(cell) + " stands twice in the header");
             table_.names.emplace_back(cell);
         });
@@ -119,6 +121,7 @@ class CsvParser {
     const std::string& file_;
     std::size_t at_ = 0, line_ = 0;
     NamedTable table_;
+    NameIndex index_;  // of its names
 };
 
 // ---- NPZ: PKWARE's APPNOTE, and https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html --------
@@ -127,7 +130,8 @@ static_assert(std::endian::native == std::endian::little, "NPZ is read in memory
 
 class NpzParser {
   public:
-    NpzParser(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+    NpzParser(std::string_view bytes, const std::string& file)
+        : bytes_(bytes), file_(file), inflater_(kLargestArchive), not_taken_(bytes.size()) {}
 
     NamedTable parse() {
         const std::size_t end = find_end();
@@ -166,27 +170,24 @@ class NpzParser {
                           size = value(at + 24, 4), name_size = value(at + 28, 2), offset = value(at + 42, 4);
         std::string name(part(at + 46, name_size));
         if (name.ends_with(".npy")) name.resize(name.size() - 4);
-        if (offset == 0xffffffff || size == 0xffffffff) refuse("archives beyond 4 GiB are not read");
+        if (offset == 0xffffffff || size >= kLargestArchive) refuse("archives beyond 4 GiB are not read");
         const std::size_t data = offset + 30 + value(offset + 26, 2) + value(offset + 28, 2);
         read_array(name, unpacked(name, part(data, packed), method, size, crc));
         return at + 46 + name_size + value(at + 30, 2) + value(at + 32, 2);
     }
 
     std::string unpacked(const std::string& name, std::string_view packed, std::size_t method, std::size_t size,
-                         std::size_t crc) const {
+                         std::size_t crc) {
+        // Arrays that share their bytes would unpack without end.
+        if (packed.size() > not_taken_) damaged();
+        not_taken_ -= packed.size();
         std::string data;
         if (method == 0) {
             data = packed;
         } else if (method == 8) {
-            // Deflate shrinks a thousandfold at most: a larger claim is a lie that would cost memory.
-            if (size / 1100 > packed.size()) damaged();
-            data.resize(size);
-            const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> inflate(
-                libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-            if (!inflate) throw std::bad_alloc();
-            if (libdeflate_deflate_decompress(inflate.get(), packed.data(), packed.size(), data.data(), size,
-                                              nullptr) != LIBDEFLATE_SUCCESS)
-                damaged();
+            auto plain = inflater_.deflate(packed, size);
+            if (!plain) damaged();
+            data = std::move(*plain);
         } else {
             refuse("the array \"" + name + "\" is packed in a way that numpy does not use");
         }
@@ -223,6 +224,7 @@ class NpzParser {
             wrong("has the shape (" + shape + "); a column has one dimension");
         if (!table_.columns.empty() && column.size() != table_.rows())
             wrong("has " + std::to_string(column.size()) + " rows, others have " + std::to_string(table_.rows()));
+        if (!index_.add(name, table_.names.size())) refuse("two arrays have the name \"" + name + "\"");
         table_.names.push_back(name);
         table_.columns.push_back(std::move(column));
     }
@@ -246,9 +248,14 @@ class NpzParser {
         return column;
     }
 
+    static constexpr std::size_t kLargestArchive = 0xffffffff;  // [bytes], unpacked; what its format can say
+
     std::string_view bytes_;
     const std::string& file_;
+    Inflater inflater_;
+    std::size_t not_taken_;  // bytes of the file that no array has claimed yet
     NamedTable table_;
+    NameIndex index_;  // of its names
 };
 
 }  // namespace

@@ -209,24 +209,20 @@ class Reader {
     // A file beside this one, or a scene that stands here.
     bool read_scene_of(const Node& node, const std::vector<std::string>& overrides, const std::string& path,
                        Baseline& entry) {
-        Source source;
+        Reading reading;
         if (node.kind == Node::Kind::string) {
             try {
-                source = load_source(scene_file(node));
+                reading = read_scene(load_named_source(scene_file(node)), overrides, files_);
             } catch (const UnreadableFile& error) {
                 return refuse(entry, node, fmt::format("{}.scene: {}", path, error.what()));
             }
         } else if (node.kind == Node::Kind::object) {
-            // Everything else becomes blanks, so that the places stay those of this file.
-            source = all_.source;
-            const std::size_t begin = node.place.offset, end = end_of_value(blank_comments(source.text), begin);
-            for (std::size_t i = 0; i < source.text.size(); ++i)
-                if ((i < begin || i >= end) && source.text[i] != '\n') source.text[i] = ' ';
+            reading = read_scene({all_.source.name, {}, true}, node, overrides, files_);
+            reading.sources.front() = all_.source;  // the places are those of the whole file
         } else {
             return refuse(entry, node,
                           fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, shown(node)));
         }
-        Reading reading = read_scene(std::move(source), overrides);
         if (!reading.scene) {
             refuse(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
             entry.problem += reading.report();
@@ -235,6 +231,8 @@ class Reader {
         entry.scene = std::move(*reading.scene);
         return true;
     }
+
+    // Of a scene that stands in this file: its first source is this file, the others are overrides.
 
     // The output is read as one of the scene's own, which it replaces.
     bool read_output_of(const Node& node, const std::string& path, const std::string& scene_name, Baseline& entry) {
@@ -248,7 +246,7 @@ class Reader {
         // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
         const Source resolved{scene_name, to_json(entry.scene), true};
         const Parsed scene = parse(resolved.text);
-        read_outputs(found, &list, scene.root, resolved, entry.scene);
+        read_outputs({scene.root, resolved, files_}, found, &list, entry.scene);
         const bool fine = !found.any();
         for (Message& message : found.take()) {
             for (std::size_t at = 0; (at = message.text.find("outputs.0", at)) != std::string::npos; at += path.size())
@@ -289,6 +287,7 @@ class Reader {
     Baselines all_;
     Tolerance defaults_;
     Findings findings_;
+    SceneFiles files_;
     std::vector<Message> messages_;
 };
 

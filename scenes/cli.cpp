@@ -14,8 +14,11 @@
 
 #include "output/errors.hpp"
 #include "output/interrupt.hpp"
+#include "output/out_of_memory.hpp"
 #include "output/standard_output.hpp"
 #include "render/error.hpp"
+#include "render/gl_environment.hpp"
+#include "render/memory.hpp"
 #include "scenes/capabilities.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/reader.hpp"
@@ -110,11 +113,19 @@ int fail(int code, const std::string& text) {
     return code;
 }
 
+// Where memory is short, most other causes are its consequences.
+int fail_or_blame_memory(int code, const std::string& text) {
+    if (!render::memory_is_short()) return fail(code, text);
+    return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::memory_words()));
+}
+
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
     try {
         output::install_handlers();
+        output::install_memory_handlers(kInputOutput);
+        render::ignored_gl_settings();  // the environment may be changed while there is one thread
         return parse_and_run(argc, argv);
     } catch (const UsageError& e) {
         return fail(kUsage, fmt::format("beamcam: {}", e.what()));
@@ -123,30 +134,34 @@ int command_line(int argc, const char* const* argv) {
     } catch (const SceneError& e) {
         return fail(kBadScene, e.what());
     } catch (const output::UnsupportedOption& e) {
-        return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
     } catch (const Incomplete& e) {
-        return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
     } catch (const render::PictureError& e) {
-        return fail(kBadScene, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
     } catch (const sim::SolverError& e) {
-        return fail(kSolverFailed, fmt::format("beamcam: {} (reached {:.9g} s)", e.what(), e.last_time));
+        return fail_or_blame_memory(kSolverFailed,
+                                    fmt::format("beamcam: {} (reached {:.9g} s)", e.what(), e.last_time));
     } catch (const output::MissingCodec& e) {
-        return fail(kMissingPart, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
     } catch (const render::MissingPart& e) {
-        return fail(kMissingPart, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
     } catch (const output::IoError& e) {
-        return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
+        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const std::filesystem::filesystem_error& e) {
-        return fail(kInputOutput, fmt::format("beamcam: {}", output::io_error(e).what()));
+        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", output::io_error(e).what()));
     } catch (const UnreadableFile& e) {
         return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const sim::Interrupted&) {
         return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
     } catch (const Stopped&) {
         return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
+    } catch (const std::bad_alloc&) {
+        return fail(kInputOutput, fmt::format("beamcam: {}", render::memory_words()));
     } catch (const std::exception& e) {
-        return fail(kBug, fmt::format("beamcam: internal error: {}; please report it with the scene and the command",
-                                      e.what()));
+        return fail_or_blame_memory(
+            kBug,
+            fmt::format("beamcam: internal error: {}; please report it with the scene and the command", e.what()));
     } catch (...) {
         return fail(kBug, "beamcam: internal error of unknown kind; please report it with the scene and the command");
     }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "output/text_safety.hpp"
+
 namespace beamcam::scenes {
 namespace {
 
@@ -12,6 +14,14 @@ std::string size_of(const output::Raster& r) { return fmt::format("{}x{}", r.wid
 
 std::string box_in_words(const output::PixelBox& box) {
     return fmt::format("{}x{}+{}+{}", box.width(), box.height(), box.left, box.top);
+}
+
+// The first of them: a table may have a hundred thousand.
+std::string names_of(const std::vector<std::string>& all) {
+    constexpr std::size_t kMost = 100;
+    const std::size_t shown = std::min(all.size(), kMost);
+    std::string text = output::one_line(fmt::format("{}", fmt::join(all.begin(), all.begin() + long(shown), ", ")));
+    return shown < all.size() ? fmt::format("{} and {} more", text, all.size() - shown) : text;
 }
 
 }  // namespace
@@ -66,16 +76,16 @@ std::string in_words(const output::TableDifference& d) {
     std::string text;
     if (d.rows_a != d.rows_b || d.rows_compared != d.rows_a)
         text += fmt::format("rows: {} and {}, {} of them at common instants\n", d.rows_a, d.rows_b, d.rows_compared);
-    if (!d.only_in_a.empty()) text += fmt::format("columns only in the first: {}\n", fmt::join(d.only_in_a, ", "));
-    if (!d.only_in_b.empty()) text += fmt::format("columns only in the second: {}\n", fmt::join(d.only_in_b, ", "));
+    if (!d.only_in_a.empty()) text += fmt::format("columns only in the first: {}\n", names_of(d.only_in_a));
+    if (!d.only_in_b.empty()) text += fmt::format("columns only in the second: {}\n", names_of(d.only_in_b));
     std::size_t same = 0;
     for (const output::ColumnDifference& c : d.columns) {
         if (c.identical) {
             ++same;
             continue;
         }
-        text += fmt::format("{}: largest difference {:.3g} at t = {:.6g}, {:.3g} of its range {:.3g}{}\n", c.name,
-                            c.largest, c.t, c.share, c.range,
+        text += fmt::format("{}: largest difference {:.3g} at t = {:.6g}, {:.3g} of its range {:.3g}{}\n",
+                            output::one_line(c.name), c.largest, c.t, c.share, c.range,
                             c.undefined > 0 ? fmt::format(", {} cells empty in one only", c.undefined) : "");
     }
     if (same > 0)

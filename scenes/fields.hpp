@@ -43,6 +43,8 @@ class Findings {
         return it != failed_.end() && (*it == path || it->starts_with(path + "."));
     }
     bool any() const { return !failed_.empty(); }
+    // So many that the last ones are only counted.
+    bool many() const { return messages_.size() > kMostDescribed; }
     std::vector<Message> take() { return std::move(messages_); }
 
   private:
@@ -216,7 +218,7 @@ class Fields {
             findings_.error(member.key_place, path(member.key),
                             planned ? fmt::format("{}: {}", what(), *planned)
                                     : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),
-                                                  suggestion_or_list(member.key, known_)));
+                                                  findings_.many() ? "" : suggestion_or_list(member.key, known_)));
         }
     }
     const Node* node() const { return object_; }

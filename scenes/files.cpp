@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace beamcam::scenes {
 namespace {
 
 std::string normal(std::string_view file) { return std::filesystem::path(file).lexically_normal().generic_string(); }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 struct Pattern {
     std::string before, after;
@@ -24,11 +27,76 @@ bool matches(const Pattern& pattern, std::string_view file) {
         return false;
     const std::string_view digits =
         file.substr(pattern.before.size(), file.size() - pattern.before.size() - pattern.after.size());
-    return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return std::all_of(digits.begin(), digits.end(), is_digit);
 }
 
-// Is `a` a directory on the way to `b`?
-bool contains(const std::string& a, const std::string& b) { return b.starts_with(a + "/"); }
+// Every pattern whose numbered files could include this one: any run of digits in its last part may be the number.
+template <typename Visit>
+void for_patterns(const std::string& file, Visit visit) {
+    const std::size_t slash = file.rfind('/');
+    for (std::size_t i = slash == std::string::npos ? 0 : slash + 1; i < file.size(); ++i)
+        for (std::size_t k = i; k < file.size() && is_digit(file[k]); ++k)
+            visit(file.substr(0, i) + '#' + file.substr(k + 1));
+}
+
+template <typename Visit>
+void for_directories(const std::string& file, Visit visit) {
+    for (std::size_t slash = file.find('/'); slash != std::string::npos; slash = file.find('/', slash + 1))
+        visit(file.substr(0, slash));
+}
+
+// The claims, by what makes them clash; each entry is the first claim of its kind.
+class ClaimIndex {
+  public:
+    using Claim = FileClaims::Claim;
+
+    explicit ClaimIndex(const std::vector<Claim>& claims) {
+        for (const Claim& claim : claims)
+            if (is_numbered(claim.file)) patterns_.try_emplace(pattern_of(claim), &claim);
+        for (const Claim& claim : claims) {
+            if (is_numbered(claim.file)) continue;
+            const std::string path = normal(claim.file);
+            files_.try_emplace(path, &claim);
+            for_directories(path, [&](const std::string& directory) { directories_.try_emplace(directory, &claim); });
+            if (patterns_.empty()) continue;
+            for_patterns(path, [&](const std::string& pattern) {
+                if (patterns_.contains(pattern)) numbered_.try_emplace(pattern, &claim);
+            });
+        }
+    }
+
+    // The earliest claim of another owner that this one clashes with, if it came before; else null.
+    const Claim* earlier(const Claim& claim) const {
+        const Claim* found = nullptr;
+        const auto look = [&](const Index& index, const std::string& key) {
+            const auto entry = index.find(key);
+            if (entry != index.end() && entry->second->owner < (found != nullptr ? found->owner : claim.owner))
+                found = entry->second;
+        };
+        if (is_numbered(claim.file)) {
+            look(patterns_, pattern_of(claim));
+            look(numbered_, pattern_of(claim));
+            return found;
+        }
+        const std::string path = normal(claim.file);
+        look(files_, path);
+        look(directories_, path);
+        for_directories(path, [&](const std::string& directory) { look(files_, directory); });
+        if (!patterns_.empty()) for_patterns(path, [&](const std::string& pattern) { look(patterns_, pattern); });
+        return found;
+    }
+
+  private:
+    using Index = std::map<std::string, const Claim*>;
+
+    static std::string pattern_of(const Claim& claim) {
+        const Pattern parts = split(normal(claim.file));
+        return parts.before + '#' + parts.after;
+    }
+
+    Index files_, directories_, patterns_;
+    Index numbered_;  // files that a pattern of this key includes
+};
 
 }  // namespace
 
@@ -80,12 +148,16 @@ std::optional<long> number_of(std::string_view pattern, std::string_view file) {
     return numbered_file(pattern, number) == file ? std::optional(number) : std::nullopt;
 }
 
-bool may_collide(std::string_view first, std::string_view second) {
-    const std::string a = normal(first), b = normal(second);
-    if (is_numbered(a) && is_numbered(b)) return split(a).before == split(b).before && split(a).after == split(b).after;
-    if (is_numbered(a)) return matches(split(a), b);
-    if (is_numbered(b)) return matches(split(b), a);
-    return a == b || contains(a, b) || contains(b, a);
+void FileClaims::add(std::string_view file, std::size_t owner) { claims_.push_back({std::string(file), owner}); }
+
+std::vector<FileClaims::Clash> FileClaims::clashes() const {
+    const ClaimIndex index(claims_);
+    std::vector<Clash> found;
+    for (const Claim& claim : claims_) {
+        if (!found.empty() && found.back().later.owner == claim.owner) continue;
+        if (const Claim* earlier = index.earlier(claim)) found.push_back({claim, *earlier});
+    }
+    return found;
 }
 
 }  // namespace beamcam::scenes

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace beamcam::scenes {
 
@@ -19,7 +20,25 @@ std::string numbered_file(std::string_view pattern, long number);
 // The number by which `file` is one of them; nothing when it is none.
 std::optional<long> number_of(std::string_view pattern, std::string_view file);
 
-// Could two outputs write the same path, or one a file where the other needs a directory?
-bool may_collide(std::string_view a, std::string_view b);
+// Who writes which files, and which of them could write the same path, or one a file where another needs a directory.
+// The time grows with the number of names, not with its square.
+class FileClaims {
+  public:
+    // Owners claim their names in the order of their numbers; names of one owner do not clash.
+    void add(std::string_view file, std::size_t owner);
+
+    struct Claim {
+        std::string file;
+        std::size_t owner = 0;
+    };
+    struct Clash {
+        Claim later, earlier;
+    };
+    // At most one for each owner: with the earliest of the others. In the order of `later`.
+    std::vector<Clash> clashes() const;
+
+  private:
+    std::vector<Claim> claims_;
+};
 
 }  // namespace beamcam::scenes

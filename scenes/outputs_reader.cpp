@@ -28,10 +28,9 @@ constexpr double kMostRows = 20'000'000;  // 160 MB a channel
 struct OutputContext {
     Findings& findings;
     const Scene& scene;  // name, physics and end time are read before
-    const Node& root;
-    const Source& source;
+    const SceneContext& file;
     std::size_t index;
-    PictureContext pictures() const { return {findings, scene, root, source}; }
+    PictureContext pictures() const { return {findings, scene, file}; }
 };
 
 void read_file(Fields& f, std::string& file, std::initializer_list<std::string_view> endings, bool numbered) {
@@ -241,11 +240,21 @@ void read_encoding(Fields& f, VideoOutput& video) {
         if (const auto quality = output::quality_scale(encoding.codec)) encoding.crf = quality->usual;
 }
 
+// A huge picture is told before it is drawn.
+void announce_memory(const OutputContext& context, const Fields& f, const Picture& picture) {
+    const double memory = memory_of(picture);
+    if (f.node() && memory >= kMuchMemory)
+        context.findings.warning(f.node()->place,
+                                 fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
+                                             f.what(), picture.size.width, picture.size.height, memory / 1e9));
+}
+
 VideoOutput read_video(const OutputContext& context, Fields& f) {
     VideoOutput video = default_film(context.scene);
     read_file(f, video.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}, false);
     read_size(f, video.size);
     read_view(context.findings, f, video.view);
+    announce_memory(context, f, video);
     read_arrangement(context.pictures(), f, video);
     read_encoding(f, video);
     if (video.encoding.codec == output::Codec::gif) video.span.fps = kGifRate;
@@ -264,6 +273,7 @@ FramesOutput read_frames(const OutputContext& context, Fields& f) {
     read_file(f, frames.file, {".png"}, true);
     read_size(f, frames.size);
     read_view(context.findings, f, frames.view);
+    announce_memory(context, f, frames);
     read_arrangement(context.pictures(), f, frames);
     read_span(context, f, frames.span);
     return frames;
@@ -275,6 +285,7 @@ StillOutput read_still(const OutputContext& context, Fields& f) {
     read_file(f, still.file, {".png"}, false);
     read_size(f, still.size);
     read_view(context.findings, f, still.view);
+    announce_memory(context, f, still);
     read_arrangement(context.pictures(), f, still);
     if (const Node* at = f.require("at", "\"370 ms\"")) read_at(f, *at, "at", still.at);
     return still;
@@ -449,30 +460,29 @@ std::optional<Output> read_output(const OutputContext& context, const Node& node
 
 // Two outputs must not write one file.
 void refuse_shared_files(Findings& findings, const std::vector<std::pair<const Node*, Output>>& outputs) {
-    for (std::size_t later = 1; later < outputs.size(); ++later)
-        for (std::size_t earlier = 0; earlier < later; ++earlier) {
-            const auto clash = shared_file(outputs[later].second, outputs[earlier].second);
-            if (!clash) continue;
-            const Node& object = *outputs[later].first;
-            const Member* file = object.find("file");
-            findings.error(
-                file ? file->value.place : object.place, fmt::format("outputs.{}.file", later),
-                fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
-                            later, in_quotes(clash->first), earlier, in_quotes(clash->second)));
-            break;
-        }
+    FileClaims claims;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        for (const std::string& file : written_by(outputs[i].second)) claims.add(file, i);
+    for (const auto& [later, earlier] : claims.clashes()) {
+        const Node& object = *outputs[later.owner].first;
+        const Member* file = object.find("file");
+        findings.error(
+            file ? file->value.place : object.place, fmt::format("outputs.{}.file", later.owner),
+            fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
+                        later.owner, in_quotes(later.file), earlier.owner, in_quotes(earlier.file)));
+    }
 }
 
 }  // namespace
 
-void read_outputs(Findings& findings, const Node* node, const Node& root, const Source& source, Scene& scene) {
+void read_outputs(const SceneContext& context, Findings& findings, const Node* node, Scene& scene) {
     if (!node) return;
     if (node->kind != Node::Kind::array)
         return findings.error(node->place, "outputs",
                               fmt::format("outputs must be an array [ … ], not {}", shown(*node)));
     std::vector<std::pair<const Node*, Output>> outputs;
     for (std::size_t i = 0; i < node->items.size(); ++i)
-        if (auto output = read_output({findings, scene, root, source, i}, node->items[i]))
+        if (auto output = read_output({findings, scene, context, i}, node->items[i]))
             outputs.emplace_back(&node->items[i], std::move(*output));
     if (outputs.size() == node->items.size()) refuse_shared_files(findings, outputs);
     for (auto& [object, output] : outputs) {

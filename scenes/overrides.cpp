@@ -87,7 +87,7 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
                 Node empty;
                 empty.kind = Node::Kind::object;
                 empty.place = place;
-                member = &node->members.emplace_back(Member{key, place, std::move(empty)});
+                member = &node->members.add({key, place, std::move(empty)});
             }
             node = &member->value;
         } else if (node->kind == Node::Kind::array) {

@@ -249,37 +249,17 @@ void read_layout(const PictureContext& c, Fields& f, Picture& picture) {
 
 // ---- compare -----------------------------------------------------------------------------------
 
-constexpr std::array kMechanics{"hub", "beam", "cam", "contact", "gravity", "initial", "solver"};
-
-Node mechanics_of(const Node& root) {
-    Node out;
-    out.kind = Node::Kind::object;
-    out.place = root.place;
-    for (const Member& member : root.members)
-        if (std::find(kMechanics.begin(), kMechanics.end(), member.key) != kMechanics.end())
-            out.members.push_back(member);
-    return out;
-}
-
 // The mechanics of another scene file, beside this one.
 std::optional<Node> other_scene(const PictureContext& c, Fields& f, const Node& node) {
     if (node.kind != Node::Kind::string) {
         f.fail(node, "scene", fmt::format("{} must be a file name in quotes, not {}", f.path("scene"), shown(node)));
         return std::nullopt;
     }
-    const auto path = std::filesystem::path(c.source.name).parent_path() / node.text;
-    try {
-        Source source = load_source(path.string());
-        Parsed parsed = parse(source.text);
-        const Reading reading = read_scene(std::move(source));
-        if (reading.scene && parsed.is_json) return mechanics_of(parsed.root);
-        f.fail(node, "scene",
-               fmt::format("{} = {} is no scene; `beamcam check {}` tells why", f.path("scene"), in_quotes(node.text),
-                           path.string()));
-    } catch (const UnreadableFile& error) {
-        f.fail(node, "scene", fmt::format("{} = {}: {}", f.path("scene"), in_quotes(node.text), error.what()));
-    }
-    return std::nullopt;
+    const auto path = std::filesystem::path(c.file.source.name).parent_path() / node.text;
+    const SceneFiles::Mechanics& other = c.file.files.mechanics(path.string());
+    if (!other.sections)
+        f.fail(node, "scene", fmt::format("{} = {}: {}", f.path("scene"), in_quotes(node.text), other.problem));
+    return other.sections;
 }
 
 void move_all(Node& node, Place place) {
@@ -300,7 +280,7 @@ std::optional<Compared> read_compared(const PictureContext& c, Fields& parent, c
     if (!f.node()) return std::nullopt;
     Compared out;
     f.text("label", out.label);
-    Node mechanics = mechanics_of(c.root);
+    Node mechanics = mechanics_of(c.file.root);
     if (const Node* scene = f.take("scene")) {
         auto other = other_scene(c, f, *scene);
         if (!other) return std::nullopt;
@@ -317,10 +297,10 @@ std::optional<Compared> read_compared(const PictureContext& c, Fields& parent, c
         }
         for (const Member& member : set->members) {
             const std::string first = member.key.substr(0, member.key.find('.'));
-            if (std::find(kMechanics.begin(), kMechanics.end(), first) == kMechanics.end()) {
+            if (!is_mechanics(first)) {
                 c.findings.error(member.key_place, f.path("set." + member.key),
                                  fmt::format("{}: {} is no part of the mechanics; only {} can differ", f.path("set"),
-                                             in_quotes(member.key), fmt::join(kMechanics, ", ")));
+                                             in_quotes(member.key), mechanics_sections()));
                 continue;
             }
             set_value(mechanics, member.key, member.value, wrong);

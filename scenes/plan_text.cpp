@@ -68,7 +68,9 @@ std::string motion_cost(const std::optional<Cost>& cost) {
 }
 
 std::string size_words(double bytes) {
-    return bytes < 1e6 ? about(std::max(1.0, bytes / 1e3)) + " kB" : about(bytes / 1e6) + " MB";
+    return bytes < 1e6   ? about(std::max(1.0, bytes / 1e3)) + " kB"
+           : bytes < 1e9 ? about(bytes / 1e6) + " MB"
+                         : about(bytes / 1e9) + " GB";
 }
 
 // "; about 12 s, 3.1 MB"
@@ -126,6 +128,8 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
             fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
     else if (!p.settled && !p.poster_file.empty())
         words += fmt::format("; one of its frames as {} too", p.poster_file);
+    if (const double memory = memory_of(p.picture); memory >= kMuchMemory)
+        words += fmt::format("; takes {} of memory for each thread", size_words(memory));
     return words + file_cost(p.cost);
 }
 

@@ -1,21 +1,26 @@
 #include "scenes/provenance.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 
 #include "output/document_metadata.hpp"
 #include "output/errors.hpp"
 #include "output/manifest.hpp"
 #include "output/png_reader.hpp"
 #include "output/table_reader.hpp"
+#include "output/text_safety.hpp"
 #include "output/video_reader.hpp"
 #include "render/error.hpp"
 #include "render/fonts.hpp"
+#include "render/gl_environment.hpp"
 #include "render/lit.hpp"
 #include "render/versions.hpp"
+#include "scenes/child.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/fingerprint.hpp"
 #include "scenes/version.hpp"
@@ -118,16 +123,25 @@ void examine(std::vector<Check>& checks, const char* group, const std::string& w
 }
 
 void examine_films(std::vector<Check>& checks) {
-    std::map<std::string, bool> encoders;
+    const std::string found = "there";
+    // One line each: the versions, then the encoders.
+    std::istringstream lines;
     examine(checks, "films", "FFmpeg",
             "install the Debian packages libavcodec59, libavformat59, libswscale6 (or newer)", [&] {
-                const output::VideoAbilities abilities = output::video_abilities();
-                encoders = abilities.encoders;
-                return abilities.versions;
+                lines.str(in_child([&] {
+                    const output::VideoAbilities abilities = output::video_abilities();
+                    std::string text = abilities.versions + "\n";
+                    for (const auto& [name, there] : abilities.encoders)
+                        text += fmt::format("{}\n{}\n", name, there ? found : "not in these libraries");
+                    return text;
+                }));
+                std::string versions;
+                std::getline(lines, versions);
+                return versions;
             });
     if (!checks.back().ok) return;
-    for (const auto& [name, there] : encoders)
-        checks.push_back({"films", name + " encoder", there, there ? "there" : "not in these libraries",
+    for (std::string name, state; std::getline(lines, name) && std::getline(lines, state);)
+        checks.push_back({"films", name + " encoder", state == found, state,
                           "install Debian's libavcodec59 or libavcodec-extra59 (or newer), which have it"});
 }
 
@@ -163,9 +177,9 @@ Provenance provenance_of(const std::string& file) {
 }
 
 std::string to_text(const Provenance& p) {
-    std::string text = fmt::format("{}: {}\n", p.file, p.kind);
+    std::string text = fmt::format("{}: {}\n", output::one_line(p.file), p.kind);
     auto line = [&](std::string_view key, std::string_view value) {
-        if (!value.empty()) text += fmt::format("  {:<14} {}\n", key, value);
+        if (!value.empty()) text += fmt::format("  {:<14} {}\n", key, output::one_line(value));
     };
     for (const auto& [key, value] : p.facts) line(key, value);
     line("title", p.title);
@@ -190,8 +204,10 @@ std::vector<Check> examine_machine() {
         checks.push_back({"pictures", "font " + font.name, !font.path.empty(),
                           font.path.empty() ? "not found" : font.path.string(),
                           fmt::format("install the Debian package {}", font.package)});
+    if (const std::vector<std::string>& ignored = render::ignored_gl_settings(); !ignored.empty())
+        checks.push_back({"pictures", "ignored settings", true, fmt::format("{}", fmt::join(ignored, ", ")), ""});
     examine(checks, "pictures", "OpenGL", "install the Debian package libosmesa6; flat views need none",
-            [] { return render::make_lit_renderer(16, 16)->name(); });
+            [] { return in_child([] { return render::make_lit_renderer(16, 16)->name(); }); });
     for (const render::FontFile& font : render::font_files(render::Typefaces::print))
         checks.push_back({"figures", "font " + font.name, !font.path.empty(),
                           font.path.empty() ? "not found" : font.path.string(),
@@ -200,7 +216,8 @@ std::vector<Check> examine_machine() {
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
     examine(checks, "fingerprint", "figures", "see the fonts of figures above",
             [] { return figure_fingerprint().id(); });
-    examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return lit_fingerprint().id(); });
+    examine(checks, "fingerprint", "lit", "see OpenGL above",
+            [] { return in_child([] { return lit_fingerprint().id(); }); });
     return checks;
 }
 

@@ -58,7 +58,8 @@ void judge_physics(const Node& root, const Scene& scene, Findings& findings, std
     }
 }
 
-Scene read_tree(const Node& root, const Source& source, const std::string& scene_name, std::vector<Message>& messages) {
+Scene read_tree(const SceneContext& context, const std::string& scene_name, std::vector<Message>& messages) {
+    const Node& root = context.root;
     Scene scene;
     scene.name = scene_name;
     scene.title.clear();
@@ -69,7 +70,7 @@ Scene read_tree(const Node& root, const Source& source, const std::string& scene
     f.text("title", scene.title);
     read_physics(findings, f, scene);
     judge_physics(root, scene, findings, messages);
-    read_outputs(findings, f.take("outputs"), root, source, scene);
+    read_outputs(context, findings, f.take("outputs"), scene);
     f.finish({}, [](const std::string& key) {
         static constexpr std::string_view kOfOutputs[] = {
             "view",    "size",       "fps",    "from",  "to",  "at",     "speed",     "layout",     "theme", "events",
@@ -96,23 +97,46 @@ struct CloseFile {
 }  // namespace
 
 Reading read_scene(Source file, const std::vector<std::string>& overrides) {
+    SceneFiles files;
+    return read_scene(std::move(file), overrides, files);
+}
+
+Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files) {
+    Parsed parsed = parse(file.text);
+    Reading reading;
+    if (parsed.is_json)
+        reading = read_scene(std::move(file), std::move(parsed.root), overrides, files);
+    else
+        reading.sources.push_back(std::move(file));
+    if (std::ranges::any_of(parsed.messages, &Message::fatal)) reading.scene.reset();
+    std::ranges::move(parsed.messages, std::back_inserter(reading.messages));
+    std::ranges::stable_sort(reading.messages, {}, &Message::place);
+    return reading;
+}
+
+Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files) {
+    const SceneFiles::BeingRead this_file(files, file.name);
     Reading reading;
     const std::string name = stem(file.name);
     reading.sources.push_back(std::move(file));
-    Parsed parsed = parse(reading.sources.front().text);
-    reading.messages = std::move(parsed.messages);
-    if (!parsed.is_json) return reading;
+    reading.root = std::move(root);
     for (const std::string& text : overrides) {
         reading.sources.push_back(override_source(text));
-        apply_override(parsed.root, text, reading.sources.size() - 1, reading.messages);
+        apply_override(reading.root, text, reading.sources.size() - 1, reading.messages);
     }
-    Scene scene = read_tree(parsed.root, reading.sources.front(), name, reading.messages);
-    std::stable_sort(reading.messages.begin(), reading.messages.end(),
-                     [](const Message& a, const Message& b) { return a.place < b.place; });
-    const bool fatal =
-        std::any_of(reading.messages.begin(), reading.messages.end(), [](const Message& m) { return m.fatal; });
-    if (!fatal) reading.scene = std::move(scene);
+    Scene scene = read_tree({reading.root, reading.sources.front(), files}, name, reading.messages);
+    std::ranges::stable_sort(reading.messages, {}, &Message::place);
+    if (std::ranges::none_of(reading.messages, &Message::fatal)) reading.scene = std::move(scene);
     return reading;
+}
+
+Source load_named_source(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (path != "-" && std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
+        !std::filesystem::is_regular_file(status))
+        throw UnreadableFile(fmt::format("{} is not a regular file", path));
+    return load_source(path == "-" ? "./-" : path);
 }
 
 Source load_source(const std::string& path) {

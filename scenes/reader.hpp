@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "scenes/scene_files.hpp"
 #include "scenes/source.hpp"
 
 namespace beamcam::scenes {
@@ -18,12 +19,17 @@ struct Reading {
     std::vector<Source> sources;    // the file, then the overrides
     std::vector<Message> messages;  // errors and warnings
     std::optional<Scene> scene;     // present when no message is fatal
+    Node root;                      // the tree that it was read from
 
     std::string report() const { return describe(sources, messages); }
 };
 
 // `overrides` are `key.path=value` texts, applied in order.
 Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
+// The same within a run that reads several: `files` keeps those that comparisons name.
+Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files);
+// The same of a part of a file, whose places the tree has.
+Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files);
 
 // The file cannot be read at all: absent, a directory, no permission, too large.
 struct UnreadableFile : std::runtime_error {
@@ -31,6 +37,8 @@ struct UnreadableFile : std::runtime_error {
 };
 // "-" is standard input. Throws UnreadableFile.
 Source load_source(const std::string& path);
+// The same of a name that a file gives: pipes and devices, which might never end, and standard input are refused.
+Source load_named_source(const std::string& path);
 
 // What the command line gives for a size or a frame rate is read like the scene's own.
 std::optional<Size> parse_size(std::string_view text);             // "1280x720"

@@ -1,6 +1,7 @@
 #include "scenes/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -27,6 +28,7 @@
 #include "output/work.hpp"
 #include "render/error.hpp"
 #include "render/film.hpp"
+#include "render/gl_environment.hpp"
 #include "scenes/demand.hpp"
 #include "scenes/fan_out.hpp"
 #include "scenes/figures/make.hpp"
@@ -513,7 +515,7 @@ class Runner {
     void write_impacts() {
         for (const ImpactsFile& i : plan_.impacts) {
             if (is_stdout(i.file)) {
-                output::print_data(output::impacts_json(result_));
+                output::print_json(output::impacts_json(result_));
             } else {
                 output::write_impacts(target_of(path_of(i.file), inputs_of(i)), result_);
                 wrote(path_of(i.file), fmt::format("{} in {}", counted(result_.impacts.size(), "impact"),
@@ -526,7 +528,7 @@ class Runner {
         for (const SummaryFile& s : plan_.summaries) {
             const std::vector<sim::Channel>& extrema = plan_.simulation->request.extrema;
             if (is_stdout(s.file)) {
-                output::print_data(output::summary_json(scene_.problem, result_, extrema, &work_));
+                output::print_json(output::summary_json(scene_.problem, result_, extrema, &work_));
             } else {
                 output::write_summary(target_of(path_of(s.file), inputs_of(s)), scene_.problem, result_, extrema,
                                       &work_);
@@ -777,15 +779,15 @@ class Runner {
 // ---- all together ------------------------------------------------------------------------------
 
 void refuse_clashes(std::span<const Scene> scenes) {
-    for (std::size_t later = 1; later < scenes.size(); ++later)
-        for (std::size_t earlier = 0; earlier < later; ++earlier)
-            for (const Output& a : scenes[later].outputs)
-                for (const Output& b : scenes[earlier].outputs)
-                    if (const auto clash = shared_file(a, b))
-                        throw NameClash(
-                            fmt::format("{} of the scene {} and {} of the scene {} are one file; give them different "
-                                        "names, or run the scenes one by one with -o",
-                                        clash->first, scenes[later].name, clash->second, scenes[earlier].name));
+    FileClaims claims;
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        for (const Output& output : scenes[i].outputs)
+            for (const std::string& file : written_by(output)) claims.add(file, i);
+    for (const auto& [later, earlier] : claims.clashes())
+        throw NameClash(
+            fmt::format("{} of the scene {} and {} of the scene {} are one file; give them different "
+                        "names, or run the scenes one by one with -o",
+                        later.file, scenes[later.owner].name, earlier.file, scenes[earlier.owner].name));
 }
 
 // Until when anybody wants the motion that this one wants.
@@ -795,6 +797,14 @@ double far(const Runner& one, const std::vector<std::unique_ptr<Runner>>& runner
         if (other->planned().simulation && other->motion() == one.motion())
             until = std::max(until, other->planned().simulation->request.end_time);
     return until;
+}
+
+void tell_ignored_gl_settings(const RunOptions& options, const std::vector<std::unique_ptr<Runner>>& runners) {
+    const std::vector<std::string>& ignored = render::ignored_gl_settings();
+    const bool drawn = std::ranges::any_of(runners, [](const auto& runner) { return runner->planned().needs_gl(); });
+    if (!options.quiet && drawn && !ignored.empty())
+        output::tell("warning: these settings of OpenGL are ignored, lit and solid views have their own: {}\n",
+                     fmt::join(ignored, ", "));
 }
 
 void make_motions(Shop& shop, const std::vector<std::unique_ptr<Runner>>& runners) {
@@ -844,6 +854,7 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     std::vector<std::unique_ptr<Runner>> runners;
     for (const Scene& scene : scenes) runners.push_back(std::make_unique<Runner>(scene, shop));
     for (const auto& runner : runners) runner->prepare();
+    tell_ignored_gl_settings(options, runners);
     for (const auto& runner : runners) runner->find_impacts(far(*runner, runners));
     make_motions(shop, runners);
     for (const auto& runner : runners) runner->deliver();

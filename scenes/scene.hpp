@@ -140,12 +140,14 @@ struct FigureOutput {
 using Output =
     std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
 
+// About what a thread needs to draw it [bytes], and from where on people are told.
+double memory_of(const Picture& picture);
+constexpr double kMuchMemory = 1e9;
+
 const std::string& file_of(const Output& output);
 std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
 std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
-// Files of both that may collide (files.hpp).
-std::optional<std::pair<std::string, std::string>> shared_file(const Output& a, const Output& b);
-const char* type_name(const Output& output);  // "video", "frames", …
+const char* type_name(const Output& output);                // "video", "frames", …
 
 struct Scene {
     std::string name = "scene";  // the file's name without its ending

@@ -3,6 +3,7 @@
 
 #include "scenes/fields.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/scene_files.hpp"
 #include "scenes/source.hpp"
 
 namespace beamcam::scenes {
@@ -10,15 +11,20 @@ namespace beamcam::scenes {
 // hub, beam, cam, contact, gravity, initial, solver, time.
 void read_physics(Findings& findings, Fields& root, Scene& scene);
 
-// Needs the scene's name, physics and end time. `root` is the whole scene, `source` its file.
-void read_outputs(Findings& findings, const Node* node, const Node& root, const Source& source, Scene& scene);
+// Where the outputs stand: the whole scene, its file, and the files that it compares.
+struct SceneContext {
+    const Node& root;
+    const Source& source;
+    SceneFiles& files;
+};
+// Needs the scene's name, physics and end time.
+void read_outputs(const SceneContext& context, Findings& findings, const Node* node, Scene& scene);
 
 // What pictures look like (picture_reader.cpp): layout, compare, comparison; and how time runs in them: speed, events.
 struct PictureContext {
     Findings& findings;
     const Scene& scene;
-    const Node& root;
-    const Source& source;
+    const SceneContext& file;
 };
 void read_arrangement(const PictureContext& context, Fields& f, Picture& picture);
 void read_pace(const PictureContext& context, Fields& f, FrameSpan& span);

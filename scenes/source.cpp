@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "output/text_safety.hpp"
+
 namespace beamcam::scenes {
 namespace {
 
@@ -20,34 +22,6 @@ std::string_view first_characters(std::string_view bytes, std::size_t count) {
     for (; i < bytes.size(); ++i)
         if (!is_continuation(bytes[i]) && count-- == 0) break;
     return bytes.substr(0, i);
-}
-
-// How many bytes the UTF-8 character at the front takes; 0 when it is none.
-std::size_t utf8_length(std::string_view text) {
-    const auto c = static_cast<unsigned char>(text[0]);
-    const std::size_t length = c < 0x80 ? 1 : c < 0xC2 ? 0 : c < 0xE0 ? 2 : c < 0xF0 ? 3 : c < 0xF5 ? 4 : 0;
-    if (length == 0 || length > text.size()) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if (!is_continuation(text[i])) return 0;
-    return length;
-}
-
-// Tabs would move the caret, control characters would speak to the terminal, and bytes that are no
-// text would spoil a log.
-std::string printable(std::string_view bytes) {
-    std::string out;
-    while (!bytes.empty()) {
-        const std::size_t length = utf8_length(bytes);
-        const auto c = static_cast<unsigned char>(bytes[0]);
-        if (length == 0)
-            out += is_continuation(bytes[0]) ? "" : "?";
-        else if (c < 0x20 || c == 0x7f)
-            out += ' ';
-        else
-            out += bytes.substr(0, length);
-        bytes.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return out;
 }
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -73,8 +47,9 @@ std::string excerpt(std::string_view text, std::size_t offset) {
         tail = "…";
     }
     std::string number = fmt::format("{:5}", locate(text, offset).line);
-    return fmt::format("{} | {}{}{}{}\n{:>{}} | {:>{}}\n", number, head, printable(before), printable(after), tail, "",
-                       number.size(), "^", characters(head) + characters(before) + 1);
+    return fmt::format("{} | {}{}{}{}\n{:>{}} | {:>{}}\n", number, head, output::one_line(before),
+                       output::one_line(after), tail, "", number.size(), "^",
+                       characters(head) + characters(before) + 1);
 }
 
 }  // namespace
@@ -105,17 +80,16 @@ std::string describe(const std::vector<Source>& sources, const Message& message)
 std::string describe(const std::vector<Source>& sources, std::vector<Message> messages) {
     std::stable_sort(messages.begin(), messages.end(),
                      [](const Message& a, const Message& b) { return a.place < b.place; });
-    constexpr std::size_t kMost = 100;  // that anybody reads
     std::string out;
-    for (std::size_t i = 0; i < std::min(messages.size(), kMost); ++i) out += describe(sources, messages[i]);
-    if (messages.size() > kMost) out += fmt::format("and {} more\n", messages.size() - kMost);
+    for (std::size_t i = 0; i < std::min(messages.size(), kMostDescribed); ++i) out += describe(sources, messages[i]);
+    if (messages.size() > kMostDescribed) out += fmt::format("and {} more\n", messages.size() - kMostDescribed);
     return out;
 }
 
 std::string shortened(std::string_view text) {
     constexpr std::size_t kLongest = 60;  // characters
     std::string_view shown = first_characters(text, kLongest);
-    return fmt::format("{}{}", printable(shown), shown.size() < text.size() ? "…" : "");
+    return fmt::format("{}{}", output::one_line(shown), shown.size() < text.size() ? "…" : "");
 }
 
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", shortened(text)); }

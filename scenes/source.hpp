@@ -40,7 +40,8 @@ LineColumn locate(std::string_view text, std::size_t offset);
 
 // `file:line:column: text`, then the line itself with a caret below the place.
 std::string describe(const std::vector<Source>& sources, const Message& message);
-// The messages in the order of their places, one after the other; beyond a hundred, how many more there are.
+// The messages in the order of their places, one after the other; beyond `kMostDescribed`, how many more there are.
+constexpr std::size_t kMostDescribed = 100;  // that anybody reads
 std::string describe(const std::vector<Source>& sources, std::vector<Message> messages);
 
 // A value inside a message: quoted, control characters made visible, long text shortened.

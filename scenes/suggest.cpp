@@ -19,16 +19,18 @@ std::string folded(std::string_view word) {
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    const std::size_t row = b.size() + 1;
+    std::vector<std::size_t> table((a.size() + 1) * row);
+    const auto d = [&](std::size_t i, std::size_t j) -> std::size_t& { return table[i * row + j]; };
+    for (std::size_t i = 0; i <= a.size(); ++i) d(i, 0) = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d(0, j) = j;
     for (std::size_t i = 1; i <= a.size(); ++i)
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            d(i, j) = std::min({d(i - 1, j) + 1, d(i, j - 1) + 1, d(i - 1, j - 1) + (a[i - 1] != b[j - 1])});
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+                d(i, j) = std::min(d(i, j), d(i - 2, j - 2) + 1);
         }
-    return d[a.size()][b.size()];
+    return d(a.size(), b.size());
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {

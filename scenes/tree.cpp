@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "output/text_safety.hpp"
+
 namespace beamcam::scenes {
 namespace {
 
@@ -20,24 +22,12 @@ std::size_t after_string(std::string_view text, std::size_t i) {
     return std::min(i + 1, text.size());
 }
 
-// Offset of the first byte that is not UTF-8 (overlong forms, surrogates and > U+10FFFF included).
+// Offset of the first byte that is not UTF-8.
 std::optional<std::size_t> first_bad_utf8(std::string_view text) {
-    auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     for (std::size_t i = 0; i < text.size();) {
-        const unsigned char c = byte(i);
-        if (c < 0x80) {
-            ++i;
-            continue;
-        }
-        const std::size_t length = c >= 0xF0 ? 4 : c >= 0xE0 ? 3 : 2;
-        if (c < 0xC2 || c > 0xF4 || i + length > text.size()) return i;
-        for (std::size_t k = 1; k < length; ++k)
-            if ((byte(i + k) & 0xC0) != 0x80) return i;
-        const unsigned char second = byte(i + 1);
-        if ((c == 0xE0 && second < 0xA0) || (c == 0xED && second > 0x9F) || (c == 0xF0 && second < 0x90) ||
-            (c == 0xF4 && second > 0x8F))
-            return i;
-        i += length;
+        const std::size_t bytes = output::first_character(text.substr(i)).bytes;
+        if (bytes == 0) return i;
+        i += bytes;
     }
     return std::nullopt;
 }
@@ -76,7 +66,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
     bool number_float(double value, const std::string&) override { return number(value); }
     bool string(std::string& value) override {
-        return scalar(Node::Kind::string, [&](Node& n) { n.text = std::move(value); });
+        return scalar(Node::Kind::string, [&](Node& n) {
+            refuse_nul(value, n.place.offset);
+            n.text = std::move(value);
+        });
     }
     bool binary(nlohmann::json::binary_t&) override { return false; }  // JSON text has none
     bool start_object(std::size_t) override { return open(Node::Kind::object); }
@@ -89,14 +82,14 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         const Place place{source_, at_};
         at_ = after_string(text_, at_);
         Node& object = *open_.back();
-        is_duplicate_ = object.find(value) != nullptr;
-        if (is_duplicate_) {
-            const LineColumn first = locate(text_, object.find(value)->key_place.offset);
-            say(place.offset, fmt::format("key {} stands twice in one object, first in line {}; remove one of them",
-                                          in_quotes(value), first.line));
-        }
+        const Member* first = object.find(value);
+        is_duplicate_ = first != nullptr;
+        if (is_duplicate_)
+            say(place.offset, fmt::format("duplicate key {}, first in line {}; remove one of them", in_quotes(value),
+                                          line_of(first->key_place.offset)));
+        refuse_nul(value, place.offset);
         // The second value is kept beside the first until it is complete, then dropped.
-        object.members.push_back({std::move(value), place, {}});
+        object.members.add({std::move(value), place, {}});
         return true;
     }
 
@@ -119,6 +112,23 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
     void say(std::size_t offset, std::string what) {
         result_.messages.push_back({{source_, offset}, std::move(what), true});
+    }
+
+    // Most libraries end a text there.
+    void refuse_nul(std::string_view text, std::size_t offset) {
+        if (text.find('\0') != std::string_view::npos)
+            say(offset,
+                fmt::format("{} contains the character U+0000, which no text can have; remove it", in_quotes(text)));
+    }
+
+    // Lines are counted once, not for each message.
+    std::size_t line_of(std::size_t offset) {
+        if (line_ends_.empty()) {
+            for (std::size_t i = 0; i < text_.size(); ++i)
+                if (text_[i] == '\n') line_ends_.push_back(i);
+            line_ends_.push_back(text_.size());  // of the last, which may be the only one
+        }
+        return 1 + static_cast<std::size_t>(std::ranges::lower_bound(line_ends_, offset) - line_ends_.begin());
     }
 
     bool fail(std::size_t offset, std::string what) {
@@ -193,7 +203,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     }
 
     void finish_value() {
-        if (is_duplicate_ && !open_.empty()) open_.back()->members.pop_back();
+        if (is_duplicate_ && !open_.empty()) open_.back()->members.drop_last();
         is_duplicate_ = false;
     }
 
@@ -319,7 +329,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     std::size_t source_;
     Parsed& result_;
     std::size_t at_ = 0;
-    std::size_t last_scalar_ = 0;  // where the last one began
+    std::size_t last_scalar_ = 0;         // where the last one began
+    std::vector<std::size_t> line_ends_;  // filled when first needed
     // Pointers stay valid: a parent's vectors do not grow while a child is open.
     std::vector<Node*> open_;
     std::vector<bool> duplicates_;  // for each open node: is it the second of its key
@@ -329,13 +340,34 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace
 
-const Member* Node::find(std::string_view key) const {
-    for (const Member& member : members)
+namespace {
+constexpr std::size_t kFew = 16;  // are found fastest by walking them
+}
+
+const Member* Members::find(std::string_view key) const {
+    if (all_.size() > kFew) {
+        const auto position = index_.find(key);
+        return position ? &all_[*position] : nullptr;
+    }
+    for (const Member& member : all_)
         if (member.key == key) return &member;
     return nullptr;
 }
 
-Member* Node::find(std::string_view key) { return const_cast<Member*>(std::as_const(*this).find(key)); }
+Member* Members::find(std::string_view key) { return const_cast<Member*>(std::as_const(*this).find(key)); }
+
+Member& Members::add(Member member) {
+    all_.push_back(std::move(member));
+    if (all_.size() > kFew)
+        for (std::size_t i = all_.size() == kFew + 1 ? 0 : all_.size() - 1; i < all_.size(); ++i)
+            index_.add(all_[i].key, i);
+    return all_.back();
+}
+
+void Members::drop_last() {
+    index_.remove(all_.back().key, all_.size() - 1);
+    all_.pop_back();
+}
 
 const char* name(Node::Kind kind) {
     switch (kind) {

@@ -10,11 +10,34 @@
 #include <variant>
 #include <vector>
 
+#include "output/name_index.hpp"
 #include "scenes/source.hpp"
 
 namespace beamcam::scenes {
 
 struct Member;
+
+// Of an object, in the order of the text; found by key without walking them all.
+class Members {
+  public:
+    const Member* find(std::string_view key) const;
+    Member* find(std::string_view key);
+    Member& add(Member member);  // at the end; `find` gives the first of equal keys
+    void drop_last();
+
+    std::size_t size() const { return all_.size(); }
+    bool empty() const { return all_.empty(); }
+    auto begin() const { return all_.begin(); }
+    auto end() const { return all_.end(); }
+    auto begin() { return all_.begin(); }
+    auto end() { return all_.end(); }
+    const Member& back() const { return all_.back(); }
+    Member& back() { return all_.back(); }
+
+  private:
+    std::vector<Member> all_;
+    output::NameIndex index_;
+};
 
 struct Node {
     enum class Kind { null, boolean, number, string, array, object };
@@ -23,12 +46,12 @@ struct Node {
     Place place;  // first byte of the value
     bool boolean = false;
     double number = 0;
-    std::string text;             // a string's value; a number as it was written
-    std::vector<Node> items;      // of an array
-    std::vector<Member> members;  // of an object, in the order of the text, keys unique
+    std::string text;         // a string's value; a number as it was written
+    std::vector<Node> items;  // of an array
+    Members members;          // of an object, keys unique
 
-    const Member* find(std::string_view key) const;
-    Member* find(std::string_view key);
+    const Member* find(std::string_view key) const { return members.find(key); }
+    Member* find(std::string_view key) { return members.find(key); }
 };
 
 struct Member {

@@ -125,7 +125,7 @@ int act(const Arguments& args) {
         say(args.common, "wrote " + file);
     }
     manifest.save();
-    if (!data_printed) print_data(report(found));
+    if (!data_printed) print_text(report(found));
     return 0;
 }
 

@@ -32,7 +32,7 @@ int list(const Arguments& args) {
                             fmt::format("{:g} s", kept.end), kept.steps,
                             kept.about.empty() ? "damaged, or of another version" : kept.about);
     }
-    print_data(text);
+    print_text(text);
     say(args.common,
         fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
     return 0;

@@ -76,6 +76,8 @@ Ask shard_argument(const std::string& text);  // "2/3"; throws UsageError
 // A message on standard error, unless -q.
 void say(const Common& common, const std::string& text);
 using output::print_data;
+using output::print_json;
+using output::print_text;
 // Throws SceneError with every issue of the scene; warnings go to standard error.
 Scene read_or_refuse(const std::string& path, const Common& common);
 // The scene with the film that one without outputs yields.

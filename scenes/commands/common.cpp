@@ -99,7 +99,10 @@ void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool 
             text += to_text(made, scene);
         }
     }
-    print_data(json && scenes.size() > 1 ? "[" + text + "]\n" : text);
+    if (json)
+        print_json(scenes.size() > 1 ? "[" + text + "]\n" : text);
+    else
+        print_text(text);
 }
 
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common) {

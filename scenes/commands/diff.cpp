@@ -123,9 +123,9 @@ int act(const Arguments& args) {
                                      args.a, args.b));
     const Comparison found = is_table(args.a) ? compare_tables(args) : compare_pictures(args);
     if (args.common.json)
-        print_data(to_json(found));
+        print_json(to_json(found));
     else if (!args.common.quiet)
-        print_data(to_text(found));
+        print_text(to_text(found));
     return found.verdict == Verdict::different ? kDiffers : kDone;
 }
 

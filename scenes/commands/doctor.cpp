@@ -9,7 +9,10 @@ namespace {
 
 int act(const Common& common) {
     const std::vector<Check> checks = examine_machine();
-    print_data(common.json ? to_json(checks) : to_text(checks));
+    if (common.json)
+        print_json(to_json(checks));
+    else
+        print_text(to_text(checks));
     return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.ok; }) ? kDone : kMissingPart;
 }
 

@@ -67,7 +67,7 @@ int act(const Arguments& args) {
     if (args.figure.empty()) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
-        print_data(list(scene, args.lang == "zh" ? Lang::zh : Lang::en));
+        print_text(list(scene, args.lang == "zh" ? Lang::zh : Lang::en));
         return 0;
     }
     const Recipe* recipe = recipe_named(args.figure);

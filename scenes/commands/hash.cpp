@@ -22,7 +22,7 @@ void stop_if_interrupted() {
     if (output::interrupted()) throw Stopped();
 }
 
-void print_line(const std::string& digest, const std::string& name) { print_data(digest + "  " + name + "\n"); }
+void print_line(const std::string& digest, const std::string& name) { print_text(digest + "  " + name + "\n"); }
 
 // Each picture is a file of its own: they are decoded side by side and told in their order.
 void hash_files(const std::vector<std::filesystem::path>& files, int threads) {

@@ -19,7 +19,10 @@ int act(const Arguments& args) {
     for (const std::string& file : args.files) {
         const Provenance found = provenance_of(file);
         if (!args.scene) {
-            print_data(args.common.json ? to_json(found) : to_text(found));
+            if (args.common.json)
+                print_json(to_json(found));
+            else
+                print_text(to_text(found));
             continue;
         }
         const std::string scene = runnable_scene(found.scene);
@@ -28,7 +31,7 @@ int act(const Arguments& args) {
                 "{} carries no scene: beamcam did not make it, or something that handled it since dropped what "
                 "it said of itself",
                 file));
-        print_data(scene);
+        print_json(scene);
     }
     return kDone;
 }

@@ -31,7 +31,7 @@ int act(const Arguments& args) {
     }
     const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
     if (args.common.json) {
-        print_data(output::modes_json(modes));
+        print_json(output::modes_json(modes));
         return 0;
     }
     if (modes.empty()) {
@@ -46,7 +46,7 @@ int act(const Arguments& args) {
             text += fmt::format("{:4}  {:20.12g}  {:20.12g}\n", i + 1, modes[i].omega,
                                 modes[i].omega / (2 * std::numbers::pi));
     }
-    print_data(text);
+    print_text(text);
     return 0;
 }
 

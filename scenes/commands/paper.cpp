@@ -122,7 +122,7 @@ int act(const Arguments& args) {
                                 s.request.end_time, s.because,
                                 s.request.horizon ? ", and again for its reproducible horizon" : "");
         for (const std::string& file : files_of(args, jobs)) text += fmt::format("write     {}\n", file);
-        print_data(text);
+        print_text(text);
         return 0;
     }
     Writer writer(args);

@@ -66,11 +66,10 @@ std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) 
     const auto to_stdout =
         std::count_if(outputs.begin(), outputs.end(), [](const Output& o) { return file_of(o) == "-"; });
     if (to_stdout > 1) throw UsageError("more than one output would go to standard output; name files for the others");
-    for (std::size_t i = 0; i < outputs.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
-            if (may_collide(file_of(outputs[i]), file_of(outputs[k])))
-                throw UsageError(
-                    fmt::format("{} is named twice; give each output a file of its own", file_of(outputs[i])));
+    FileClaims claims;
+    for (std::size_t i = 0; i < outputs.size(); ++i) claims.add(file_of(outputs[i]), i);
+    for (const auto& clash : claims.clashes())
+        throw UsageError(fmt::format("{} is named twice; give each output a file of its own", clash.later.file));
     return outputs;
 }
 

@@ -63,7 +63,7 @@ int act(const Arguments& args) {
     }
     const sim::Campaign campaign = sim::stress_campaign(args.full);
     const std::vector<sim::StressResult> results = survive_all(campaign, args.common);
-    print_data(output::stress_text(campaign, results));
+    print_text(output::stress_text(campaign, results));
     for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
     manifest.save();
     const bool failed = std::any_of(results.begin(), results.end(),

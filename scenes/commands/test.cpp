@@ -62,9 +62,9 @@ void write_reports(const Arguments& args, const RegressionResult& result, output
 
 void tell(const Arguments& args, const RegressionResult& result) {
     if (args.common.json)
-        print_data(to_json(result));
+        print_json(to_json(result));
     else
-        print_data(to_text(result, args.common.quiet));
+        print_text(to_text(result, args.common.quiet));
     std::size_t counts[4] = {};
     for (const EntryResult& entry : result.entries) ++counts[static_cast<std::size_t>(entry.verdict())];
     say(args.common,

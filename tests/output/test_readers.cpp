@@ -1,9 +1,12 @@
 // Reading back what was written, and refusing what is damaged. FFmpeg's program and numpy are the witnesses.
+#include <libdeflate.h>
+
 #include <cmath>
 #include <fstream>
 
 #include "output/atomic_file.hpp"
 #include "output/digest.hpp"
+#include "output/inflate.hpp"
 #include "output/picture_source.hpp"
 #include "output/png.hpp"
 #include "output/png_reader.hpp"
@@ -62,8 +65,9 @@ std::string io_error_of(Body body) {
     return {};
 }
 
-void make_film(const std::filesystem::path& file) {
+void make_film(const std::filesystem::path& file, Codec codec = Codec::h264) {
     VideoOptions options;
+    options.codec = codec;
     options.width = 64;
     options.height = 48;
     options.preset = "ultrafast";
@@ -179,6 +183,66 @@ TEST(VideoReader, AFilmThatEndsEarlyOrIsDamagedIsAnError) {
     }
     write_file(scratch / "text.mp4", "#EXTM3U\nhttp://127.0.0.1:9/a.ts\n");
     EXPECT_NE(io_error_of([&] { own_digests(scratch / "text.mp4"); }).find("text.mp4"), std::string::npos);
+}
+
+// FFmpeg takes the end of a cut Matroska file for the end of the film.
+TEST(VideoReader, ACutMatroskaFilmIsAnErrorWhereverItEnds) {
+    Scratch scratch;
+    make_film(scratch / "a.mkv");
+    make_film(scratch / "a.webm", Codec::vp9);
+    for (const char* ending : {".mkv", ".webm"}) {
+        const std::string whole = read_file(scratch / (std::string("a") + ending));
+        EXPECT_EQ(own_digests(scratch / (std::string("a") + ending)).size(), 40U);
+        for (const double share : {0.01, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999}) {
+            const auto cut = scratch / (std::string("cut") + ending);
+            write_file(cut, whole.substr(0, static_cast<std::size_t>(share * double(whole.size()))));
+            EXPECT_NE(io_error_of([&] { own_digests(cut); }).find("cut"), std::string::npos) << ending << share;
+        }
+    }
+}
+
+TEST(VideoReader, ReadsNoOtherFile) {
+    Scratch scratch;
+    make_film(scratch / "a.mkv");
+    output_of("ffmpeg -v error -i " + in_shell(scratch / "a.mkv") + " -frames:v 1 " + in_shell(scratch / "film-1.jpg"));
+    EXPECT_EQ(own_digests(scratch / "film-1.jpg").size(), 1U);
+    const std::string name = (scratch / "a.mkv").string();
+    for (const std::string& script :
+         {"ffconcat version 1.0\nfile '" + name + "'\n", "#EXTM3U\n#EXTINF:1,\n" + name + "\n#EXT-X-ENDLIST\n"}) {
+        write_file(scratch / "script.mkv", script);
+        EXPECT_NE(io_error_of([&] { own_digests(scratch / "script.mkv"); }), "");
+        EXPECT_NE(io_error_of([&] { concatenate({scratch / "script.mkv"}, scratch / "joined.mkv"); }), "");
+        EXPECT_FALSE(std::filesystem::exists(scratch / "joined.mkv"));
+    }
+    EXPECT_NE(io_error_of([&] { VideoReader(scratch / "film-%d.jpg"); }), "");
+}
+
+TEST(Inflater, GivesOutNoMoreThanItsBudget) {
+    std::string packed(200, '\0');
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> deflate(
+        libdeflate_alloc_compressor(6), libdeflate_free_compressor);
+    const std::string zeros(60000, '\0');
+    packed.resize(libdeflate_zlib_compress(deflate.get(), zeros.data(), zeros.size(), packed.data(), packed.size()));
+    Inflater inflater(100000);
+    EXPECT_EQ(inflater.zlib(packed), zeros);
+    EXPECT_EQ(inflater.zlib(packed), std::nullopt);
+    EXPECT_EQ(Inflater(100000).deflate(packed, 99999999), std::nullopt);
+}
+
+TEST(TableReader, ArraysThatShareTheirBytesAreRefused) {
+    Scratch scratch;
+    const std::string command =
+        "cd '" + scratch.path().string() +
+        "' && /usr/bin/python3 -c \"import numpy; numpy.savez_compressed('a.npz', t=numpy.zeros(3))\"";
+    output_of(command);
+    const std::string whole = read_file(scratch / "a.npz");
+    ASSERT_EQ(read_table(scratch / "a.npz").rows(), 3U);
+    const std::size_t end = whole.rfind("PK\5\6"), begin = whole.rfind("PK\1\2");
+    std::string twice = whole.substr(0, end), second = whole.substr(begin, end - begin), tail = whole.substr(end);
+    second[46] = 'u';  // its name
+    tail[8] = tail[10] = 2;
+    write_file(scratch / "b.npz", twice + second + tail);
+    EXPECT_NE(io_error_of([&] { read_table(scratch / "b.npz"); }).find("damaged"), std::string::npos);
 }
 
 TEST(PictureSource, TakesDirectoriesAndSequencesInTheOrderOfTheirNumbers) {

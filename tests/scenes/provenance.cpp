@@ -125,5 +125,28 @@ TEST(GlDoctor, NamesThePackageOfWhatIsMissing) {
     EXPECT_THAT(gl.out, HasSubstr("libosmesa6"));
 }
 
+// Drivers that this machine lacks, and switches that make Mesa crash.
+TEST(GlEnvironment, SettingsOfMesaAreIgnoredAndNamed) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const char* render = "$BEAMCAM render s.json -o x.png --at 0 --size 64x48 --force";
+    ASSERT_EQ(shell(folder, std::string(render) + "; $BEAMCAM hash x.png >a").code, 0);
+    for (const char* setting :
+         {"GALLIUM_DRIVER=d3d12", "GALLIUM_DRIVER=zink", "GALLIUM_DRIVER=virpipe", "GALLIUM_DRIVER=softpipe",
+          "GALLIUM_DRIVER=nonsense", "DRAW_USE_LLVM=0", "LP_NATIVE_VECTOR_WIDTH=512", "LP_NATIVE_VECTOR_WIDTH=64",
+          "MESA_EXTENSION_OVERRIDE=-GL_ARB_vertex_array_object", "MESA_GL_VERSION_OVERRIDE=2.1",
+          "MESA_GLSL_VERSION_OVERRIDE=110", "LIBGL_ALWAYS_INDIRECT=1"}) {
+        const Finished doctor = shell(folder, std::string(setting) + " $BEAMCAM doctor");
+        EXPECT_EQ(doctor.code, 0) << setting << doctor.out;
+        EXPECT_THAT(doctor.out, HasSubstr(setting));
+        const Finished drawn =
+            shell(folder, std::string("export ") + setting + "; " + render + " && $BEAMCAM hash x.png | cmp - a");
+        EXPECT_EQ(drawn.code, 0) << setting << drawn.err;
+        EXPECT_THAT(drawn.err, HasSubstr(setting));
+    }
+    EXPECT_THAT(shell(folder, std::string("LP_NUM_THREADS=1 GALLIUM_DRIVER=llvmpipe ") + render).err,
+                ::testing::Not(HasSubstr("ignored")));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes

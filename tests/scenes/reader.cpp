@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -304,7 +306,71 @@ TEST(Override, ErrorsNameTheOverride) {
     EXPECT_THAT(messages(read("{\"cam\": null}", {"cam.speed=3"})), ElementsAre(HasSubstr("cam is null")));
     EXPECT_THAT(messages(read("{\"outputs\": [{\"type\": \"video\"}]}", {"outputs.1.fps=3"})),
                 ElementsAre(HasSubstr("1 entries")));
-    EXPECT_THAT(messages(read("{}", {"cam={\"speed\": 1, \"speed\": 2}"})), ElementsAre(HasSubstr("stands twice")));
+    EXPECT_THAT(messages(read("{}", {"cam={\"speed\": 1, \"speed\": 2}"})),
+                ElementsAre(HasSubstr("duplicate key \"speed\"")));
+}
+
+// ---- comparisons of files --------------------------------------------------------------------------
+
+std::string comparing(std::string_view file, int times = 1) {
+    std::string entries = R"({"label": "own"})";
+    for (int i = 0; i < times; ++i) entries += fmt::format(R"(, {{"scene": "{}"}})", file);
+    return fmt::format(R"({{"outputs": [{{"type": "still", "at": 0, "compare": [{}]}}]}})", entries);
+}
+
+Reading read_file_of(const testing::Folder& folder, const std::string& name) {
+    return read_scene(load_source((folder / name).string()));
+}
+
+TEST(ComparedFiles, ARingIsRefusedWithItsChain) {
+    const testing::Folder folder;
+    folder.write("self.json", comparing("./self.json"));
+    folder.write("a.json", comparing("b.json"));
+    folder.write("b.json", comparing("c.json"));
+    folder.write("c.json", comparing("b.json"));
+    std::filesystem::create_symlink("self.json", folder / "link.json");
+    EXPECT_THAT(messages(read_file_of(folder, "self.json")),
+                ElementsAre(AllOf(HasSubstr("is a ring"), HasSubstr("self.json → "))));
+    EXPECT_THAT(messages(read_file_of(folder, "link.json")), ElementsAre(HasSubstr("is a ring")));
+    const std::string chain = fmt::format("({0}/b.json → {0}/c.json → {0}/b.json)", folder.path().string());
+    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr(chain)));
+}
+
+// Read once for each time that it is named, the last of these would be read 7¹² times.
+TEST(ComparedFiles, EachIsReadOnce) {
+    const testing::Folder folder;
+    for (int i = 0; i < 12; ++i) folder.write(fmt::format("{}.json", i), comparing(fmt::format("{}.json", i + 1), 7));
+    folder.write("12.json", R"({"beam": {"modes": 5}})");
+    const Reading reading = read_file_of(folder, "0.json");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    folder.write("top.json", comparing("12.json", 7));
+    EXPECT_EQ(std::get<StillOutput>(read_file_of(folder, "top.json").scene->outputs[0]).compare[7].problem.beam.modes,
+              5);
+}
+
+TEST(ComparedFiles, LongChainsAreRefused) {
+    const testing::Folder folder;
+    for (int i = 0; i < 2000; ++i) folder.write(fmt::format("{}.json", i), comparing(fmt::format("{}.json", i + 1)));
+    folder.write("2000.json", "{}");
+    EXPECT_THAT(messages(read_file_of(folder, "0.json")), ElementsAre(HasSubstr("in a chain")));
+    EXPECT_TRUE(read_file_of(folder, "1990.json").scene);
+}
+
+TEST(ComparedFiles, OnlyRegularFilesAreRead) {
+    const testing::Folder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
+    for (const char* name : {"pipe.json", "/dev/zero"}) {
+        folder.write("a.json", comparing(name));
+        EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("not a regular file"))) << name;
+    }
+    folder.write("a.json", comparing("-"));
+    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("there is no such file")));
+}
+
+TEST(Reader, NoTextHasTheCharacterThatEndsOne) {
+    EXPECT_THAT(messages(read("{\"title\": \"a\\u0000b\"}")), ElementsAre(HasSubstr("U+0000")));
+    EXPECT_THAT(messages(read("{\"x-\\u0000\": 1}")), ElementsAre(HasSubstr("U+0000")));
+    EXPECT_THAT(messages(read("{}", {"title=\"\\u0000\""})), ElementsAre(HasSubstr("U+0000")));
 }
 
 // ---- files -------------------------------------------------------------------------------------

@@ -1,0 +1,32 @@
+// Decompressing parts of one foreign file, within a budget for all of them together: a few bytes may claim to be
+// gigabytes, and many parts may be the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct libdeflate_decompressor;
+
+namespace beamcam::output {
+
+class Inflater {
+  public:
+    explicit Inflater(std::size_t budget);  // [bytes], of everything that it gives out
+
+    // A deflate stream whose size is known; nothing when it is damaged, has another size, or is beyond the budget.
+    std::optional<std::string> deflate(std::string_view packed, std::size_t size);
+    // A zlib stream of unknown size; the same.
+    std::optional<std::string> zlib(std::string_view packed);
+
+  private:
+    struct Free {
+        void operator()(libdeflate_decompressor* decompressor) const;
+    };
+    std::unique_ptr<libdeflate_decompressor, Free> decompressor_;
+    std::size_t budget_;
+};
+
+}  // namespace beamcam::output
