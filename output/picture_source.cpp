@@ -1,5 +1,7 @@
 #include "output/picture_source.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -92,6 +94,8 @@ PictureSource::PictureSource(const fs::path& path) : path_(path) {
         is_sequence_ = true;
     } else if (!fs::exists(status)) {
         throw read_error(path, error ? error.value() : ENOENT);
+    } else if (access(path.c_str(), R_OK) != 0) {
+        throw read_error(path, errno);
     } else if (png_kind(path) == PngKind::up_to_8_bits && path.extension() != ".apng") {
         files_ = {path};
     } else {

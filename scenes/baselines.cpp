@@ -75,7 +75,11 @@ class Reader {
         messages_ = std::move(parsed.messages);
         read_root(parsed.root);
         for (Message& message : findings_.take()) messages_.push_back(std::move(message));
-        if (!messages_.empty()) throw SceneError(describe({all_.source}, std::move(messages_)));
+        if (!messages_.empty()) {
+            std::string report = describe({all_.source}, std::move(messages_));
+            for (const Baseline& entry : all_.entries) report += entry.problem;
+            throw SceneError(report);
+        }
         return std::move(all_);
     }
 

@@ -486,9 +486,10 @@ void read_outputs(const SceneContext& context, Findings& findings, const Node* n
             outputs.emplace_back(&node->items[i], std::move(*output));
     if (outputs.size() == node->items.size()) refuse_shared_files(findings, outputs);
     for (auto& [object, output] : outputs) {
-        const LineColumn at = locate(source.text, object->place.offset);
-        scene.output_places.push_back(
-            object->place.source == 0 ? fmt::format("{}:{}:{}", source.name, at.line, at.column) : source.name);
+        const LineColumn at = locate(context.source.text, object->place.offset);
+        scene.output_places.push_back(object->place.source == 0
+                                          ? fmt::format("{}:{}:{}", context.source.name, at.line, at.column)
+                                          : context.source.name);
         scene.outputs.push_back(std::move(output));
     }
 }

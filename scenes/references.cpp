@@ -175,9 +175,19 @@ class Carrier {
 // Ours by the journal in it, or empty, as between two system calls of a run that was killed.
 bool is_own_staging(const fs::path& staging) { return !output::journals_in(staging).empty() || fs::is_empty(staging); }
 
+// The journals go last: they mark the folder as beamcam's own until nothing else is in it.
+void remove_staging(const fs::path& staging, std::error_code& error) {
+    const std::vector<fs::path> journals = output::journals_in(staging);
+    std::vector<fs::path> others;
+    for (fs::directory_iterator at(staging, error), end; !error && at != end; at.increment(error))
+        if (std::find(journals.begin(), journals.end(), at->path()) == journals.end()) others.push_back(at->path());
+    for (auto other = others.begin(); !error && other != others.end(); ++other) fs::remove_all(*other, error);
+    if (!error) fs::remove_all(staging, error);
+}
+
 void remove_staging(const fs::path& staging) {
     std::error_code error;
-    fs::remove_all(staging, error);
+    remove_staging(staging, error);
     if (error) throw output::write_error(staging, error.value());
 }
 
@@ -233,7 +243,7 @@ ReferenceUpdate::ReferenceUpdate(fs::path baselines, fs::path references, bool f
 ReferenceUpdate::~ReferenceUpdate() {
     // What is listed has to be completed, by the next run if this one could not.
     std::error_code ignored;
-    if (!fs::exists(staging_ / kTasks, ignored)) fs::remove_all(staging_, ignored);
+    if (!fs::exists(staging_ / kTasks, ignored)) remove_staging(staging_, ignored);
 }
 
 fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNew / entry; }
