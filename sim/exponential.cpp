@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/contact_lanes.hpp"
+#include "sim/event_search.hpp"
 #include "sim/exponential_segment.hpp"
 #include "sim/lane_kernels.hpp"
 
@@ -99,13 +100,17 @@ bool sharp_friction(System& system) {
            p.contact.model == ContactModel::compliant && exponential_applies(system);
 }
 
-std::unique_ptr<Integrator> make_fallback(System& system, double rtol, double atol) {
+Method fallback_method(System& system) {
     const Beam& beam = system.problem().beam;
     double ratio = 0.5 * beam.kelvin_voigt.value_or(0) * system.highest_frequency();
     for (const double z : beam.damping_ratio) ratio = std::max(ratio, z);
     const bool stiff = (beam.model != ModelKind::rigid && ratio > kStiffDamping) || sharp_friction(system);
-    return stiff ? make_sundials(Method::cvode_bdf, system, kShareOfBdf * rtol, kShareOfBdf * atol)
-                 : make_rk8(system, rtol, atol);
+    return stiff ? Method::cvode_bdf : Method::rk8;
+}
+
+std::unique_ptr<Integrator> make_fallback(Method method, System& system, double rtol, double atol) {
+    return method == Method::rk8 ? make_rk8(system, rtol, atol)
+                                 : make_sundials(method, system, kShareOfBdf * rtol, kShareOfBdf * atol);
 }
 
 class Exponential final : public Integrator {
@@ -116,7 +121,8 @@ class Exponential final : public Integrator {
           rtol_(rtol),
           atol_(atol),
           n_(form_ ? static_cast<std::size_t>(form_->n) : 0),
-          fallback_(make_fallback(system, rtol, atol)) {
+          fallback_(make_fallback(fallback_method(system), system, rtol, atol)) {
+        counters.fallback = fallback_method(system);
         if (!form_) return;
         segment_ = std::make_unique<ExponentialSegment>(form_, system.drive(), system.size);
         base_q_.resize(n_);
@@ -135,21 +141,16 @@ class Exponential final : public Integrator {
         jt_.resize(n_);
         hq_end_.resize(n_);
         row_.resize(n_);
+        ripples_.resize(n_);
     }
 
     void start(double t, const double* y) override {
         const Phase& phase = system_.phase();
+        if (!(touching_ && t == t_)) side_ = 1;
         touching_ = phase.touching;
         falling_back_ = !form_ || phase.held || (touching_ && (system_.has_bristle() || !begin_touch(t, y)));
-        if (falling_back_) {
-            if (std::isfinite(first_limit_)) fallback_->limit_first_step(first_limit_);
-            first_limit_ = std::numeric_limits<double>::infinity();
-            fallback_->stop_at(stop_);
-            fallback_->start(t, y);
-            count();
-            return;
-        }
-        first_flight_ = limited(std::numeric_limits<double>::infinity());
+        first_step_ = limited(std::numeric_limits<double>::infinity());
+        if (falling_back_) return hand_over(t, y, first_step_);
         t_ = t;
         std::copy_n(y, segment_->end.size(), segment_->end.begin());
     }
@@ -165,9 +166,8 @@ class Exponential final : public Integrator {
             flight();
         } else if (!touch_step()) {
             // The contact has left what this method covers: the rest of the phase goes to the other.
-            falling_back_ = true;
-            fallback_->stop_at(stop_);
-            fallback_->start(t_, segment_->end.data());
+            ++counters.handed_over;
+            hand_over(t_, segment_->end.data(), first_step_);
             const Segment& segment = fallback_->step();
             count();
             return segment;
@@ -200,9 +200,19 @@ class Exponential final : public Integrator {
     const double* state() const override { return falling_back_ ? fallback_->state() : segment_->end.data(); }
 
   private:
+    // The other method goes on from (t, y), by a step of at most `first` to begin with.
+    void hand_over(double t, const double* y, double first) {
+        falling_back_ = true;
+        fallback_->limit_first_step(first);
+        fallback_->stop_at(stop_);
+        fallback_->start(t, y);
+        count();
+    }
+
     void count() {
         const IntegratorCounters& now = fallback_->counters;
         counters.steps += now.steps - seen_.steps;
+        counters.fallback_steps += now.steps - seen_.steps;
         counters.rejected += now.rejected - seen_.rejected;
         counters.rhs += now.rhs - seen_.rhs;
         seen_ = now;
@@ -238,7 +248,7 @@ class Exponential final : public Integrator {
         bool rejected = false;
         for (;;) {
             const int k = flight_rung_;
-            const double h = std::min(rung(k), std::max(first_flight_, 1e-14 * std::fabs(t_)));
+            const double h = std::min(rung(k), std::max(first_step_, 1e-14 * std::fabs(t_)));
             const bool last = t_ + 1.01 * h >= stop_;
             const StepTable* now = &odd_;
             if (last)
@@ -253,7 +263,7 @@ class Exponential final : public Integrator {
                 if (now != &odd_ && !rejected && error < 0.5 / 16)
                     flight_rung_ = std::min(k + (error < 1e-5 ? 2 : 1), kHighest);
                 s.t1 = last ? stop_ : t_ + now->h;
-                first_flight_ = std::numeric_limits<double>::infinity();
+                first_step_ = std::numeric_limits<double>::infinity();
                 break;
             }
             rejected = true;
@@ -585,19 +595,15 @@ class Exponential final : public Integrator {
             if (std::isfinite(error)) {
                 const double end = cut(h, ending);
                 // A step far beyond the release is of no use but to tell how long the next try is.
-                if (ending != TouchSamples::Ending::open) {
-                    error = solve_to(end, ending);
-                    if (error <= 1) {
-                        touch_accept(ending);
-                        return true;
-                    }
+                if (ending != TouchSamples::Ending::open) error = solve_to(end, ending);
+                const bool whole = ending == TouchSamples::Ending::open;
+                if (error <= 1) error = cut_between_nodes(error, ending);
+                if (error <= 1) {
+                    if (whole && ending == TouchSamples::Ending::open && now != &odd_ && !rejected && error < 0.02)
+                        touch_rung_ = std::min(touch_rung_ + (error < 1e-4 ? 2 : 1), kHighest);
+                    touch_accept(ending);
+                    return true;
                 }
-            }
-            if (error <= 1 && ending == TouchSamples::Ending::open) {
-                if (now != &odd_ && !rejected && error < 0.02)
-                    touch_rung_ = std::min(touch_rung_ + (error < 1e-4 ? 2 : 1), kHighest);
-                touch_accept(ending);
-                return true;
             }
             rejected = true;
             ++counters.rejected;
@@ -841,9 +847,103 @@ class Exponential final : public Integrator {
             if (std::isfinite(first)) return first;
             before = t;
             gap = g;
-            factor = now;
+            if (std::fabs(now) > 1e-9) factor = now;  // rounding has no sign
         }
         return h;
+    }
+
+    // The step just solved has an error of `error` <= 1 and ends as `ending` tells. It is cut at an event that no node
+    // shows, if there is one, and again as long as the shorter one has another. The error of what is left.
+    double cut_between_nodes(double error, TouchSamples::Ending& ending) {
+        for (int cuts = 0; error <= 1; ++cuts) {
+            TouchSamples::Ending found = TouchSamples::Ending::open;
+            const double end = first_between_nodes(ending, found);
+            if (found == TouchSamples::Ending::open) break;
+            if (cuts == kMostCuts) return std::numeric_limits<double>::infinity();
+            ending = found;
+            carry_ = 0;
+            error = solve_to(end, ending);
+        }
+        return error;
+    }
+
+    // When the first event between the nodes falls in the step just solved, and which: the gap opens, or the clamp of
+    // the force sets in or lets go.                                                                            (S58)
+    double first_between_nodes(TouchSamples::Ending ending, TouchSamples::Ending& found) {
+        const Collocation& gauss = Collocation::get();
+        const NormalLaw& law = system_.normal_law();
+        const double h = segment_->h, deep = kGapRounding * form_->length;
+        const bool clamps = law.damping > 0;
+        const double level = clamps ? -approach_ / law.damping : 0, none = 1e-9 * -level;
+        ripples_known_ = n_;
+        const auto probe = [&](double t) { return penetration_at(t); };
+        const auto ripple = [&](double span) { return unresolved(span); };
+        Guard a{0, std::max(0.0, -start_touch_.gap), -start_touch_.gap_rate};
+        start_side_ = std::fabs(a.rate - level) > none ? std::copysign(1.0, a.rate - level) : side_;
+        for (int k = 0; k <= kNodes; ++k) {
+            Guard b = k < kNodes ? Guard{h * gauss.c[k], -touch_.gap[k], -touch_.gap_rate[k]}
+                                 : Guard{h, -end_touch_.gap, -end_touch_.gap_rate};
+            if (k == kNodes && ending != TouchSamples::Ending::open) b.value = std::max(b.value, 0.0);
+            Guard c = b;
+            if (k == kNodes && ending == TouchSamples::Ending::clamp) c.rate = level;
+            double first = std::numeric_limits<double>::infinity();
+            const event_search::Quartic between(a, c, ripple(c.t - a.t));
+            if (!between.positive(deep)) {
+                const auto at = first_fall(probe, a, b, deep, ripple);
+                if (at && *at > 0 && *at < h) {
+                    first = *at;
+                    found = TouchSamples::Ending::release;
+                }
+            }
+            if (clamps && !between.keeps_side(level, start_side_, none)) {
+                auto at = first_passing(probe, a, c, level, start_side_, none, ripple);
+                // It starts on the kink, and was taken to be on the wrong side of it.
+                if (at && std::fabs(a.rate - level) <= none && *at - a.t <= 1e-6 * (c.t - a.t)) {
+                    start_side_ = -start_side_;
+                    at = first_passing(probe, a, c, level, start_side_, none, ripple);
+                }
+                if (at && *at > 0 && *at < std::min(first, h)) {
+                    first = *at;
+                    found = TouchSamples::Ending::clamp;
+                }
+            }
+            if (std::isfinite(first)) return first;
+            a = b;
+        }
+        return h;
+    }
+
+    // Penetration and its rate inside the step just solved.
+    Guard penetration_at(double after) {
+        ExponentialSegment& s = *segment_;
+        s.t1 = std::numeric_limits<double>::infinity();  // evaluated, not copied
+        s.books = false;
+        scratch_.resize(s.end.size());
+        s.value(s.t0 + after, scratch_.data());
+        Touch<double> touch;
+        touch.dx = end_touch_.dx;
+        look_at(s.t0 + after, scratch_.data(), touch);
+        ++system_.gap_evaluations;
+        return {after, -touch.gap, -touch.gap_rate};
+    }
+
+    // What of the penetration turns by more than two radians in `span`: the free vibration of a mode, about the
+    // deflection that its forcing holds, keeps its amplitude.
+    Ripple unresolved(double span) {
+        constexpr double kResolvedTurn = 2;
+        Ripple ripple;
+        const ExponentialSegment& s = *segment_;
+        for (std::size_t i = n_; i-- > 0 && form_->oscillators[i].omega * span > kResolvedTurn;) {
+            const double w = form_->oscillators[i].omega, inverse = 1 / (w * w);
+            if (ripples_known_ > i) {
+                const Lanes free = s.q[i] - inverse * s.f[i];
+                ripples_[i] = 2 * std::fabs(row_[i]) * std::sqrt(largest(free * free + inverse * (s.v[i] * s.v[i])));
+                ripples_known_ = i;
+            }
+            ripple.value += ripples_[i];
+            ripple.rate += w * ripples_[i];
+        }
+        return ripple;
     }
 
     // Solves again, ended at the release or at the kink, until the end lies on it. The error, as `solve_contact`.
@@ -883,8 +983,10 @@ class Exponential final : public Integrator {
     void touch_accept(TouchSamples::Ending ending) {
         ExponentialSegment& s = *segment_;
         ++counters.steps;
+        side_ = ending == TouchSamples::Ending::clamp ? -start_side_ : start_side_;
         s.touching = true;
         s.t1 = s.t0 + s.h;
+        first_step_ = s.h;
         if (s.h < crawl_) ++crawls_;
         finish();
         TouchSamples& samples = s.samples;
@@ -923,7 +1025,8 @@ class Exponential final : public Integrator {
     std::vector<StepTable> ladder_;
     StepTable odd_;
     int flight_rung_ = kFirstFlight;
-    double first_flight_ = std::numeric_limits<double>::infinity();  // [s] the next step of flight is at most this long
+    // [s] The next step of flight, and in contact one of the other method, is at most this long.
+    double first_step_ = std::numeric_limits<double>::infinity();
     double t_ = 0, spin0_ = 0, largest_change_ = 0;
     double scale_modes_ = 1, scale_spin_ = 1, scale_theta_ = 1;
     Lanes time_{}, theta_{}, sin_{}, cos_{}, acceleration_{}, torque_{}, inertia_{};
@@ -936,6 +1039,9 @@ class Exponential final : public Integrator {
     long crawls_ = 0;   // steps of this touch shorter than…
     double crawl_ = 0;  // [s]
     int touch_rung_ = kFirstTouch;
+    double side_ = 1, start_side_ = 1;  // of the kink of the clamp: +1 pushes; where the next step starts, the last did
+    std::vector<double> ripples_;       // of the modes from `ripples_known_` on
+    std::size_t ripples_known_ = 0;
     double mu_ = 0, slip_speed_ = 1, approach_ = 1, gap_offset_ = 0, force0_ = 0, carry_ = 0, centred_ = -1;
     double mobility_modes_ = 0, mobility_hub_ = 0, kick_ = 0;
     Touch<double> start_touch_, end_touch_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim/lane_kernels.hpp"
@@ -83,6 +84,16 @@ class StoredExponential final : public StoredSegment {
     }
     System system_;
     ExponentialSegment segment_;
+};
+
+// Bounds of a function of the modes, of its rate and of its second derivative.
+struct Bounded {
+    double value = 0, rate = 0, second = 0;
+    void add(double factor, const Bounded& q) {
+        value += factor * q.value;
+        rate += factor * q.rate;
+        second += factor * q.second;
+    }
 };
 
 }  // namespace
@@ -200,20 +211,35 @@ const MotionBounds* ExponentialSegment::bounds() const {
     MotionBounds& b = bounds_;
     b = {};
     constexpr double kMargin = 1, kNodeGap = 0.1;  // half of the widest distance of nodes over the step
+    constexpr double kBetweenNodes = 1.5;          // of what a polynomial may exceed its values at the nodes by
     const double shape = 3 + 3 * std::fabs(form_->radius) / form_->length;
     double turn = 0, turn_rate = 0;
+    Bounded deflection, stretch;  // stretch: √∫v′²
+    double slope = 0, slope_rate = 0, curvature = 0, hub_second = 0;
+    double inertia = 0, inertia_rate = 0;  // √|qᵀBq| and what q̇ᵀBq is below it times
     for (std::size_t i = 0; i < n_; ++i) {
         const double w = form_->oscillators[i].omega;
         const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
-        const double force = 1.5 * largest(f[i]);
+        const double force = kBetweenNodes * largest(f[i]);
         double amplitude = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
         amplitude += force / w * std::min(kNodeGap * h, 2 / w);
         const double speed = largest_rate(i, amplitude, force);
+        const double acceleration = w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed;
         b.deflection_speed += shape * speed;
-        b.deflection_acceleration += shape * (w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed);
+        b.deflection_acceleration += shape * acceleration;
         b.slope_speed += shape * form_->beta[i] * speed;
         turn += std::fabs(form_->h[i]) * amplitude;
         turn_rate += std::fabs(form_->h[i]) * speed;
+        const Bounded mode{amplitude, speed, acceleration};
+        deflection.add(form_->shape[i], mode);
+        if (form_->shortening) stretch.add(form_->slope_norm[i], mode);
+        const double steep = form_->shape[i] * form_->beta[i];
+        slope += steep * amplitude;
+        slope_rate += steep * speed;
+        curvature += steep * form_->beta[i] * amplitude;
+        hub_second += std::fabs(form_->h[i]) * acceleration;
+        inertia += form_->inertia_root[i] * amplitude;
+        inertia_rate += form_->inertia_root[i] * speed;
     }
     double low = spin[0], high = spin[0];
     for (int k = 1; k < kNodes; ++k) {
@@ -226,7 +252,27 @@ const MotionBounds* ExponentialSegment::bounds() const {
     b.ripple = turn;
     b.ripple_rate = turn_rate;
     b.spin = std::max(std::fabs(low), std::fabs(high));
-    b.spin_acceleration = form_->prescribed ? 4 * (high - low) / h : 2 * largest(push) / form_->J;
+    // Θ̈ = [ṗ − 2Θ̇qᵀBq̇]/(J + qᵀBq); no bound where bending may take the inertia away.
+    const auto hub_acceleration = [&] {
+        const double least = form_->J - inertia * inertia;
+        if (!(least > 0)) return std::numeric_limits<double>::infinity();
+        return (kBetweenNodes * largest(push) + 2 * b.spin * inertia * inertia_rate) / least;
+    };
+    b.spin_acceleration =
+        form_->prescribed ? 4 * (high - low) / h : std::max(2 * largest(push) / form_->J, hub_acceleration());
+    // The beam shortens, u = −½∫v′² − ½aα², and its points are up to √(reach² + v²) away from the hinge.
+    const double a = form_->shortening ? std::fabs(form_->radius) : 0;
+    const double beyond = 0.5 * deflection.value * deflection.value / (std::fabs(form_->radius) + form_->length);
+    const double axial = stretch.value * stretch.rate + a * turn * turn_rate;
+    const double axial_acceleration =
+        stretch.rate * stretch.rate + stretch.value * stretch.second + a * (turn_rate * turn_rate + turn * hub_second);
+    b.slope = slope;
+    b.curvature = curvature * (1 + slope);
+    b.deflection_speed = std::max(b.deflection_speed, deflection.rate + axial + b.spin * beyond);
+    b.deflection_acceleration =
+        std::max(b.deflection_acceleration,
+                 deflection.second + axial_acceleration + (b.spin_acceleration + b.spin * b.spin) * beyond);
+    b.slope_speed = std::max(b.slope_speed, slope_rate * (1 + slope));
     b.rate_low = low - turn_rate;
     b.rate_high = high + turn_rate;
     const double first = form_->prescribed ? drive_.motion(t0).angle : theta0;

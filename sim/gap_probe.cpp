@@ -24,7 +24,7 @@ ContactState GapProbe::look(double t, const double* y, bool search) {
         ++system_.gap_evaluations;
         return c;
     }
-    c = system_.contact(t, y, search || x_ < 0);
+    c = system_.contact(t, y, true);
     x_ = c.at_end ? -1 : c.x;
     return c;
 }
@@ -41,9 +41,8 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
     }
     const Frame<double> frame{std::sin(hub), std::cos(hub),   rate,           pose.disc.x,
                               pose.disc.y,   pose.velocity.x, pose.velocity.y};
+    if (!system_.nearly_straight(y + 1)) return false;
     if (search || x_ < 0) {
-        system_.place(t, y);
-        if (!system_.nearly_straight()) return false;
         x_ = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
     }
     Touch<double> touch;

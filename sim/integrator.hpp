@@ -31,6 +31,7 @@ struct MotionBounds {
     double deflection_speed = 0;             // ∂v/∂t anywhere on the beam [m/s]
     double deflection_acceleration = 0;      // [m/s²]
     double slope_speed = 0;                  // ∂²v/∂x∂t [1/s]
+    double slope = 0, curvature = 0;         // ∂v/∂x, ∂²v/∂x² [1/m]
     double angle_low = 0, angle_high = 0;    // of the hub angle [rad]
     double rate_low = 0, rate_high = 0;      // of its rate [rad/s]
     double ripple = 0, ripple_rate = 0;      // of the hub against the frame [rad], [rad/s]
@@ -52,7 +53,8 @@ class Segment {
     // Appends the numbers that `value` goes by, besides t0 and t1, to `out`; `none`: they are not at hand.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Steps that may span many periods of vibration tell how far they can be trusted between looks; null for
-    // steps that resolve the fastest vibration.
+    // steps in which each component is a polynomial of at most `kDegree`.
+    static constexpr int kDegree = 12;
     virtual const MotionBounds* bounds() const { return nullptr; }
     // Steps that solve for the contact force at nodes tell it; null for others. No event of the normal force lies
     // inside such a step.
@@ -90,6 +92,10 @@ inline const char* vanished(bool finite) {
 
 struct IntegratorCounters {
     long steps = 0, rejected = 0, rhs = 0, jacobians = 0;
+    // Of a method that leaves phases to another: the steps of that other one, and the contacts whose equations it
+    // could not solve itself and handed over.
+    long fallback_steps = 0, handed_over = 0;
+    Method fallback = Method::rk8;
 };
 
 class Integrator {

@@ -23,12 +23,15 @@ struct ModalForm {
     // Row-major n × n. f_i = Θ̇² (inertia q)_i + Y (second q)_i + …, Y = g sin Θ, or −Θ̇²(al + ½l²) for `paper`;
     // per unit of mass.
     std::vector<double> spinning, second;
-    std::vector<double> inertia;  // B of J + qᵀBq [kg]
-    std::vector<double> weight;   // W/m
-    std::vector<double> U;        // [kg m], zero for a free hub
-    std::vector<double> h;        // θ = Θ + h·q
-    std::vector<double> beta;     // wave numbers of the shapes [1/m]
-    double highest = 0;           // ω_N
+    std::vector<double> inertia;       // B of J + qᵀBq [kg]
+    std::vector<double> weight;        // W/m
+    std::vector<double> U;             // [kg m], zero for a free hub
+    std::vector<double> h;             // θ = Θ + h·q
+    std::vector<double> beta;          // wave numbers of the shapes [1/m]
+    std::vector<double> shape;         // their largest values, at most
+    std::vector<double> inertia_root;  // c with |B_ij| <= c_i c_j [√kg]
+    std::vector<double> slope_norm;    // √∫φ′², if the beam shortens [1/√m]
+    double highest = 0;                // ω_N
 };
 
 }  // namespace beamcam::sim

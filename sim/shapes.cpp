@@ -103,6 +103,11 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
     return shapes;
 }
 
+double Shapes::bound(int i) const {
+    const Coefficients& k = coefficients_[static_cast<std::size_t>(i)];
+    return std::hypot(k.a, k.b) + std::fabs(k.c) + std::fabs(k.d);
+}
+
 void Shapes::evaluate(double x, double* y, double* y1, double* y2, double* y3) const {
     for (std::size_t i = 0; i < beta_.size(); ++i) {
         const Coefficients& k = coefficients_[i];

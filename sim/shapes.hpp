@@ -24,6 +24,8 @@ class Shapes {
 
     int count() const { return static_cast<int>(beta_.size()); }
     double beta(int i) const { return beta_[static_cast<std::size_t>(i)]; }  // [1/m]
+    // At most |y_i| anywhere; |y_i′| <= β times it, |y_i″| <= β² times it.
+    double bound(int i) const;
     // Values and derivatives at x in [0, L]; any pointer may be null. Arrays of `count` numbers:
     // y [–], y1 = dy/dx [1/m], y2 [1/m²], y3 [1/m³].
     void evaluate(double x, double* y, double* y1, double* y2, double* y3 = nullptr) const;

@@ -6,7 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "sim/event_search.hpp"
 #include "sim/exponential.hpp"
 #include "sim/failure.hpp"
 #include "sim/gap_probe.hpp"
@@ -21,47 +24,18 @@
 namespace beamcam::sim {
 namespace {
 
-// A function of time and its rate, positive where nothing happens.
-struct Guard {
-    double t = 0, value = 0, rate = 0;
-};
-
-// The first instant in (a, b] where the guard falls through zero; `probe(t)` gives a Guard. A dip
-// between the ends is found from the rates: a cubic through both ends predicts its depth.
-template <class Probe>
-std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b) {
-    const auto value = [&](double t) { return probe(t).value; };
-    const auto rate = [&](double t) { return probe(t).rate; };
-    if (a.value < 0 || (a.value == 0 && a.rate < 0)) return a.t;
-    if (b.value < 0) {
-        if (a.value > 0) return find_root(value, a.t, b.t, a.value, b.value);
-        // It starts on the surface: leaves it first, or falls at once.
-        if (!(a.rate > 0) || !(b.rate < 0)) return a.rate > 0 ? std::optional(b.t) : std::optional(a.t);
-        const double top = find_root(rate, a.t, b.t, a.rate, b.rate);
-        const double highest = value(top);
-        if (!(highest > 0)) return a.t;
-        return find_root(value, top, b.t, highest, b.value);
-    }
-    if (!(a.rate < 0 && b.rate > 0)) return std::nullopt;
-    // A valley between the ends. With slopes −r₀, r₁ over a span h a cubic cannot fall by more than
-    // h r₀ below a, nor by more than h r₁ below b.
-    const double span = b.t - a.t;
-    if (a.value + a.rate * span > 0 && b.value - b.rate * span > 0) return std::nullopt;
-    const double bottom = find_root(rate, a.t, b.t, a.rate, b.rate);
-    const double lowest = value(bottom);
-    if (!(lowest < 0)) return std::nullopt;
-    return find_root(value, a.t, bottom, a.value, lowest);
-}
-
 enum class EventKind { none, touch, release, clamp, grip, lift };
 
-constexpr long kTold = 15;           // steps between two calls of `progress`, less one
-constexpr long kLooksTold = 255;     // the same of looks into one step
-constexpr int kMaxLooks = 16;        // into one step, for events
-constexpr double kMostPieces = 1e5;  // of one step, for touches
-constexpr long kMostLooks = 100000;  // of the advancement through one step
-constexpr long kFirstLooks = 2000;   // of them, until the pace tells whether they will do
-constexpr double kLongStep = 1e3;    // [rad] of the fastest vibration; such steps are looked into many times
+constexpr long kTold = 15;        // steps between two calls of `progress`, less one
+constexpr long kLooksTold = 255;  // the same of looks into one step
+// Looks into one step for events, at most: where its components are polynomials of degree twelve this resolves them.
+constexpr int kMaxLooks = 16;
+constexpr double kMostPieces = 1e5;          // of one step, for touches
+constexpr long kMostLooks = 100000;          // of the advancement through one step
+constexpr long kFirstLooks = 2000;           // of them, until the pace tells whether they will do
+constexpr double kNoFactor = 1e-9;           // of the clamp's factor: less is rounding, and has no sign
+constexpr double kLeastFootStiffness = 0.5;  // r″·D + r′·r′ where the gap is advanced through by a bound
+constexpr double kLongStep = 1e3;            // [rad] of the fastest vibration; such steps are looked into many times
 // Grip and slip may both find themselves broken within rounding, and a rebound may be lost in the error of a step: more
 // events than this at one instant are not resolved. The grip then stays as it is for a step, the strike is plastic.
 constexpr int kMostFlips = 10;
@@ -277,20 +251,45 @@ class Run {
 
     Event touch_in(const Segment& segment) {
         if (const MotionBounds* bounds = segment.bounds()) return touch_by_advance(segment, *bounds);
-        // Far away: what the gap can lose in this step is less than it is at both ends.
-        const double h = segment.t1 - segment.t0;
-        segment.value(segment.t1, probe_y_.data());
-        const double gap1 = scout_.gap_lower_bound(segment.t1, probe_y_.data()),
-                     speed1 = scout_.gap_speed_bound(segment.t1, probe_y_.data());
-        segment.value(segment.t0, probe_y_.data());
-        const double gap0 = scout_.gap_lower_bound(segment.t0, probe_y_.data()),
-                     speed0 = scout_.gap_speed_bound(segment.t0, probe_y_.data());
-        if (std::min(gap0, gap1) > 2 * h * (std::max(speed0, speed1) + h * problem_.gravity)) return {};
+        const Range range = range_in(segment);
+        const double half = 0.5 * (segment.t1 - segment.t0);
+        if (scout_.gap_lower_bound(segment.t0 + half, half, range.middle.data(), range.spread.data()) > 0) return {};
 
         // A long step may carry the beam through the cam and out again: no piece moves it by more than half a radius.
-        const double travel = h * std::max(speed0, speed1) / (0.5 * problem_.cam->radius);
-        const int count = std::max(pieces(segment), static_cast<int>(std::min(std::ceil(travel), kMostPieces)));
-        return touch_between(segment, segment.t1, count);
+        const Cam& cam = *problem_.cam;
+        const double travel =
+            2 * (scout_.travel_bound(range.spread.data()) + half * std::fabs(cam.speed) * cam.eccentricity);
+        return touch_between(segment, segment.t1, std::max(pieces(segment), many(travel / (0.5 * cam.radius))));
+    }
+    static int many(double pieces) { return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces)); }
+
+    // Every coordinate stays within `spread` of `middle`.
+    struct Range {
+        std::array<double, kMaxSize> middle, spread;
+    };
+    // From the values at points of Chebyshev: a polynomial of that degree leaves the middle of its values there by no
+    // more than Lebesgue's constant of the points, <= 1 + (2/π) ln 12, times half of their range.
+    Range range_in(const Segment& segment) {
+        constexpr int kDegree = Segment::kDegree;
+        constexpr double kLebesgue = 2.6, kPi = std::numbers::pi;
+        const auto n = static_cast<std::size_t>(dynamics_.coordinates());
+        std::array<double, kMaxSize> low, high;
+        low.fill(std::numeric_limits<double>::infinity());
+        high.fill(-std::numeric_limits<double>::infinity());
+        for (int k = 0; k <= kDegree; ++k) {
+            const double share = 0.5 * (1 - std::cos(kPi * k / kDegree));
+            segment.value(k == kDegree ? segment.t1 : segment.t0 + share * (segment.t1 - segment.t0), probe_y_.data());
+            for (std::size_t i = 0; i < n; ++i) {
+                low[i] = std::min(low[i], probe_y_[i]);
+                high[i] = std::max(high[i], probe_y_[i]);
+            }
+        }
+        Range range;
+        for (std::size_t i = 0; i < n; ++i) {
+            range.middle[i] = 0.5 * (low[i] + high[i]);
+            range.spread[i] = kLebesgue * 0.5 * (high[i] - low[i]);
+        }
+        return range;
     }
 
     // Looks at `count` equal pieces from the start of the segment to `end`, and at the valleys between.
@@ -314,20 +313,23 @@ class Run {
                 a.value = std::max(a.value, 0.0);  // rounding of the release
                 a.rate = std::max(a.rate, 0.0);
             }
-            if (const auto at = first_fall(probe, a, b)) return {EventKind::touch, *at};
+            if (const auto at = first_fall(probe, a, b, gap_rounding())) return {EventKind::touch, *at};
             a = b;
         }
         return {};
     }
 
-    // |g̈| within the bounds, while the disc is no deeper than half its radius: the terms of (S44) one by one.
-    double gap_acceleration_bound(const MotionBounds& b) {
+    // |g̈| within the bounds, while the disc is no deeper than half its radius and its centre no farther than `far` from
+    // the foot: the terms of (S44) one by one. Infinite where the beam may bend so much that the foot runs away.
+    double gap_acceleration_bound(const MotionBounds& b, double far) {
         const Cam& cam = *problem_.cam;
         const double reach = std::fabs(problem_.hub.radius) + scout_.model().length();
         const double near = 0.5 * cam.radius, arm = cam.eccentricity * std::fabs(cam.speed);
-        const double speed = b.spin * reach + b.deflection_speed + arm;  // |w|, w = ṙ − Ḃ
-        const double turn = b.spin + b.slope_speed;                      // |ṙ′|
-        const double slide = 2 * (turn * (reach + cam.radius) + speed);  // |ẋ|, the beam nearly straight
+        if (!(b.curvature * far < kLeastFootStiffness)) return std::numeric_limits<double>::infinity();
+        far = std::max(far, reach + cam.radius);
+        const double speed = b.spin * reach + b.deflection_speed + arm;   // |w|, w = ṙ − Ḃ
+        const double turn = b.spin + b.slope_speed;                       // |ṙ′|
+        const double slide = (turn * far + speed) / kLeastFootStiffness;  // |ẋ|
         const double point = b.deflection_acceleration + b.spin_acceleration * reach + 2 * b.spin * b.deflection_speed +
                              b.spin * b.spin * reach + b.deflection_speed * b.slope_speed;  // |r̈|
         return (speed + slide) * speed / near + point + turn * slide + cam.eccentricity * cam.speed * cam.speed;
@@ -344,9 +346,11 @@ class Run {
             bounds.spin * reach + bounds.deflection_speed + problem_.cam->eccentricity * std::fabs(problem_.cam->speed);
         if (scout_.gap_lower_bound(segment.t0, probe_y_.data()) > h * speed) return {};
 
-        const double most = gap_acceleration_bound(bounds);
         double t = segment.t0;
         ContactState c = gap_.look(t, probe_y_.data(), true);
+        const double far = problem_.cam->radius + scout_.offset() + std::max(c.gap, 0.0) + h * speed;
+        const double most = gap_acceleration_bound(bounds, far);
+        if (!std::isfinite(most)) return touch_by_resolving(segment);
         if (t == phase_start_) {
             if (!(c.gap_rate > kRestSpeed)) {
                 // It hardly leaves: look closely at first.
@@ -375,7 +379,14 @@ class Run {
             t = next;
             c = gap_at(segment, t, false);
         }
-        return touch_between(segment, segment.t1, kMaxLooks);
+        return touch_by_resolving(segment);
+    }
+
+    // Looks that resolve the fastest vibration.
+    Event touch_by_resolving(const Segment& segment) {
+        const double turns = (segment.t1 - segment.t0) * scout_.highest_frequency();
+        if (turns > kMostPieces) ++unresolved_.coarse;
+        return touch_between(segment, segment.t1, std::max(kMaxLooks, many(turns)));
     }
 
     // The gap falls from t on and vanishes before `latest`, which may lie beyond the segment.
@@ -409,12 +420,10 @@ class Run {
         return start;
     }
 
-    // Held on the cam until the force that holds it would have to pull. A short dip below zero hides
-    // between samples: where their parabola comes near zero the dip is looked into.
+    // Held on the cam until the force that holds it would have to pull.
     Event lift_in(const Segment& segment) {
         const int count = std::max(4, pieces(segment));
-        const double h = segment.t1 - segment.t0;
-        const auto time = [&](int i) { return i == count ? segment.t1 : segment.t0 + h * i / count; };
+        const Instants time{segment.t0, segment.t1, count};
         const auto force = [&](double t) { return contact_at(segment, t, false).force; };
         std::array<double, kMaxLooks + 1> f;
         for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
@@ -424,16 +433,36 @@ class Run {
         for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= none;
         const auto lifted = [&](double t) { return force(t) - none; };
         if (f[0] < 0) return {EventKind::lift, segment.t0};
-        for (int i = 1; i <= count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            if (f[k] < 0) return {EventKind::lift, find_root(lifted, time(i - 1), time(i), f[k - 1], f[k])};
-            const std::size_t m = std::clamp<std::size_t>(k, 1, static_cast<std::size_t>(count) - 1);
+        const int last = static_cast<int>(
+            std::find_if(f.begin() + 1, f.begin() + count, [](double v) { return v < 0; }) - f.begin());
+        if (const auto at = first_dip_of_samples(lifted, time, f.data(), last)) return {EventKind::lift, *at};
+        if (f[static_cast<std::size_t>(last)] < 0)
+            return {EventKind::lift,
+                    find_root(lifted, time(last - 1), time(last), f[static_cast<std::size_t>(last) - 1],
+                              f[static_cast<std::size_t>(last)])};
+        return {};
+    }
+
+    // Equal steps through a segment.
+    struct Instants {
+        double t0, t1;
+        int count;
+        double operator()(int i) const { return i == count ? t1 : t0 + (t1 - t0) * i / count; }
+    };
+
+    // Where a guard, known by its values f[0…last] at the instants, falls below zero between two of them that do not
+    // show it: where a parabola through the values comes near zero it is looked into.
+    template <class Value>
+    static std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, const double* f, int last) {
+        for (int i = 1; i <= last && last > 1; ++i) {
+            if (!(f[i - 1] > 0) || f[i] < 0) continue;
+            const int m = std::clamp(i, 1, last - 1);
             const double bend = f[m - 1] - 2 * f[m] + f[m + 1], lean = f[m + 1] - f[m - 1];
             if (!(bend > 0) || f[m] - lean * lean / (8 * bend) > 0.05 * (f[m - 1] + f[m + 1])) continue;
-            const auto [at, highest] = find_peak([&](double t) { return -lifted(t); }, time(i - 1), time(i));
-            if (highest > 0) return {EventKind::lift, find_root(lifted, time(i - 1), at, f[k - 1], -highest)};
+            const auto [at, highest] = find_peak([&](double t) { return -value(t); }, time(i - 1), time(i));
+            if (highest > 0) return find_root(value, time(i - 1), at, f[i - 1], -highest);
         }
-        return {};
+        return std::nullopt;
     }
 
     // What is watched while touching, at one instant.
@@ -475,37 +504,83 @@ class Run {
                     return {EventKind::clamp, segment.t1};
             }
         }
-        const double h = segment.t1 - segment.t0;
-        const int count = pieces(segment);
+        const Instants time{segment.t0, segment.t1, pieces(segment)};
         const auto release = [&](double t) { return watch(segment, t).release; };
+        const auto grip_at = [&](double t) { return watch(segment, t).grip; };
+        Event best;
+        const auto offer = [&](EventKind kind, std::optional<double> t) {
+            if (t && (best.kind == EventKind::none || *t < best.t)) best = {kind, *t};
+        };
         Watch a = watch(segment, segment.t0);
+        std::array<double, kMaxLooks + 1> grip;
+        grip[0] = a.grip;
         if (segment.t0 == phase_start_) a.release.value = std::max(a.release.value, 0.0);
-        for (int i = 1; i <= count; ++i) {
-            const double t0 = a.release.t, t1 = i == count ? segment.t1 : segment.t0 + h * i / count;
-            const Watch b = watch(segment, t1);
+        int looks = 0;
+        while (looks < time.count && best.kind == EventKind::none) {
+            const Watch b = watch(segment, time(++looks));
             if (dot(a.normal, b.normal) < 0 && b.release.value > 0) {
                 why_ = Stop::passed_cam;
                 throw StepFailure("the beam passed through the cam");
             }
-            Event best;
-            const auto offer = [&](EventKind kind, double t) {
-                if (best.kind == EventKind::none || t < best.t) best = {kind, t};
-            };
-            if (const auto at = first_fall(release, a.release, b.release)) offer(EventKind::release, *at);
-            if (changes(a.clamp, b.clamp))
-                offer(EventKind::clamp,
-                      find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp));
-            if (b.grip < 0 && idle_events_ <= kMostFlips)
+            grip[static_cast<std::size_t>(looks)] = b.grip;
+            offer(EventKind::release, first_fall(release, a.release, b.release, gap_rounding()));
+            offer(EventKind::clamp, clamp_in(segment, a, b));
+            if (b.grip < 0 && may_change_grip())
                 offer(EventKind::grip,
-                      a.grip > 0 ? find_root([&](double t) { return watch(segment, t).grip; }, t0, t1, a.grip, b.grip)
-                                 : t0);
-            if (best.kind != EventKind::none) return best;
+                      a.grip > 0 ? find_root(grip_at, a.release.t, b.release.t, a.grip, b.grip) : a.release.t);
             a = b;
         }
-        return {};
+        if (!scout_.has_bristle()) return best;
+        const auto at = grip_between(segment, time, grip.data(), looks);
+        if (at && (best.kind == EventKind::none || *at < best.t) && may_change_grip()) return {EventKind::grip, *at};
+        return best;
     }
 
-    static bool changes(double a, double b) { return std::fabs(a) > 1e-9 && std::fabs(b) > 1e-9 && (a > 0) != (b > 0); }
+    // Where the grip, whose guard is known at the first looks, changes between two of them that do not show it.
+    std::optional<double> grip_between(const Segment& segment, const Instants& time, const double* grip, int looks) {
+        constexpr double kDifference = 1e-2, kRounding = 1e-9;  // of the step; of the guard
+        const double step = kDifference * (segment.t1 - segment.t0);
+        const auto guard = [&](double t) {
+            const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
+            const double rate = (watch(segment, late).grip - watch(segment, early).grip) / (late - early);
+            return Guard{t, watch(segment, t).grip, rate};
+        };
+        const double deep = kRounding * std::fabs(*std::max_element(grip, grip + looks + 1));
+        for (int i = 1; i <= looks; ++i) {
+            if (!(grip[i - 1] > 0) || grip[i] < 0) continue;
+            if (const auto at = first_fall(guard, guard(time(i - 1)), guard(time(i)), deep)) return at;
+        }
+        return std::nullopt;
+    }
+
+    // Else it stays for this step: too many changes at one instant.
+    bool may_change_grip() {
+        if (idle_events_ <= kMostFlips) return true;
+        ++unresolved_.grips;
+        return false;
+    }
+
+    // Where the clamp of the force sets in or lets go.
+    std::optional<double> clamp_in(const Segment& segment, const Watch& a, const Watch& b) {
+        const NormalLaw& law = scout_.normal_law();
+        if (!(law.damping > 0)) return std::nullopt;
+        const double t0 = a.release.t, t1 = b.release.t, level = -phase_.approach / law.damping;
+        const bool known = std::fabs(a.clamp) > kNoFactor;
+        if (known) clamp_side_ = a.clamp > 0 ? 1 : -1;
+        const auto look = [&](double t) { return watch(segment, t).release; };
+        std::optional<double> at;
+        for (int tries = 0; tries < 2; ++tries, clamp_side_ = -clamp_side_) {
+            at = first_passing(look, a.release, b.release, level, clamp_side_, -kNoFactor * level);
+            // Else it starts on the kink, and was taken to be on the wrong side of it.
+            if (known || !at || *at - t0 > 1e-6 * (t1 - t0)) break;
+        }
+        const bool shows = known && std::fabs(b.clamp) > kNoFactor && (a.clamp > 0) != (b.clamp > 0);
+        if (shows) {
+            const double seen = find_root([&](double t) { return watch(segment, t).clamp; }, t0, t1, a.clamp, b.clamp);
+            if (!at || !(*at < seen - 1e-9 * (t1 - t0))) at = seen;
+        }
+        return at;
+    }
 
     // ---- transitions ----
 
@@ -540,7 +615,9 @@ class Run {
     void change(const Event& event) {
         switch (event.kind) {
             case EventKind::none:
+                break;
             case EventKind::clamp:  // same phase, new step: the kink lies between steps
+                clamp_side_ = -clamp_side_;
                 break;
             case EventKind::touch:
                 problem_.contact.model == ContactModel::restitution ? strike() : touch();
@@ -565,12 +642,21 @@ class Run {
         integrator_->limit_first_step(0.05 * scout_.touch_time(t_, y_.data(), c, phase_.approach));
     }
 
-    void touch_at() {
+    // What is left of the gap at an event: zero but for rounding, and exactly zero from here on.
+    void take_out_gap() {
         phase_.gap_offset = 0;
         enter_phase();
-        const double raw = contact_now().gap;
+        const double left = contact_now().gap;
+        phase_.gap_offset = -left;
+        enter_phase();
+        unresolved_.gap = std::max(unresolved_.gap, std::fabs(left));
+    }
+    double gap_rounding() const { return kGapRounding * problem_.beam.length; }
+
+    void touch_at() {
+        take_out_gap();
         phase_.touching = true;
-        phase_.gap_offset = -raw;
+        clamp_side_ = 1;
         phase_start_ = t_;
         enter_phase();
         const double approach = -contact_now().gap_rate;
@@ -588,12 +674,8 @@ class Run {
     // ---- impulsive contact ----
 
     void strike() {
-        phase_.gap_offset = 0;
-        enter_phase();
-        ContactState c = contact_now();
-        phase_.gap_offset = -c.gap;
-        enter_phase();
-        c = contact_now();
+        take_out_gap();
+        const ContactState c = contact_now();
         const double approach = -c.gap_rate;
         const Compliance compliance = scout_.compliance(t_, y_.data(), c);
         const auto resolve = [&](double restitution) {
@@ -606,12 +688,14 @@ class Run {
         // Nor will bounces end that rounding of the gap keeps from falling.
         const double pull = -scout_.free_gap_acceleration(t_, y_.data());
         const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem_.beam.length;
-        const bool slow = impact.v_n < kChatterShare * problem_.contact.approach_floor.value ||
-                          (low && impact.v_n >= last_rebound_) || idle_events_ > kMostFlips;
+        const bool chatter =
+            impact.v_n < kChatterShare * problem_.contact.approach_floor.value || (low && impact.v_n >= last_rebound_);
+        const bool slow = chatter || idle_events_ > kMostFlips;
         last_rebound_ = impact.v_n;
         phase_start_ = t_;
         // The gap opens: that it was below zero is rounding, and no strike.
         if (!slow && !(approach > 0)) return;
+        if (!chatter && slow) ++unresolved_.strikes;
         tell_touch(c);
         if (slow) impact = resolve(0);
         if (approach > 0) scout_.strike(t_, y_.data(), c, impact);
@@ -676,9 +760,7 @@ class Run {
         if (!settles_) tell_release(y_, contact_now());
         settles_.reset();
         phase_.touching = phase_.held = false;
-        phase_.gap_offset = 0;
-        enter_phase();
-        phase_.gap_offset = -contact_now().gap;
+        take_out_gap();
         phase_start_ = t_;
         last_release_ = t_;
         enter_phase();
@@ -718,10 +800,8 @@ class Run {
         const ContactState c = contact_now();
         tell_release(y_, c);
         phase_.touching = false;
-        phase_.gap_offset = 0;
-        enter_phase();
         // Rounding must not look like a new touch: the gap of this flight starts at zero.
-        phase_.gap_offset = -contact_now().gap;
+        take_out_gap();
         phase_start_ = t_;
         last_release_ = t_;
         if (scout_.has_bristle()) y_[static_cast<std::size_t>(2 * scout_.coordinates())] = 0;
@@ -738,6 +818,10 @@ class Run {
         c.rhs_evaluations = integrator_->counters.rhs;
         c.jacobians = integrator_->counters.jacobians;
         c.gap_evaluations = dynamics_.gap_evaluations + scout_.gap_evaluations;
+        all.fallbacks = unresolved_;
+        all.fallbacks.steps = integrator_->counters.fallback_steps;
+        all.fallbacks.handed_over = integrator_->counters.handed_over;
+        all.fallbacks.method = integrator_->counters.fallback;
         all.floored = floored_;
         all.chatters = chatters_;
         return all;
@@ -761,6 +845,8 @@ class Run {
     double end_ = 0, t_ = 0, phase_start_ = 0, first_approach_ = 0;
     std::optional<double> last_release_, settles_;  // settles_: when the chatter that was summed up is over
     long floored_ = 0, chatters_ = 0;
+    Fallbacks unresolved_;
+    double clamp_side_ = 1;  // of the kink of the clamp where it was last away from it: +1 pushes
     int idle_events_ = 0;
     double last_rebound_ = 0;  // [m/s]
     double last_step_ = 0;     // [s]

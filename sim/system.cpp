@@ -12,6 +12,7 @@ namespace {
 // A bristle that relaxes faster than this share of the time to the deepest point of an impact at 1 m/s has
 // relaxed, as far as an impact can tell: following it would cost a thousand steps a contact and more.
 constexpr double kShortestLag = 1e-3;
+constexpr double kLeastShapeBound = 3;  // of Shapes::bound: all shapes of a beam that does not reach beyond its hinge
 
 }  // namespace
 
@@ -41,10 +42,13 @@ System::System(const Problem& problem)
     size = controlled + kLedgerSize;
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     x_last_ = 0.5 * model_->length();
-    if (problem.beam.model != ModelKind::exact)
-        for (int i = 0; i + 1 < n_; ++i)  // β² = ω√(ρA/EI); no shape exceeds 3β²
-            curvature_.push_back(3 * model_->frequency(i) *
-                                 std::sqrt(problem.beam.line_density() / problem.beam.bending_stiffness()));
+    if (n_ > 1 && problem.beam.model != ModelKind::exact) {
+        const Shapes shapes = Shapes::of(problem);
+        for (int i = 0; i + 1 < n_; ++i) {
+            shape_bounds_.push_back(std::max(kLeastShapeBound, shapes.bound(i)));
+            wave_numbers_.push_back(shapes.beta(i));
+        }
+    }
     // Slower than the lowest vibration, or than the swing of a rigid beam.
     settle_ = n_ > 1 ? 0.1 * model_->frequency(0)
                      : 10 * std::sqrt(std::max(1e-3, std::fabs(problem.gravity)) / model_->length());
@@ -67,7 +71,8 @@ System::System(const System& other)
       bristle_stiffness_(other.bristle_stiffness_),
       bristle_damping_(other.bristle_damping_),
       highest_frequency_(other.highest_frequency_),
-      curvature_(other.curvature_),
+      shape_bounds_(other.shape_bounds_),
+      wave_numbers_(other.wave_numbers_),
       x_last_(other.x_last_),
       settle_(other.settle_) {}
 
@@ -96,11 +101,10 @@ void System::place(double t, const double* y) {
 }
 
 // So straight that only one foot exists wherever the disc is: |v″| times its distance stays below a half.
-bool System::nearly_straight() const {
-    if (n_ > 1 && curvature_.empty()) return false;
+bool System::nearly_straight(const double* q) const {
+    if (n_ > 1 && shape_bounds_.empty()) return false;
     double curvature = 0;
-    for (int i = 1; i < n_; ++i)
-        curvature += curvature_[static_cast<std::size_t>(i - 1)] * std::fabs(model_->coordinates()[i]);
+    for (int i = 0; i + 1 < n_; ++i) curvature += shape_bound(i) * wave_number(i) * wave_number(i) * std::fabs(q[i]);
     const double far =
         model_->length() + std::fabs(problem_.hub.radius) + norm(problem_.cam->centre) + problem_.cam->eccentricity;
     return curvature * far < 0.5;
@@ -112,7 +116,7 @@ Vec2 System::foot(Vec2 disc, bool search, ContactState& c) {
     ++gap_evaluations;
     if (search || search_next_) {
         search_next_ = false;
-        if (nearly_straight()) {
+        if (nearly_straight(model_->coordinates() + 1)) {
             x_last_ = std::clamp(dot(disc, unit(model_->coordinates()[0])) - problem_.hub.radius, 0.0, length);
         } else {
             // Nearest of a few points of the beam, then Newton: more points for more curved shapes.
@@ -464,28 +468,54 @@ System::Books System::books(double t, const double* y) {
 }
 
 double System::gap_lower_bound(double t, const double* y) const {
-    // Distance of B from the straight beam at the frame's angle, less what bending can add: no shape
-    // exceeds 3 in value, and a section turned by ψ − θ moves the points beyond it by at most L|ψ − θ|.
-    const Vec2 along = unit(drive_.prescribed() ? drive_.motion(t).angle : y[0]);
+    const double nothing[kMaxSize] = {};
+    return gap_lower_bound(t, 0, y, nothing);
+}
+
+// Distance of B from the straight beam at the frame's angle, less what bending, turning and the cam can add.
+double System::gap_lower_bound(double t, double h, const double* xi, const double* spread) const {
+    double angle = xi[0], turn = spread[0];
+    if (drive_.prescribed()) {
+        angle = drive_.motion(t).angle;
+        turn = 0;
+        for (const double side : {-h, h}) {
+            // Within a step all laws turn at a rate that is quadratic in time, or monotone.
+            const HubMotion now = drive_.motion(t), then = drive_.motion(t + side);
+            turn = std::max({turn, std::fabs(h * now.rate), std::fabs(h * then.rate),
+                             std::fabs(h * (now.rate + 0.5 * side * now.acceleration))});
+        }
+    }
+    const Vec2 along = unit(angle);
     const double length = model_->length(), a = problem_.hub.radius;
-    const Vec2 disc = cam(t).disc;
-    const double foot = std::clamp(dot(disc, along), a, a + length);
-    return norm(disc - foot * along) - problem_.cam->radius - offset_ - bending_reach(y);
-}
-
-double System::bending_reach(const double* coordinates) const {
-    double sum = 0;
-    for (int i = 1; i < n_; ++i) sum += std::fabs(coordinates[i]);
-    return sum * (problem_.beam.model == ModelKind::exact
-                      ? 2 * model_->length()
-                      : 3.0 + 3.0 * std::fabs(problem_.hub.radius) / model_->length());
-}
-
-double System::gap_speed_bound(double t, const double* y) const {
     const Cam& cam = *problem_.cam;
-    const double spin = drive_.prescribed() ? drive_.motion(t).rate : y[n_];
-    return std::fabs(spin) * (std::fabs(problem_.hub.radius) + model_->length()) + bending_reach(y + n_) +
-           std::fabs(cam.speed) * cam.eccentricity;
+    const Vec2 disc = this->cam(t).disc;
+    const double foot = std::clamp(dot(disc, along), a, a + length);
+    return norm(disc - foot * along) - cam.radius - offset_ - deflection_bound(xi, spread) -
+           turn * (std::fabs(a) + length) - h * std::fabs(cam.speed) * cam.eccentricity;
+}
+
+// How far a point of the beam is from where it would be if the beam were straight. Shortening: |u| <= ½∫v′² and ½|a|α²,
+// with α the slope at the root. `exact`: a section turned by ψ − θ moves the points beyond it by at most L|ψ − θ|, and
+// |ψ − θ| <= 2Σ|q|.
+double System::deflection_bound(const double* xi, const double* spread) const {
+    const double length = model_->length(), a = std::fabs(problem_.hub.radius);
+    double deflection = 0, slope = 0;
+    for (int i = 0; i + 1 < n_; ++i) {
+        const double q = std::fabs(xi[i + 1]) + spread[i + 1];
+        if (shape_bounds_.empty()) {
+            deflection += 2 * length * q;
+        } else {
+            deflection += shape_bound(i) * q;
+            slope += shape_bound(i) * wave_number(i) * q;
+        }
+    }
+    return deflection + 0.5 * (length + a) * slope * slope;
+}
+
+double System::travel_bound(const double* change) const {
+    const double nothing[kMaxSize] = {};
+    return std::fabs(change[0]) * (std::fabs(problem_.hub.radius) + model_->length()) +
+           deflection_bound(nothing, change);
 }
 
 }  // namespace beamcam::sim

@@ -40,6 +40,9 @@ struct Phase {
     double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
 };
 
+// The gap is known to a tenth of this share of the beam's length: what opens or falls no further is rounding.
+inline constexpr double kGapRounding = 1e-14;
+
 // Where the cam is.
 struct CamPose {
     double angle = 0;  // ψ [rad]
@@ -126,11 +129,18 @@ class System final : public Ode {
     double static_coefficient() const { return mu_static_; }
     double kinetic_coefficient() const { return mu_; }
 
-    // Cheap bounds for the search of touches: the gap is at least this [m]; |d gap/dt| at most that [m/s].
+    // The gap is at least this [m].
     double gap_lower_bound(double t, const double* y) const;
-    double gap_speed_bound(double t, const double* y) const;
-    // After `place`: only one foot exists, wherever the disc is.
-    bool nearly_straight() const;
+    // The same at all instants up to h from t, with coordinates up to `spread` from ξ.
+    double gap_lower_bound(double t, double h, const double* xi, const double* spread) const;
+    // How far apart two places of a point of the beam are at most, for coordinates that differ by `change` [m]; to
+    // first order in the deflection.
+    double travel_bound(const double* change) const;
+    // Only one foot exists for these coordinates q, wherever the disc is.
+    bool nearly_straight(const double* q) const;
+    // Of mode i: bounds of its shape as Shapes::bound has them, and its wave number. Not for `exact`.
+    double shape_bound(int i) const { return shape_bounds_[static_cast<std::size_t>(i)]; }
+    double wave_number(int i) const { return wave_numbers_[static_cast<std::size_t>(i)]; }
     double highest_frequency() const { return highest_frequency_; }
 
     bool inertia_lost() const { return inertia_lost_; }
@@ -160,7 +170,7 @@ class System final : public Ode {
     bool assemble(double* f);
     // The same, but throws InertiaLost.
     void require_inertia(double* f);
-    double bending_reach(const double* coordinates) const;
+    double deflection_bound(const double* xi, const double* spread) const;
     Books open_books(double t, const double* y);
 
     Problem problem_;
@@ -173,7 +183,7 @@ class System final : public Ode {
     double offset_ = 0;
     double mu_ = 0, mu_static_ = 0, slip_speed_ = 1e-3, bristle_stiffness_ = 0, bristle_damping_ = 0;
     double highest_frequency_ = 0;
-    std::vector<double> curvature_;  // bounds of |φ_i″| [1/m²]; empty for `exact`
+    std::vector<double> shape_bounds_, wave_numbers_;  // empty for `exact`
     double x_last_ = 0;
     double settle_ = 0, free_gap_acceleration_ = 0;
     double answer_[kMaxSize] = {};

@@ -22,9 +22,13 @@ void put(std::vector<double>& out, const Phase& p) {
 }
 
 void put(std::vector<double>& out, const Tally& t) {
-    for (long value : {t.counters.steps, t.counters.rejected, t.counters.rhs_evaluations, t.counters.gap_evaluations,
-                       t.counters.jacobians, t.floored, t.chatters})
+    const Counters& c = t.counters;
+    const Fallbacks& f = t.fallbacks;
+    for (long value : {c.steps, c.rejected, c.rhs_evaluations, c.gap_evaluations, c.jacobians, t.floored, t.chatters,
+                       f.steps, f.handed_over, f.grips, f.strikes, f.coarse})
         out.push_back(static_cast<double>(value));
+    out.push_back(f.gap);
+    out.push_back(static_cast<int>(f.method));
 }
 
 void put(std::vector<double>& out, const Notes& n) {
@@ -97,9 +101,13 @@ Phase phase_of(Numbers& n) {
 
 Tally tally_of(Numbers& n) {
     Tally t;
-    for (long* value : {&t.counters.steps, &t.counters.rejected, &t.counters.rhs_evaluations,
-                        &t.counters.gap_evaluations, &t.counters.jacobians, &t.floored, &t.chatters})
+    Counters& c = t.counters;
+    Fallbacks& f = t.fallbacks;
+    for (long* value : {&c.steps, &c.rejected, &c.rhs_evaluations, &c.gap_evaluations, &c.jacobians, &t.floored,
+                        &t.chatters, &f.steps, &f.handed_over, &f.grips, &f.strikes, &f.coarse})
         *value = n.whole();
+    f.gap = n.next();
+    f.method = static_cast<Method>(n.whole());
     return t;
 }
 

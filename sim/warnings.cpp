@@ -8,6 +8,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kRounding = 1e-12;    // of the energy scale
+constexpr double kToldGap = 1e-10;     // of the length, left at an event: a thousand times what rounding leaves
 constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
@@ -68,6 +69,35 @@ void tell_floor(const Problem& problem, const Result& result, const Tally& tally
                         tally.floored, result.impacts.size(), problem.contact.approach_floor.value));
 }
 
+// What was done in another way than asked for, or left unresolved.
+void tell_fallbacks(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
+    const Fallbacks& f = tally.fallbacks;
+    const auto times = [](long n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); };
+    if (f.handed_over > 0)
+        out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
+                                  times(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
+    if (f.grips > 0)
+        out.push_back(
+            fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "
+                        "as it was: tighten solver.rtol, or give contact.friction a damping",
+                        times(f.grips, "step")));
+    if (f.strikes > 0)
+        out.push_back(
+            fmt::format("{} taken as plastic, because the rebound is smaller than the error of a step: tighten "
+                        "solver.rtol",
+                        f.strikes == 1 ? "1 strike was" : fmt::format("{} strikes were", f.strikes)));
+    if (f.coarse > 0)
+        out.push_back(
+            fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
+                        "fewer modes or tighten solver.rtol",
+                        times(f.coarse, "step")));
+    if (f.gap > kToldGap * problem.beam.length)
+        out.push_back(
+            fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "
+                        "solver.rtol",
+                        f.gap));
+}
+
 }  // namespace
 
 bool bends_beyond(const Problem& problem, double largest_elastic) {
@@ -84,6 +114,7 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result, 
     tell_ledger(problem, result, out);
     tell_slopes(problem, largest_elastic, out);
     tell_floor(problem, result, tally, out);
+    tell_fallbacks(problem, result, tally, out);
     return out;
 }
 

@@ -383,7 +383,7 @@ TEST(ExponentialContact, WhatItDoesNotCoverStepsOverStrongDampingToo) {
 }
 
 // A valid scene of any kind that the method covers in contact too.
-Problem random_contact(unsigned seed) {
+Problem random_covered_contact(unsigned seed) {
     Dice dice(seed);
     for (;;) {
         Problem p;
@@ -427,7 +427,7 @@ int seeds(int quick) { return std::getenv("BEAMCAM_LONG") ? 10 * quick : quick; 
 TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
     int compared = 0;
     for (int seed = 1; seed <= seeds(8); ++seed) {
-        const Problem p = random_contact(static_cast<unsigned>(seed));
+        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
         const Result slow = solve(p, Method::rk8, 1e-11, 0.35), fast = solve(p, Method::exponential, 1e-10, 0.35);
         // Up to the third impact or 10 ms after the first: beyond, errors of 1e-11 have grown.
         for (std::size_t i = 0; i < std::min<std::size_t>(slow.impacts.size(), 3); ++i) {
@@ -454,7 +454,7 @@ TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
 
 TEST(ExponentialContact, KeepsTheLedger) {
     for (int seed = 1; seed <= seeds(12); ++seed) {
-        const Problem p = random_contact(static_cast<unsigned>(seed));
+        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
         for (const double rtol : {1e-4, 1e-6, 1e-9}) {
             const Result r = solve(p, Method::exponential, rtol, 0.5);
             EXPECT_LT(r.energy_residual_max, 3 * rtol * r.energy_scale) << seed << " " << rtol;

@@ -190,5 +190,23 @@ TEST(Shapes, OfAProblemFollowItsBasis) {
     EXPECT_EQ(Shapes::of(p).count(), 0);
 }
 
+TEST(HubBeamShapes, StayWithinTheirBounds) {
+    for (const double radius : {-0.7, -0.2, -0.1, 0.0, 0.3})
+        for (const double inertia : {0.0, 1e-3, 1.0}) {
+            const Shapes shapes = Shapes::hub_beam(12, 1, radius, inertia);
+            std::vector<double> y(12), y1(12), y2(12);
+            for (int k = 0; k <= 500; ++k) {
+                shapes.evaluate(k / 500.0, y.data(), y1.data(), y2.data());
+                for (int i = 0; i < 12; ++i) {
+                    const auto j = static_cast<std::size_t>(i);
+                    const double beta = shapes.beta(i), most = shapes.bound(i) * (1 + 1e-12);
+                    EXPECT_LE(std::fabs(y[j]), most);
+                    EXPECT_LE(std::fabs(y1[j]), beta * most);
+                    EXPECT_LE(std::fabs(y2[j]), beta * beta * most);
+                }
+            }
+        }
+}
+
 }  // namespace
 }  // namespace beamcam::sim

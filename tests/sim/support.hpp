@@ -84,6 +84,38 @@ class Dice {
     std::mt19937 engine_;
 };
 
+// A valid scene with compliant contact of any kind: soft and stiff, every dissipation law, exponent and friction, one
+// to eight modes, with and without offset of the face and hub radius.
+inline Problem random_contact(unsigned seed) {
+    Dice dice(seed);
+    for (;;) {
+        Problem p;
+        p.beam.model = dice.one_of(5) == 0 ? ModelKind::zeroth_order : ModelKind::first_order;
+        p.beam.modes = 1 + dice.one_of(8);
+        if (dice.one_of(2)) p.beam.youngs_modulus *= std::pow(10, dice.between(-1.3, 0));
+        if (dice.one_of(3) == 0) p.beam.damping_ratio = {std::pow(10, dice.between(-3, -1))};
+        p.hub.radius = dice.one_of(2) ? 0 : dice.between(-0.2, 0.2);
+        p.hub.inertia = dice.one_of(2) ? 0 : 0.01;
+        p.cam->centre = {dice.between(0.25, 0.65), dice.about_zero(0.1)};
+        p.cam->radius = dice.between(0.05, 0.11);
+        p.cam->eccentricity = dice.between(0, 0.025);
+        p.cam->speed = dice.one_of(4) ? dice.about_zero(15) : 0;
+        p.cam->phase = dice.between(0, 6.28);
+        p.contact.stiffness = std::pow(10, dice.between(4.5, 10.5));
+        p.contact.exponent = dice.one_of(3) == 0 ? dice.between(1, 2) : dice.one_of(3) == 0 ? 1 : 1.5;
+        p.contact.damping = static_cast<DampingLaw>(dice.one_of(9));
+        p.contact.restitution = dice.between(0.2, 0.95);
+        const int friction = dice.one_of(5);
+        if (friction == 0)
+            p.contact.friction = CoulombFriction{dice.between(0, 1), std::pow(10, dice.between(-2.5, -1))};
+        if (friction == 1) p.contact.friction = StickSlipFriction{dice.between(0, 1), {}, {}, {}};
+        if (dice.one_of(3) == 0) p.contact.offset.reset();
+        p.initial.angle = dice.between(0.5, 1.1);
+        p.initial.angular_velocity = dice.between(-2.5, 0);
+        if (validate(p).empty()) return p;
+    }
+}
+
 struct State {
     Vector xi, rate;
 };

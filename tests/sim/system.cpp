@@ -237,21 +237,23 @@ TEST(ContactGeometry, RimOfAClockwiseCamRunsTowardsTheTipAboveIt) {
 }
 
 TEST(ContactGeometry, BoundOfTheGapIsABound) {
-    for (const ModelKind kind : {ModelKind::rigid, ModelKind::first_order, ModelKind::exact}) {
-        Problem p;
-        p.beam.model = kind;
-        p.beam.modes = 6;
-        System system(p);
-        Dice dice(2);
-        for (int repeat = 0; repeat < 200; ++repeat) {
-            std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
-            y[0] = dice.between(-3, 3);
-            for (int i = 1; i < system.coordinates(); ++i) y[static_cast<std::size_t>(i)] = dice.about_zero(0.01 / i);
-            const double t = dice.between(0, 9);
-            EXPECT_LE(system.gap_lower_bound(t, y.data()), system.contact(t, y.data(), true).gap + 2e-3)
-                << name(kind);  // foreshortening
+    for (const ModelKind kind : {ModelKind::rigid, ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+        for (const double radius : {-0.1, 0.0, 0.2}) {
+            Problem p;
+            p.beam.model = kind;
+            p.beam.modes = 6;
+            p.hub.radius = radius;
+            System system(p);
+            Dice dice(2);
+            for (int repeat = 0; repeat < 200; ++repeat) {
+                std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
+                y[0] = dice.between(-3, 3);
+                for (int i = 1; i < system.coordinates(); ++i)
+                    y[static_cast<std::size_t>(i)] = dice.about_zero(0.01 / i);
+                const double t = dice.between(0, 9);
+                EXPECT_LE(system.gap_lower_bound(t, y.data()), system.contact(t, y.data(), true).gap + 1e-15) << name(kind);
+            }
         }
-    }
 }
 
 }  // namespace
