@@ -23,16 +23,16 @@ int fine(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5))
 constexpr double kRounding = 1e-12;  // of the energy scale
 constexpr int kCurve = 8001;
 
-// The collision with most impacts among the first few: the close-up shows sub-impacts where there are some.
-const sim::Collision* chosen(const sim::Result& result) {
-    return result.collisions.empty() ? nullptr : &result.collisions.front();
+const sim::Collision* first_collision(const sim::Problem& problem, const sim::Result& result) {
+    const auto it = std::ranges::find_if(result.collisions, [&](const auto& c) { return strikes(problem, c); });
+    return it == result.collisions.end() ? nullptr : &*it;
 }
 
 // The first collision in numbers, in the digits that one mode fewer leaves.
 std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, const sim::Result* fewer,
                               Lang lang) {
     const bool en = lang == Lang::en;
-    const sim::Collision* other = fewer && !fewer->collisions.empty() ? &fewer->collisions.front() : nullptr;
+    const sim::Collision* other = fewer ? first_collision(problem, *fewer) : nullptr;
     const auto told = [&](double value, std::optional<double> otherwise) {
         return supported(estimate(problem, value, otherwise));
     };
@@ -65,10 +65,11 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
-        const sim::Collision* c = chosen(result);
+        const sim::Collision* c = first_collision(problem, result);
         if (!c)
             throw render::PictureError(
                 fmt::format("figure collision: nothing strikes the cam before {:g} s; raise time.end", end));
+        const auto which = static_cast<int>(c - result.collisions.data());
         const double last = c->t_end.value_or(end), length = std::max(last - c->t_start, 1e-6);
         const double from = std::max(0.0, c->t_start - 0.08 * length), to = std::min(end, last + 0.08 * length);
         const sim::Table& t = result.tables[table];
@@ -103,7 +104,7 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
             curve.y.insert(curve.y.begin() + place, peak);
         };
         for (const sim::Impact& hit : result.impacts) {
-            if (hit.collision != 0 || hit.t_start > to) continue;
+            if (hit.collision != which || hit.t_start > to) continue;
             if (hit.force_peak) reach(force, hit, *hit.force_peak);
             if (hit.penetration_peak > 0) reach(depth, hit, hit.penetration_peak * 1e6);
         }
@@ -129,7 +130,7 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
         panel.rules.push_back({.at = 0});
         int count = 0;
         for (const sim::Impact& hit : result.impacts) {
-            if (hit.collision != 0) continue;
+            if (hit.collision != which) continue;
             ++count;
             panel.spans.push_back({.from = (hit.t_start - c->t_start) * 1e3,
                                    .to = (hit.t_end.value_or(end) - c->t_start) * 1e3,
@@ -373,7 +374,7 @@ FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
         }
         beam.series = {on_beam};
         cam.series = {on_cam};
-        if (const sim::Collision* first = chosen(result))
+        if (const sim::Collision* first = first_collision(problem, result))
             if (auto inset = close_up(*first, end, time, n, x, beam, en)) beam.insets = {std::move(*inset)};
         figure.panels = {beam, cam};
         figure.stack = true;

@@ -92,8 +92,9 @@ std::string horizon_words(const std::vector<const sim::Result*>& results, double
 }
 
 // The run may go on for other figures.
-std::ptrdiff_t impacts_until(const sim::Result& result, double end) {
-    return std::ranges::count_if(result.impacts, [&](const sim::Impact& i) { return i.t_start <= end; });
+std::ptrdiff_t impacts_until(const sim::Problem& problem, const sim::Result& result, double end) {
+    return std::ranges::count_if(result.impacts,
+                                 [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
 }
 
 // "12 impacts", "no impact".
@@ -163,7 +164,7 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
         for (std::size_t k = 0; k < all.size(); ++k)
             panels.push_back(filled(en ? "({}) $ω$ = {} rad s^{{−1}}, {}" : "({}) $ω$ = {} rad s^{{−1}}，{}",
                                     static_cast<char>('a' + k), number(kSpeeds3[k], 3),
-                                    impacts_words(impacts_until(*all[k], end), lang)));
+                                    impacts_words(impacts_until(problems[k], *all[k], end), lang)));
         figure.caption = filled(en ? "Hub angle $θ$ for three speeds of the cam, clockwise: {}. "
                                    : "三种凸轮转速（顺时针）下的转角 $θ$：{}。",
                                 fmt::format("{}", fmt::join(panels, en ? "; " : "；")));
@@ -235,7 +236,7 @@ FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
                                "by time, the mean over one period of the first bending mode. "
                              : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
                        : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
-        if (impacts_until(result, end) > 0)
+        if (impacts_until(problem, result, end) > 0)
             figure.caption += en ? "Near-vertical stretches are collisions. " : "近似竖直的线段为碰撞。";
         figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);

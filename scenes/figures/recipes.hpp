@@ -47,6 +47,12 @@ std::optional<std::string> needs_free_hub(const Scene& scene);
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene);
 std::optional<std::string> needs_fall(const Scene& scene);  // both of these
 
+// Of an impact or a collision. A beam that rests on the cam at the start touches it without striking it.
+template <class Touch>
+bool strikes(const sim::Problem& problem, const Touch& touch) {
+    return touch.t_start > 0 || problem.initial.shape != sim::InitialShape::resting;
+}
+
 sim::Problem without_cam(sim::Problem problem);
 sim::Problem rigid(sim::Problem problem);
 

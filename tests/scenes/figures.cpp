@@ -211,6 +211,10 @@ TEST(Captions, LeaveOutWhatDidNotHappen) {
     EXPECT_THAT(apart, HasSubstr("no impact"));
     EXPECT_THAT(apart, Not(HasSubstr("multiply")));
     EXPECT_THAT(apart, Not(HasSubstr("reproducible")));
+    constexpr const char* kResting = R"({"cam": {"speed": 0}, "initial": {"shape": "resting"}, "time": {"end": 0.2}})";
+    EXPECT_THAT(caption_of(kResting, "phase"), Not(HasSubstr("collision")));
+    EXPECT_THAT(caption_of(kResting, "speeds"), HasSubstr("ω = 0 rad s⁻¹, no impact"));
+    EXPECT_THROW(caption_of(kResting, "collision"), render::PictureError);
 }
 
 TEST(Captions, CallNoMotionChaotic) {
