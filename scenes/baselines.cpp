@@ -9,9 +9,9 @@
 
 #include "output/numbers.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/fields.hpp"
+#include "scenes/object_reader.hpp"
 #include "scenes/reader.hpp"
-#include "scenes/sections.hpp"
+#include "scenes/suggest.hpp"
 #include "scenes/tree.hpp"
 
 namespace beamcam::scenes {
@@ -87,38 +87,31 @@ class Reader {
     fs::path folder() const { return path_ == "-" ? fs::path(".") : fs::path(path_).parent_path(); }
 
     void read_root(const Node& root) {
-        Fields f(findings_, &root, "", "the baselines");
+        ObjectReader f(findings_, &root, "", "the baselines");
         std::string schema, references = path_ == "-" ? "references" : fs::path(path_).stem().string();
-        f.text("$schema", schema);
-        f.text("references", references);
+        f.text("$schema", schema, "Where an editor finds the schema.");
+        f.text("references", references, "Folder of the references.");
         all_.references = folder() / references;
         if (const Node* node = f.take("tolerance")) read_tolerance(*node, "tolerance", defaults_);
         if (const Node* node = f.take("renderers")) read_renderers(*node);
-        if (const Node* node = f.require("entries", "{\"fall\": {\"scene\": \"fall.json\", \"output\": {…}}}"))
+        if (const Node* node =
+                f.take(sim::required("entries", "{\"fall\": {\"scene\": \"fall.json\", \"output\": {…}}}")))
             read_entries(*node);
         f.finish();
     }
 
     void read_tolerance(const Node& node, const std::string& path, Tolerance& tolerance) {
-        Fields f(findings_, &node, path);
-        int channel = 0;
-        if (f.whole("channel", 0, 255, channel)) tolerance.channel = channel;
-        const std::pair<const char*, std::optional<double>*> shares[] = {
-            {"share", &tolerance.share}, {"motion", &tolerance.motion}, {"impacts", &tolerance.impacts}};
-        for (const auto& [key, out] : shares) {
-            const Node* given = f.take(key);
-            double value = 0;
-            if (!given || !f.value(*given, key, dimension::kNone, value)) continue;
-            if (value < 0 || value > 1)
-                f.fail(*given, key, fmt::format("{} = {} is outside 0 … 1", f.path(key), shown(*given)));
-            else
-                *out = value;
-        }
+        ObjectReader f(findings_, &node, path);
+        f.whole("channel", tolerance.channel, 0, 255, "Of a pixel's channel, in levels.");
+        f.number("share", tolerance.share, dimension::kNone, sim::between(0, 1),
+                 "Of the pixels that may differ by more.");
+        f.number("motion", tolerance.motion, dimension::kNone, sim::between(0, 1), "Of a channel's range.");
+        f.number("impacts", tolerance.impacts, dimension::kNone, sim::between(0, 1), "Of an impact's quantities.");
         f.finish();
     }
 
     void read_renderers(const Node& node) {
-        Fields f(findings_, &node, "renderers");
+        ObjectReader f(findings_, &node, "renderers");
         if (!f.node()) return;
         for (const Member& member : node.members) {
             RendererParts parts;
@@ -128,7 +121,7 @@ class Reader {
     }
 
     void read_entries(const Node& node) {
-        Fields f(findings_, &node, "entries");
+        ObjectReader f(findings_, &node, "entries");
         if (!f.node()) return;
         if (node.members.empty()) f.fail(node, "", "entries is empty; name at least one thing to guard");
         for (const Member& member : node.members) {
@@ -143,19 +136,20 @@ class Reader {
 
     void read_entry(const Member& member) {
         const std::string path = "entries." + member.key;
-        Fields f(findings_, &member.value, path);
+        ObjectReader f(findings_, &member.value, path);
         if (!f.node()) return;
         Baseline entry;
         entry.name = member.key;
         std::vector<std::string> overrides;
         if (const Node* set = f.take("set")) read_overrides(*set, path + ".set", overrides);
-        const Node* scene = f.require("scene", "\"fall.json\"");
-        const Node* output = f.require("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}");
-        f.boolean("physics", entry.physics);
+        const Node* scene = f.take(sim::required("scene", "\"fall.json\""));
+        const Node* output = f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}"));
+        f.truth("physics", entry.physics, "Whether the motion is compared, and no picture.");
         Tolerance own;
         if (const Node* tolerance = f.take("tolerance")) read_tolerance(*tolerance, path + ".tolerance", own);
         if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
-        f.quantity("reproducible_until", dimension::kTime, entry.reproducible_until);
+        f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kAny,
+                 "Until when the motion is reproducible.");
         f.finish();
         if (!scene || !output) return;
         // What is wrong with a scene costs its own entry alone.
@@ -186,10 +180,10 @@ class Reader {
             return findings_.error(node.place, path,
                                    fmt::format("{} must be an array [ … ], not {}", path, shown(node)));
         for (std::size_t i = 0; i < node.items.size(); ++i) {
-            Fields f(findings_, &node.items[i], fmt::format("{}.{}", path, i));
+            ObjectReader f(findings_, &node.items[i], fmt::format("{}.{}", path, i));
             Accepted one;
-            f.text("renderer", one.renderer);
-            const Node* digests = f.require("sha256", "[\"0123…\"]");
+            f.text("renderer", one.renderer, "What drew the accepted pictures.");
+            const Node* digests = f.take(sim::required("sha256", "[\"0123…\"]"));
             f.finish();
             if (!digests) continue;
             if (digests->kind != Node::Kind::array ||
@@ -250,7 +244,7 @@ class Reader {
         // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
         const Source resolved{scene_name, to_json(entry.scene), true};
         const Parsed scene = parse(resolved.text);
-        read_outputs({scene.root, resolved, files_}, found, &list, entry.scene);
+        read_outputs({entry.scene, scene.root, resolved, files_}, found, list, entry.scene);
         const bool fine = !found.any();
         for (Message& message : found.take()) {
             for (std::size_t at = 0; (at = message.text.find("outputs.0", at)) != std::string::npos; at += path.size())

@@ -6,7 +6,6 @@
 
 namespace beamcam::scenes {
 
-std::string_view schema_text();            // beamcam-scene.schema.json
 std::string_view baselines_schema_text();  // beamcam-baselines.schema.json
 std::string_view default_scene_text();     // default.json
 

@@ -8,15 +8,6 @@
 namespace beamcam::scenes {
 namespace {
 
-void move_to(Node& node, Place place) {
-    node.place = place;
-    for (Node& item : node.items) move_to(item, place);
-    for (Member& member : node.members) {
-        member.key_place = place;
-        move_to(member.value, place);
-    }
-}
-
 std::vector<std::string> split(std::string_view path) {
     std::vector<std::string> keys;
     for (std::size_t begin = 0; begin <= path.size();) {
@@ -45,13 +36,20 @@ bool parse_value(std::string_view text, Node& value, std::string& problem) {
         problem = parsed.messages.front().text;
         return false;
     }
-    value = {};
-    value.kind = Node::Kind::string;
-    value.text = std::string(text);
+    value = text_node(std::string(text));
     return true;
 }
 
 }  // namespace
+
+void move_to(Node& node, Place place) {
+    node.place = place;
+    for (Node& item : node.items) move_to(item, place);
+    for (Member& member : node.members) {
+        member.key_place = place;
+        move_to(member.value, place);
+    }
+}
 
 Source override_source(const std::string& text) { return {fmt::format("--set {}", text), text, false}; }
 
@@ -84,8 +82,7 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
         if (node->kind == Node::Kind::object) {
             Member* member = node->find(key);
             if (!member) {
-                Node empty;
-                empty.kind = Node::Kind::object;
+                Node empty = object_node();
                 empty.place = place;
                 member = &node->members.add({key, place, std::move(empty)});
             }

@@ -18,6 +18,9 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
 // the value's place.
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages);
 
+// Gives every key and value this place.
+void move_to(Node& node, Place place);
+
 // How messages name it: `--set beam.modes=3`.
 Source override_source(const std::string& text);
 

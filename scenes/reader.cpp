@@ -5,73 +5,26 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 
+#include "scenes/object_reader.hpp"
 #include "scenes/overrides.hpp"
-#include "scenes/sections.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-// Where a key path stands: its value, or else the key of its nearest ancestor in the file.
-Place place_of(const Node& root, std::string_view path, bool& exact) {
-    const Node* node = &root;
-    Place place = root.place;
-    exact = true;
-    while (!path.empty()) {
-        const std::size_t dot = std::min(path.find('.'), path.size());
-        const std::string_view key = path.substr(0, dot);
-        path.remove_prefix(std::min(dot + 1, path.size()));
-        if (const Member* member = node->find(key)) {
-            place = path.empty() ? member->value.place : member->key_place;
-            node = &member->value;
-            continue;
-        }
-        std::size_t index = 0;
-        const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-        if (node->kind != Node::Kind::array || error != std::errc{} || end != key.data() + key.size() ||
-            index >= node->items.size()) {
-            exact = false;
-            break;
-        }
-        node = &node->items[index];
-        place = node->place;
-    }
-    return place;
-}
-
-// The mechanics' own judgement, at the places of the scene.
-void judge_physics(const Node& root, const Scene& scene, Findings& findings, std::vector<Message>& messages) {
-    const bool partial = findings.any();
-    for (const sim::Finding& finding : sim::validate(scene.problem)) {
-        bool exact = false;
-        const Place place = place_of(root, finding.path, exact);
-        // With unread values replaced by defaults, only what the user wrote himself can be judged.
-        if (partial && (!exact || !finding.fatal || findings.failed(finding.path))) continue;
-        const bool named = finding.message.starts_with(finding.path);
-        messages.push_back(
-            {place, named ? finding.message : fmt::format("{}: {}", finding.path, finding.message), finding.fatal});
-    }
-}
-
-Scene read_tree(const SceneContext& context, const std::string& scene_name, std::vector<Message>& messages) {
-    const Node& root = context.root;
+Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const std::string& scene_name,
+                std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
-    scene.title.clear();
     Findings findings;
-    Fields f(findings, &root, "");
-    std::string schema;
-    f.text("$schema", schema);
-    f.text("title", scene.title);
-    read_physics(findings, f, scene);
-    judge_physics(root, scene, findings, messages);
-    read_outputs(context, findings, f.take("outputs"), scene);
-    f.finish({}, [](const std::string& key) {
+    const SceneContext context{scene, root, source, files};
+    ObjectReader reader(findings, &root, "", "the scene", &context);
+    visit(reader, scene);
+    reader.finish([](const std::string& key) {
         static constexpr std::string_view kOfOutputs[] = {
             "view",    "size",       "fps",    "from",  "to",  "at",     "speed",     "layout",     "theme", "events",
             "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
@@ -95,6 +48,13 @@ struct CloseFile {
 };
 
 }  // namespace
+
+void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene) {
+    Node alone = object_node();
+    add(alone, "outputs", outputs);
+    ObjectReader reader(findings, &alone, "", "the scene", &context);
+    visit_outputs(reader, scene);
+}
 
 Reading read_scene(Source file, const std::vector<std::string>& overrides) {
     SceneFiles files;
@@ -124,7 +84,7 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
         reading.sources.push_back(override_source(text));
         apply_override(reading.root, text, reading.sources.size() - 1, reading.messages);
     }
-    Scene scene = read_tree({reading.root, reading.sources.front(), files}, name, reading.messages);
+    Scene scene = read_tree(reading.root, reading.sources.front(), files, name, reading.messages);
     std::ranges::stable_sort(reading.messages, {}, &Message::place);
     if (std::ranges::none_of(reading.messages, &Message::fatal)) reading.scene = std::move(scene);
     return reading;

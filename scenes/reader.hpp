@@ -1,7 +1,7 @@
 // From the text of a scene file to a Scene, or to every reason why it is none.
 //
 // The first syntax error, or else all that is wrong with the meaning, each with its place. The
-// format is DESIGN's and, key by key, beamcam-scene.schema.json's; a test keeps the two equal.
+// keys are those of keys.hpp.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 #include "scenes/scene.hpp"
 #include "scenes/scene_files.hpp"
 #include "scenes/source.hpp"
+#include "scenes/tree.hpp"
 
 namespace beamcam::scenes {
 
@@ -40,10 +41,9 @@ Source load_source(const std::string& path);
 // The same of a name that a file gives: pipes and devices, which might never end, and standard input are refused.
 Source load_named_source(const std::string& path);
 
-// What the command line gives for a size or a frame rate is read like the scene's own.
-std::optional<Size> parse_size(std::string_view text);             // "1280x720"
-std::optional<FrameRate> parse_frame_rate(std::string_view text);  // "60", "29.97", "30000/1001"
-// Why a span has no frames, or too many; empty when it is fine.
-std::string problem_with_span(const FrameSpan& span, double end_time);
+// The outputs of a scene that is read already: `outputs` is their list.
+class Findings;
+struct SceneContext;
+void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene);
 
 }  // namespace beamcam::scenes

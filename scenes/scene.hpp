@@ -74,7 +74,6 @@ struct FilmEvent {
 struct Compared {
     std::string label;
     sim::Problem problem;
-    std::string physics;  // JSON object of the sections, for the scene written back
 };
 
 // What every picture has.

@@ -1,12 +1,11 @@
 #include "scenes/scene_files.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
+#include "scenes/keys.hpp"
 #include "scenes/reader.hpp"
 
 namespace beamcam::scenes {
@@ -19,8 +18,6 @@ constexpr std::size_t kLongestChain = 16;
 // Five hundred pictures of eight motions.
 constexpr std::size_t kMostFiles = 4096;
 
-constexpr std::array<std::string_view, 7> kMechanics{"hub", "beam", "cam", "contact", "gravity", "initial", "solver"};
-
 fs::path identity_of(const std::string& path) {
     std::error_code error;
     fs::path file = fs::weakly_canonical(path, error);
@@ -29,13 +26,21 @@ fs::path identity_of(const std::string& path) {
 
 }  // namespace
 
-bool is_mechanics(std::string_view section) { return std::ranges::find(kMechanics, section) != kMechanics.end(); }
+const std::vector<std::string>& mechanics_sections() {
+    static const std::vector<std::string> kSections = [] {
+        std::vector<std::string> all;
+        for (const Member& section : written(sim::Problem{}).members) all.push_back(section.key);
+        return all;
+    }();
+    return kSections;
+}
 
-std::string mechanics_sections() { return fmt::format("{}", fmt::join(kMechanics, ", ")); }
+bool is_mechanics(std::string_view section) {
+    return std::ranges::find(mechanics_sections(), section) != mechanics_sections().end();
+}
 
 Node mechanics_of(const Node& root) {
-    Node out;
-    out.kind = Node::Kind::object;
+    Node out = object_node();
     out.place = root.place;
     for (const Member& member : root.members)
         if (is_mechanics(member.key)) out.members.add(member);

@@ -48,9 +48,9 @@ class SceneFiles {
     std::string chain_problem_;                        // the first that was met while the file named last is read
 };
 
-// The sections of a scene that two compared motions can differ in.
+// The sections of a scene that two compared motions can differ in: hub, beam, …
+const std::vector<std::string>& mechanics_sections();
 bool is_mechanics(std::string_view section);
-std::string mechanics_sections();  // "hub, beam, …"
 Node mechanics_of(const Node& root);
 
 }  // namespace beamcam::scenes

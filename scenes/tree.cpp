@@ -369,6 +369,80 @@ void Members::drop_last() {
     all_.pop_back();
 }
 
+namespace {
+
+Node of_kind(Node::Kind kind) {
+    Node node;
+    node.kind = kind;
+    return node;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Node& node) {
+    Json out;
+    switch (node.kind) {
+        case Node::Kind::null:
+            break;
+        case Node::Kind::boolean:
+            return node.boolean;
+        case Node::Kind::number:
+            return node.text.empty() ? Json(node.number) : Json::parse(node.text);
+        case Node::Kind::string:
+            return node.text;
+        case Node::Kind::array:
+            out = Json::array();
+            for (const Node& item : node.items) out.push_back(json_of(item));
+            break;
+        case Node::Kind::object:
+            out = Json::object();
+            for (const Member& member : node.members) out[member.key] = json_of(member.value);
+            break;
+    }
+    return out;
+}
+
+}  // namespace
+
+Node number_node(double value) {
+    Node node = of_kind(Node::Kind::number);
+    node.number = value;
+    return node;
+}
+Node integer_node(long value) {
+    Node node = number_node(static_cast<double>(value));
+    node.text = std::to_string(value);
+    return node;
+}
+Node truth_node(bool value) {
+    Node node = of_kind(Node::Kind::boolean);
+    node.boolean = value;
+    return node;
+}
+Node text_node(std::string value) {
+    Node node = of_kind(Node::Kind::string);
+    node.text = std::move(value);
+    return node;
+}
+Node array_node(std::vector<Node> items) {
+    Node node = of_kind(Node::Kind::array);
+    node.items = std::move(items);
+    return node;
+}
+Node object_node() { return of_kind(Node::Kind::object); }
+void add(Node& object, std::string key, Node value) { object.members.add({std::move(key), {}, std::move(value)}); }
+
+void remove(Node& object, std::string_view key) {
+    Members kept;
+    for (Member& member : object.members)
+        if (member.key != key) kept.add(std::move(member));
+    object.members = std::move(kept);
+}
+
+std::string to_text(const Node& root) {
+    return json_of(root).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 const char* name(Node::Kind kind) {
     switch (kind) {
         case Node::Kind::null:

@@ -60,6 +60,17 @@ struct Member {
     Node value;
 };
 
+// Values that are written; numbers of a tree that was read keep their spelling.
+Node number_node(double value);
+Node integer_node(long value);
+Node truth_node(bool value);
+Node text_node(std::string value);
+Node array_node(std::vector<Node> items = {});
+Node object_node();
+void add(Node& object, std::string key, Node value);
+void remove(Node& object, std::string_view key);
+std::string to_text(const Node& root);  // JSON, two spaces a level
+
 const char* name(Node::Kind kind);  // "a number", "an object", …
 
 struct Parsed {

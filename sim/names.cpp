@@ -1,112 +1,60 @@
 // The names that scenes, tables and messages use for the closed sets of problem.hpp.
-#include "sim/problem.hpp"
+#include "sim/keys.hpp"
 
 namespace beamcam::sim {
+namespace {
 
-const char* name(ModelKind kind) {
-    switch (kind) {
-        case ModelKind::rigid:
-            return "rigid";
-        case ModelKind::zeroth_order:
-            return "zeroth-order";
-        case ModelKind::first_order:
-            return "first-order";
-        case ModelKind::paper:
-            return "paper";
-        case ModelKind::second_order:
-            return "second-order";
-        case ModelKind::exact:
-            return "exact";
-    }
+constexpr Named<ModelKind> kModels[] = {
+    {ModelKind::rigid, "rigid"}, {ModelKind::zeroth_order, "zeroth-order"}, {ModelKind::first_order, "first-order"},
+    {ModelKind::paper, "paper"}, {ModelKind::second_order, "second-order"}, {ModelKind::exact, "exact"}};
+constexpr Named<Basis> kBases[] = {
+    {Basis::automatic, "auto"}, {Basis::cantilever, "cantilever"}, {Basis::hub_beam, "hub-beam"}};
+constexpr Named<DampingLaw> kDampingLaws[] = {{DampingLaw::none, "none"},
+                                              {DampingLaw::hunt_crossley, "hunt-crossley"},
+                                              {DampingLaw::lankarani_nikravesh, "lankarani-nikravesh"},
+                                              {DampingLaw::herbert_mcwhannell, "herbert-mcwhannell"},
+                                              {DampingLaw::lee_wang, "lee-wang"},
+                                              {DampingLaw::gonthier, "gonthier"},
+                                              {DampingLaw::flores, "flores"},
+                                              {DampingLaw::hu_guo, "hu-guo"},
+                                              {DampingLaw::zhang_sharf, "zhang-sharf"}};
+constexpr Named<ImpactLaw> kImpactLaws[] = {
+    {ImpactLaw::newton, "newton"}, {ImpactLaw::poisson, "poisson"}, {ImpactLaw::stronge, "stronge"}};
+constexpr Named<ContactModel> kContactModels[] = {{ContactModel::compliant, "compliant"},
+                                                  {ContactModel::restitution, "restitution"}};
+constexpr Named<ApproachFloorPolicy> kPolicies[] = {{ApproachFloorPolicy::value, "value"},
+                                                    {ApproachFloorPolicy::first_touch, "first-touch"}};
+constexpr Named<InitialShape> kInitialShapes[] = {{InitialShape::straight, "straight"},
+                                                  {InitialShape::static_equilibrium, "static"},
+                                                  {InitialShape::resting, "resting"}};
+constexpr Named<Method> kMethods[] = {
+    {Method::automatic, "auto"},          {Method::exponential, "exponential"}, {Method::rk8, "rk8"},
+    {Method::cvode_adams, "cvode-adams"}, {Method::cvode_bdf, "cvode-bdf"},     {Method::arkode_erk, "arkode-erk"}};
+
+template <class Enum>
+const char* name_of(Enum value) {
+    for (const Named<Enum>& each : names(value))
+        if (each.value == value) return each.name;
     return "?";
 }
 
-const char* name(Basis basis) {
-    switch (basis) {
-        case Basis::automatic:
-            return "auto";
-        case Basis::cantilever:
-            return "cantilever";
-        case Basis::hub_beam:
-            return "hub-beam";
-    }
-    return "?";
-}
+}  // namespace
 
-const char* name(DampingLaw law) {
-    switch (law) {
-        case DampingLaw::none:
-            return "none";
-        case DampingLaw::hunt_crossley:
-            return "hunt-crossley";
-        case DampingLaw::lankarani_nikravesh:
-            return "lankarani-nikravesh";
-        case DampingLaw::herbert_mcwhannell:
-            return "herbert-mcwhannell";
-        case DampingLaw::lee_wang:
-            return "lee-wang";
-        case DampingLaw::gonthier:
-            return "gonthier";
-        case DampingLaw::flores:
-            return "flores";
-        case DampingLaw::hu_guo:
-            return "hu-guo";
-        case DampingLaw::zhang_sharf:
-            return "zhang-sharf";
-    }
-    return "?";
-}
+std::span<const Named<ModelKind>> names(ModelKind) { return kModels; }
+std::span<const Named<Basis>> names(Basis) { return kBases; }
+std::span<const Named<DampingLaw>> names(DampingLaw) { return kDampingLaws; }
+std::span<const Named<ImpactLaw>> names(ImpactLaw) { return kImpactLaws; }
+std::span<const Named<ContactModel>> names(ContactModel) { return kContactModels; }
+std::span<const Named<ApproachFloorPolicy>> names(ApproachFloorPolicy) { return kPolicies; }
+std::span<const Named<InitialShape>> names(InitialShape) { return kInitialShapes; }
+std::span<const Named<Method>> names(Method) { return kMethods; }
 
-const char* name(ImpactLaw law) {
-    switch (law) {
-        case ImpactLaw::newton:
-            return "newton";
-        case ImpactLaw::poisson:
-            return "poisson";
-        case ImpactLaw::stronge:
-            return "stronge";
-    }
-    return "?";
-}
-
-const char* name(ContactModel model) {
-    switch (model) {
-        case ContactModel::compliant:
-            return "compliant";
-        case ContactModel::restitution:
-            return "restitution";
-    }
-    return "?";
-}
-
-const char* name(InitialShape shape) {
-    switch (shape) {
-        case InitialShape::straight:
-            return "straight";
-        case InitialShape::static_equilibrium:
-            return "static";
-        case InitialShape::resting:
-            return "resting";
-    }
-    return "?";
-}
-
-const char* name(Method method) {
-    switch (method) {
-        case Method::automatic:
-            return "auto";
-        case Method::exponential:
-            return "exponential";
-        case Method::rk8:
-            return "rk8";
-        case Method::cvode_adams:
-            return "cvode-adams";
-        case Method::cvode_bdf:
-            return "cvode-bdf";
-        case Method::arkode_erk:
-            return "arkode-erk";
-    }
-    return "?";
-}
+const char* name(ModelKind value) { return name_of(value); }
+const char* name(Basis value) { return name_of(value); }
+const char* name(DampingLaw value) { return name_of(value); }
+const char* name(ImpactLaw value) { return name_of(value); }
+const char* name(ContactModel value) { return name_of(value); }
+const char* name(InitialShape value) { return name_of(value); }
+const char* name(Method value) { return name_of(value); }
 
 }  // namespace beamcam::sim

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/initial.hpp"
+#include "sim/keys.hpp"
 #include "sim/problem.hpp"
 #include "sim/scales.hpp"
 #include "sim/system.hpp"
@@ -19,38 +20,74 @@ class Findings {
   public:
     void refuse(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), true}); }
     void warn(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), false}); }
-    void positive(const char* path, double value, const char* unit) {
-        if (!(value > 0) || !std::isfinite(value))
-            refuse(path, fmt::format("must be a positive number{}{}, is {:g}", *unit ? " of " : "", unit, value));
-        else
-            sane(path, value);
-    }
-    void not_negative(const char* path, double value) {
-        if (!(value >= 0) || !std::isfinite(value))
-            refuse(path, fmt::format("must not be negative, is {:g}", value));
-        else
-            sane(path, value);
-    }
-    void finite(const char* path, double value) {
-        if (!std::isfinite(value))
-            refuse(path, fmt::format("must be a finite number, is {:g}", value));
-        else
-            sane(path, value);
-    }
     std::vector<Finding> list;
+};
+
+// Whether each number is within the range that its key has.
+class RangeCheck final : public Visitor {
+  public:
+    RangeCheck(Findings& out, std::string path) : out_(out), path_(std::move(path)) {}
+
+    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) override {
+        judge(key, value, unit, range);
+    }
+    void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char*,
+                const char*) override {
+        if (value) judge(key, *value, unit, range);
+    }
+    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range, const Length&,
+                 const char*) override {
+        (void)std::all_of(values.begin(), values.end(), [&](double x) { return judge(key, x, unit, range); });
+    }
+    void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
+        if (value && (*value < least || *value > most))
+            out_.refuse(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
+    }
+    void truth(const Key&, bool&, const char*) override {}
+    void text(const Key&, std::string&, const char*) override {}
+    void word(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
+    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
+        RangeCheck inside(out_, path(key) + ".");
+        if (!present || *present) fields(inside);
+    }
+    void alternatives(const std::vector<Alternative>& all) override {
+        for (const Alternative& each : all)
+            if (each.chosen) return each.fields(*this);
+    }
 
   private:
-    void sane(const char* path, double value) {
-        if (!(std::fabs(value) <= kLargest))
-            refuse(path, fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers",
-                                     kLargest, value));
+    std::string path(const Key& key) const { return path_ + key.name; }
+
+    bool judge(const Key& key, double value, const Unit& unit, const Range& range) {
+        const bool finite = std::isfinite(value);
+        const bool bounded = std::isfinite(range.most);
+        if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargest)) return true;
+        out_.refuse(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
+        return false;
     }
+    static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
+        if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.least, range.most, value);
+        if (finite && range.contains(value))
+            return fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers", kLargest,
+                               value);
+        if (!std::isfinite(range.least)) return fmt::format("must be a finite number, is {:g}", value);
+        if (!range.without_least) return fmt::format("must not be negative, is {:g}", value);
+        return fmt::format("must be a positive number of {}, is {:g}", in_words(unit), value);
+    }
+    static std::string in_words(const Unit& unit) {
+        const std::string symbol = unit.symbol();
+        return symbol == "m" ? "metres" : symbol == "s" ? "seconds" : symbol;
+    }
+
+    Findings& out_;
+    std::string path_;
 };
 
 void check_table(Findings& out, const char* t_path, const char* v_path, const std::vector<double>& t,
                  const std::vector<double>& v, std::size_t least) {
     if (t.size() < least)
-        out.refuse(t_path, fmt::format("needs at least {} point{}, has {}", least, least == 1 ? "" : "s", t.size()));
+        return out.refuse(t_path,
+                          fmt::format("needs at least {} point{}, has {}", least, least == 1 ? "" : "s", t.size()));
     if (t.size() != v.size())
         out.refuse(v_path, fmt::format("must have as many values as the times ({}), has {}", t.size(), v.size()));
     for (std::size_t i = 1; i < t.size(); ++i)
@@ -58,62 +95,25 @@ void check_table(Findings& out, const char* t_path, const char* v_path, const st
             out.refuse(t_path, fmt::format("times must increase: {:g} follows {:g}", t[i], t[i - 1]));
             break;
         }
-    const auto sane = [](double x) { return std::fabs(x) <= kLargest; };
-    if (!std::all_of(t.begin(), t.end(), sane))
-        out.refuse(t_path, fmt::format("times must be finite, and within ±{:g}", kLargest));
-    if (!std::all_of(v.begin(), v.end(), sane))
-        out.refuse(v_path, fmt::format("values must be finite, and within ±{:g}", kLargest));
 }
 
 void check_hub(Findings& out, const Problem& p) {
-    out.finite("hub.radius", p.hub.radius);
     if (p.beam.length > 0 && std::isfinite(p.hub.radius) && !(p.hub.radius > -p.beam.length))
         out.refuse("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
                                              -p.beam.length, p.hub.radius));
-    out.not_negative("hub.inertia", p.hub.inertia);
-    if (const auto* d = std::get_if<ConstantTorque>(&p.hub.drive)) out.finite("hub.drive.value", d->value);
-    if (const auto* d = std::get_if<HarmonicTorque>(&p.hub.drive)) {
-        out.finite("hub.drive.amplitude", d->amplitude);
-        out.not_negative("hub.drive.frequency", d->frequency);
-        out.finite("hub.drive.phase", d->phase);
-    }
     if (const auto* d = std::get_if<TorqueTable>(&p.hub.drive))
         check_table(out, "hub.drive.t", "hub.drive.torque", d->t, d->torque, 1);
-    if (const auto* d = std::get_if<ConstantSpeed>(&p.hub.drive)) out.finite("hub.drive.speed", d->speed);
-    if (const auto* d = std::get_if<SpinUp>(&p.hub.drive)) {
-        out.finite("hub.drive.speed", d->speed);
-        out.positive("hub.drive.duration", d->duration, "seconds");
-    }
     if (const auto* d = std::get_if<AngleTable>(&p.hub.drive))
         check_table(out, "hub.drive.t", "hub.drive.theta", d->t, d->theta, 2);
 }
 
 void check_beam(Findings& out, const Problem& p) {
     const Beam& b = p.beam;
-    out.positive("beam.length", b.length, "metres");
-    out.positive("beam.area", b.area, "m^2");
-    out.positive("beam.second_moment", b.second_moment, "m^4");
-    out.positive("beam.density", b.density, "kg/m^3");
-    out.positive("beam.youngs_modulus", b.youngs_modulus, "Pa");
-    out.positive("beam.depth", b.depth, "metres");
-    if (!(b.poisson_ratio > -1 && b.poisson_ratio < 0.5))
-        out.refuse("beam.poisson_ratio", fmt::format("must lie between -1 and 0.5, is {:g}", b.poisson_ratio));
-    if (b.modes < 1 || b.modes > kMaxModes)
-        out.refuse("beam.modes", fmt::format("must be 1 to {}, is {}", kMaxModes, b.modes));
-    for (double z : b.damping_ratio)
-        if (!(z >= 0 && z <= kLargest)) {
-            out.not_negative("beam.damping_ratio", z);
-            break;
-        }
     if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
         out.refuse("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
                                                      b.modes, b.damping_ratio.size()));
-    if (b.kelvin_voigt) {
-        out.not_negative("beam.kelvin_voigt", *b.kelvin_voigt);
-        if (!b.damping_ratio.empty() &&
-            std::any_of(b.damping_ratio.begin(), b.damping_ratio.end(), [](double z) { return z != 0; }))
-            out.refuse("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
-    }
+    if (b.kelvin_voigt && std::any_of(b.damping_ratio.begin(), b.damping_ratio.end(), [](double z) { return z != 0; }))
+        out.refuse("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
     if (b.basis == Basis::hub_beam && is_prescribed(p.hub.drive))
         out.refuse("beam.basis",
                    "hub-beam shapes are those of a freely turning hub; with a prescribed drive use \"cantilever\" or "
@@ -125,11 +125,6 @@ void check_beam(Findings& out, const Problem& p) {
 
 void check_contact(Findings& out, const Problem& p) {
     const Contact& c = p.contact;
-    if (c.stiffness) out.positive("contact.stiffness", *c.stiffness, "N/m^n");
-    if (!(c.exponent >= 1 && c.exponent <= 2))
-        out.refuse("contact.exponent", fmt::format("must lie between 1 and 2, is {:g}", c.exponent));
-    if (!(c.restitution >= 0 && c.restitution <= 1))
-        out.refuse("contact.restitution", fmt::format("must lie between 0 and 1, is {:g}", c.restitution));
     const bool singular = c.damping == DampingLaw::gonthier || c.damping == DampingLaw::flores ||
                           c.damping == DampingLaw::hu_guo || c.damping == DampingLaw::zhang_sharf;
     if (c.model == ContactModel::compliant && singular && c.restitution < 0.01)
@@ -138,43 +133,20 @@ void check_contact(Findings& out, const Problem& p) {
             fmt::format("the law {} has no finite damping at 0: give at least 0.01 (is {:g}) or use hunt-crossley, "
                         "lankarani-nikravesh, herbert-mcwhannell or lee-wang",
                         name(c.damping), c.restitution));
-    if (c.offset) out.not_negative("contact.offset", *c.offset);
-    out.positive("contact.approach_floor.value", c.approach_floor.value, "m/s");
-    out.not_negative("contact.collision_gap", c.collision_gap);
-    if (const auto* f = std::get_if<CoulombFriction>(&c.friction)) {
-        out.not_negative("contact.friction.coefficient", f->coefficient);
-        out.positive("contact.friction.slip_speed", f->slip_speed, "m/s");
-    }
-    if (const auto* f = std::get_if<StickSlipFriction>(&c.friction)) {
-        out.not_negative("contact.friction.coefficient", f->coefficient);
-        if (f->static_coefficient && !(*f->static_coefficient >= f->coefficient))
+    if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
+        if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
             out.refuse(
                 "contact.friction.static_coefficient",
                 fmt::format("must be at least the coefficient {:g}, is {:g}", f->coefficient, *f->static_coefficient));
-        else if (f->static_coefficient)
-            out.not_negative("contact.friction.static_coefficient", *f->static_coefficient);
-        if (f->stiffness) out.positive("contact.friction.stiffness", *f->stiffness, "N/m");
-        if (f->damping) out.not_negative("contact.friction.damping", *f->damping);
-    }
 }
 
 void check_cam(Findings& out, const Problem& p) {
     const Cam& cam = *p.cam;
-    out.positive("cam.radius", cam.radius, "metres");
-    out.finite("cam.centre", std::fabs(cam.centre.x) > std::fabs(cam.centre.y) ? cam.centre.x : cam.centre.y);
-    out.finite("cam.phase", cam.phase);
-    out.finite("cam.speed", cam.speed);
-    if (!(cam.eccentricity >= 0))
-        out.refuse("cam.eccentricity",
-                   fmt::format("must not be negative, is {:g} m; turn the phase by 180 deg instead", cam.eccentricity));
-    else if (cam.radius > 0 && !(cam.eccentricity < cam.radius))
+    if (cam.radius > 0 && !(cam.eccentricity < cam.radius))
         out.refuse(
             "cam.eccentricity",
             fmt::format("must be smaller than the cam's radius {:g} m, is {:g} m: the axis would lie outside the disc",
                         cam.radius, cam.eccentricity));
-    if (cam.youngs_modulus) out.positive("cam.youngs_modulus", *cam.youngs_modulus, "Pa");
-    if (!(cam.poisson_ratio > -1 && cam.poisson_ratio < 0.5))
-        out.refuse("cam.poisson_ratio", fmt::format("must lie between -1 and 0.5, is {:g}", cam.poisson_ratio));
 }
 
 // Where cam and beam are to each other; every number is known to be sane.
@@ -248,20 +220,13 @@ void check_geometry(Findings& out, const Problem& p) {
 
 std::vector<Finding> validate(const Problem& problem) {
     Findings out;
+    Problem visited = problem;  // visitors may write; this one does not
+    RangeCheck ranges(out, "");
+    visit(ranges, visited);
     check_hub(out, problem);
     check_beam(out, problem);
     check_contact(out, problem);
     if (problem.cam) check_cam(out, problem);
-    out.finite("gravity", problem.gravity);
-    out.finite("initial.angle", problem.initial.angle);
-    out.finite("initial.angular_velocity", problem.initial.angular_velocity);
-    if (!(problem.solver.rtol >= 1e-13 && problem.solver.rtol <= 1e-2))
-        out.refuse("solver.rtol", fmt::format("must lie between 1e-13 and 1e-2, is {:g}", problem.solver.rtol));
-    // Far below rounding of anything that moves; a tolerance of zero by another name.
-    if (!(problem.solver.atol >= 1e-40 && problem.solver.atol <= 1e10))
-        out.refuse("solver.atol", fmt::format("must lie between 1e-40 and 1e10, is {:g}", problem.solver.atol));
-    if (problem.solver.max_steps < 1)
-        out.refuse("solver.max_steps", fmt::format("must be at least 1, is {}", problem.solver.max_steps));
     if (problem.initial.shape == InitialShape::resting) {
         if (!problem.cam)
             out.refuse("initial.shape", "a beam cannot rest on a cam that is not there; give a cam or another shape");

@@ -38,6 +38,7 @@ void add_concat(Grammar& grammar);
 void add_init(Grammar& grammar);
 void add_stress(Grammar& grammar);
 void add_schema(Grammar& grammar);
+void add_keys(Grammar& grammar);
 void add_hash(Grammar& grammar);
 void add_diff(Grammar& grammar);
 void add_test(Grammar& grammar);
@@ -49,9 +50,9 @@ void add_paper(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,    add_render,   add_simulate, add_modes, add_check,  add_plan, add_cache,
-    add_concat, add_init,     add_schema,   add_hash,  add_diff,   add_test, add_info,
-    add_doctor, add_accuracy, add_figure,   add_paper, add_stress,
+    add_run,    add_render, add_simulate, add_modes,  add_check, add_plan,   add_cache,
+    add_concat, add_init,   add_schema,   add_keys,   add_hash,  add_diff,   add_test,
+    add_info,   add_doctor, add_accuracy, add_figure, add_paper, add_stress,
 };
 
 // ---- options that several commands share --------------------------------------------------------

@@ -5,6 +5,7 @@
 #include "output/atomic_file.hpp"
 #include "output/errors.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/description.hpp"
 #include "scenes/embedded.hpp"
 
 namespace beamcam::scenes {
@@ -41,7 +42,7 @@ struct SchemaArguments {
 };
 
 int print_schema(const SchemaArguments& args) {
-    print_data(args.baselines ? baselines_schema_text() : schema_text());
+    print_data(args.baselines ? std::string(baselines_schema_text()) : schema_text());
     return 0;
 }
 

@@ -6,12 +6,13 @@
 #include <set>
 
 #include "output/standard_output.hpp"
+#include "scenes/checks.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/files.hpp"
+#include "scenes/forms.hpp"
 #include "scenes/plan.hpp"
 #include "scenes/reader.hpp"
 #include "scenes/run.hpp"
-#include "scenes/sections.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -90,12 +91,7 @@ void apply_format(const Arguments& args, VideoOutput& film) {
 
 // The scenes of the command line beside each other; the first one's outputs tell how.
 void compare_scenes(const Arguments& args, Scene& scene, Picture& picture) {
-    const auto entry = [](const Scene& one) {
-        Scene mechanics = one;
-        mechanics.outputs.clear();
-        mechanics.title.clear();
-        return Compared{one.title.empty() ? one.name : one.title, one.problem, to_json(mechanics)};
-    };
+    const auto entry = [](const Scene& one) { return Compared{one.title.empty() ? one.name : one.title, one.problem}; };
     if (args.comparison)
         picture.comparison = *args.comparison == "ghosts" ? render::Comparison::ghosts : render::Comparison::panels;
     if (args.others.empty()) return;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/scenes/support.hpp"
 
@@ -22,14 +23,36 @@ TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;
     EXPECT_THAT(shell(folder, "$BEAMCAM --version").out, StartsWith("beamcam "));
     for (const char* command :
-         {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "figure", "paper"}) {
+         {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "keys", "figure", "paper"}) {
         const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
         EXPECT_EQ(help.code, 0);
         EXPECT_THAT(help.out, HasSubstr("Usage"));
         EXPECT_THAT(help.err, IsEmpty());
     }
     EXPECT_EQ(shell(folder, "$BEAMCAM schema").out,
-              testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"));
+              testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"))
+        << "after a change of keys: beamcam schema > scenes/beamcam-scene.schema.json";
+}
+
+TEST(CommandLine, EveryKeyIsExplained) {
+    const Folder folder;
+    EXPECT_EQ(shell(folder, "$BEAMCAM keys --markdown").out, testing::slurp(BEAMCAM_TEST_DIR "/../scenes/FORMAT.md"))
+        << "after a change of keys: beamcam keys --markdown > scenes/FORMAT.md";
+    const std::string stiffness = shell(folder, "$BEAMCAM keys contact.stiff").out;
+    EXPECT_THAT(stiffness, HasSubstr("contact.stiffness\n    number or \"hertz\" [N/m^n], > 0, default 100000000.0\n"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys 'outputs*size'").out,
+                HasSubstr("outputs[].size  (type=video | type=frames"));
+    const nlohmann::json modes = nlohmann::json::parse(shell(folder, "$BEAMCAM keys beam.modes --json").out);
+    ASSERT_EQ(modes.size(), 1u);
+    EXPECT_EQ(modes[0]["key"], "beam.modes");
+    EXPECT_EQ(modes[0]["type"], "whole number");
+    EXPECT_EQ(modes[0]["unit"], nullptr);
+    EXPECT_EQ(modes[0]["default"], 2);
+    EXPECT_EQ(modes[0]["min"], 1);
+    EXPECT_EQ(modes[0]["max"], 40);
+    for (const auto& key : nlohmann::json::parse(shell(folder, "$BEAMCAM keys --json").out))
+        EXPECT_GT(key["meaning"].get<std::string>().size(), 3u) << key;
+    EXPECT_EQ(shell(folder, "$BEAMCAM keys nonsense").code, 2);
 }
 
 TEST(CommandLine, WrongUsageIsTwo) {

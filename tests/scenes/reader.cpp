@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "scenes/checks.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -144,12 +145,13 @@ TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {
         "{\"beam\": {\"lenght\": 1,\n\"modes\": 2.5},\n\"cam\": {\"eccentricity\": \"2 s\"},\n\"time\": {\"end\": -1}, "
         "\"outputs\": [{\"type\": \"still\"}]}");
     EXPECT_FALSE(reading.scene);
-    EXPECT_THAT(messages(reading),
-                ElementsAre("1:11 unknown key \"lenght\" in beam; did you mean \"length\"?",
-                            "2:10 beam.modes must be a whole number, not 2.5",
-                            "3:25 cam.eccentricity = \"2 s\" has the wrong dimension (s); it is measured in m",
-                            "4:17 time.end = -1 s must be positive; write how many seconds to simulate",
-                            "4:34 outputs.0 needs \"at\", for example \"370 ms\""));
+    EXPECT_THAT(
+        messages(reading),
+        ElementsAre("1:11 unknown key \"lenght\" in beam; did you mean \"length\"?",
+                    "2:10 beam.modes must be a whole number, not 2.5",
+                    "3:25 cam.eccentricity = \"2 s\" has the wrong dimension (s); it is measured in m",
+                    "4:17 time.end = -1 must be positive and at most 1e12 s; write how many seconds to simulate",
+                    "4:34 outputs.0 needs \"at\", for example \"370 ms\""));
 }
 
 TEST(Reader, BeyondAHundredIssuesAreCounted) {

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/description.hpp"
+#include "scenes/suggest.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    std::string pattern;
+    bool json = false, markdown = false;
+};
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// Whether the words of the pattern, in this order, are in the text; '*' stands for anything, as blanks do.
+bool matches(const std::string& text, const std::string& pattern) {
+    std::size_t at = 0;
+    for (std::size_t begin = 0; begin < pattern.size();) {
+        const std::size_t end = std::min(pattern.find_first_of(" *", begin), pattern.size());
+        const std::string word = pattern.substr(begin, end - begin);
+        at = text.find(word, at);
+        if (at == std::string::npos) return false;
+        at += word.size();
+        begin = end + 1;
+    }
+    return true;
+}
+
+std::vector<KeyRow> chosen(const std::string& pattern) {
+    std::vector<KeyRow> rows = key_rows();
+    std::erase_if(rows, [&](const KeyRow& row) {
+        return !matches(lowered(row.path), lowered(pattern)) && !matches(lowered(row.key->meaning), lowered(pattern));
+    });
+    return rows;
+}
+
+Node json_of(const KeyRow& row) {
+    const DescribedKey& key = *row.key;
+    const auto bound = [](double value) { return std::isfinite(value) ? number_node(value) : Node{}; };
+    Node out = object_node();
+    add(out, "key", text_node(row.path));
+    if (!row.when.empty()) add(out, "when", text_node(row.when));
+    add(out, "type", text_node(key.type));
+    if (!key.words.empty()) {
+        Node words = array_node();
+        for (const std::string& word : key.words) words.items.push_back(text_node(word));
+        add(out, "words", std::move(words));
+    }
+    add(out, "unit", key.unit.empty() ? Node{} : text_node(key.unit));
+    add(out, "default", key.value && !key.required() ? *key.value : Node{});
+    add(out, "min", bound(key.range.least));
+    add(out, "max", bound(key.range.most));
+    add(out, "required", truth_node(key.required()));
+    add(out, "meaning", text_node(key.meaning));
+    return out;
+}
+
+std::string text_of(const std::vector<KeyRow>& rows) {
+    std::string text;
+    for (const KeyRow& row : rows) {
+        const DescribedKey& key = *row.key;
+        std::string facts = key.words.empty() ? key.type : fmt::format("{}", fmt::join(key.words, " | "));
+        if (!key.unit.empty()) facts += fmt::format(" [{}]", key.unit);
+        if (const std::string range = range_text(key); !range.empty()) facts += ", " + range;
+        if (key.required()) facts += ", required";
+        if (const std::string value = default_text(key); !value.empty()) facts += ", default " + value;
+        text += fmt::format("{}{}\n    {}\n    {}\n", row.path, row.when.empty() ? "" : fmt::format("  ({})", row.when),
+                            facts, key.meaning);
+    }
+    return text;
+}
+
+int act(const Arguments& args) {
+    if (args.markdown) {
+        print_data(reference_text());
+        return 0;
+    }
+    const std::vector<KeyRow> rows = chosen(args.pattern);
+    if (args.json) {
+        Node all = array_node();
+        for (const KeyRow& row : rows) all.items.push_back(json_of(row));
+        print_data(to_text(all));
+        return 0;
+    }
+    if (rows.empty()) {
+        std::vector<std::string> names;
+        for (const KeyRow& row : key_rows()) names.push_back(row.path);
+        throw UsageError(fmt::format("no key is named like {}{}", args.pattern, suggestion(args.pattern, names)));
+    }
+    print_data(text_of(rows));
+    return 0;
+}
+
+}  // namespace
+
+void add_keys(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    Command& app = grammar.command("keys", "Explain the keys of scenes: type, unit, range, default, meaning");
+    app.positional("PATTERN", &args->pattern, "Only keys with this in their path or meaning; * stands for anything");
+    app.flag("--json", args->json, "As JSON");
+    app.flag("--markdown", args->markdown, "All of them, as scenes/FORMAT.md");
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes
