@@ -599,6 +599,9 @@ bool of_contact(ChannelKind kind) {
 std::string wrong(const StressCase& one, const Result& r, const Request& request) {
     const Table& table = r.tables[0];
     const std::vector<double>& times = request.tables[0].times;
+    // A beam that is straight and at rest is so to the absolute tolerance of its slopes, in radians.
+    const Beam& beam = one.problem.beam;
+    const double unseen = beam.bending_stiffness() / beam.length * std::pow(one.problem.solver.atol, 2);
     double start = 0;
     for (std::size_t row = 0; row < times.size(); ++row) {
         if (times[row] > r.end_time) break;  // never reached
@@ -613,7 +616,7 @@ std::string wrong(const StressCase& one, const Result& r, const Request& request
                 energy += value;
         }
         if (row == 0) start = energy;
-        const double slack = 2 * r.energy_residual_max + 1e-9 * r.energy_scale;
+        const double slack = 2 * r.energy_residual_max + 1e-9 * r.energy_scale + unseen;
         if (passive(one.problem) && energy > start + slack)
             return fmt::format("{:.3g} J of {:.3g} J were gained on a cam at rest", energy - start, r.energy_scale);
     }
