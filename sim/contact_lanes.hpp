@@ -24,18 +24,20 @@ struct Frame {
     T disc_vx, disc_vy;  // Ḃ
 };
 
+constexpr int kExpansionOrder = 6;
+
 // The contact at one instant or eight; names as in ContactState.
 template <class T>
 struct Touch {
     T dx{};  // of the foot from the point of expansion; a first guess comes in
     T gap, gap_rate, slip;
-    T nx, ny;        // normal in the beam's frame
-    T hub;           // ∂(n·r)/∂Θ
-    T hub_t;         // ∂(t·r)/∂Θ with the moment of the face
-    T cam_n, cam_t;  // n·Ḃ, t·Ḃ + ωR: power of the cam per force
-    T w0, w1, w2;    // ∫₀^dx v′ ξʲ/j!
-    T v1;            // slope
-    T shift;         // a α
+    T nx, ny;                   // normal in the beam's frame
+    T hub;                      // ∂(n·r)/∂Θ
+    T hub_t;                    // ∂(t·r)/∂Θ with the moment of the face
+    T cam_n, cam_t;             // n·Ḃ, t·Ḃ + ωR: power of the cam per force
+    T moment[kExpansionOrder];  // ∫₀^dx v′ ξʲ/j! dξ
+    T v1;                       // slope
+    T shift;                    // a α
 };
 
 inline void product(std::size_t rows, std::size_t columns, const double* a, const Lanes* x, Lanes* y) {
@@ -51,7 +53,7 @@ inline void product(std::size_t rows, std::size_t columns, const double* a, cons
 
 class ContactExpansion {
   public:
-    static constexpr int kOrder = 6;
+    static constexpr int kOrder = kExpansionOrder;
 
     ContactExpansion(std::shared_ptr<const ModalForm> form, System& system);
 
@@ -60,7 +62,6 @@ class ContactExpansion {
     double at() const { return x_; }
     // How far from its centre an expansion is trusted [m].
     double range() const { return range_; }
-    const double* shape(int order) const { return y_.data() + static_cast<std::size_t>(order) * n_; }
 
     // Fills `touch` from q, q̇ (one entry a mode); `hq` receives H q at the centre. `corrections` of the foot by
     // Newton's method, from touch.dx.
@@ -79,7 +80,7 @@ class ContactExpansion {
     std::size_t n_;
     double x_ = -1, range_ = 0, offset_, radius_, disc_, rim_;
     std::vector<double> y_;        // kOrder + 1 derivatives of each shape
-    std::vector<double> turned_;   // the same, transposed, orders 0 to 5
+    std::vector<double> turned_;   // the same, transposed
     std::vector<double> shorten_;  // H(x), row-major
 };
 
@@ -89,6 +90,32 @@ template <class T>
 BEAMCAM_INLINE void taylor(const T* c, const T& dx, int count, T& out) {
     out = c[count - 1];
     for (int m = count - 2; m >= 0; --m) out = c[m] + out * dx * (1.0 / (m + 1));
+}
+
+// ∫₀^dx v′ ξʲ/j! dξ to degree kExpansionOrder in dx, from the derivatives c of v: with them ∫₀^dx v′φ′ = Σ φ⁽ʲ⁺¹⁾
+// moment_j, so that the rows are the exact derivatives of the expanded gap.
+template <class T>
+BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
+    T term[kExpansionOrder];  // v⁽ᵐ⁺¹⁾ dxᵐ/m!
+    T power = T{} + 1.0;
+    for (int m = 0; m < kExpansionOrder; ++m) {
+        term[m] = c[1 + m] * power;
+        power = power * dx * (1.0 / (m + 1));
+    }
+    power = dx;
+    for (int j = 0; j < kExpansionOrder; ++j) {
+        moment[j] = term[0] * (1.0 / (j + 1));
+        for (int m = 1; m + j < kExpansionOrder; ++m) moment[j] = moment[j] + term[m] * (1.0 / (m + j + 1));
+        moment[j] = moment[j] * power;
+        power = power * dx * (1.0 / (j + 1));
+    }
+}
+// ∫₀^dx v′φ′ from the moments of v and the derivatives of φ.
+template <class T>
+BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
+    T total = derivatives[1] * moment[0];
+    for (int j = 1; j < kExpansionOrder; ++j) total = total + derivatives[1 + j] * moment[j];
+    return total;
 }
 
 template <class T>
@@ -113,15 +140,17 @@ void ContactExpansion::look(const T* q, const T* v, const Frame<T>& frame, doubl
     const T u0 = -0.5 * qhq - 0.5 * touch.shift * turn, du0 = -vhq - touch.shift * turn_rate;
     const T bx = frame.disc_x * frame.cos + frame.disc_y * frame.sin,
             by = frame.disc_y * frame.cos - frame.disc_x * frame.sin;
-    T x = touch.dx, deflection, slope, bend, u, rx, ry, r1;
+    T x = touch.dx, deflection, slope, bend, rx, ry, r1;
+    T* moment = touch.moment;
     for (int i = 0;; ++i) {
         taylor(c, x, kOrder + 1, deflection);
         taylor(c + 1, x, kOrder, slope);
         taylor(c + 2, x, kOrder - 1, bend);
-        T middle;
-        taylor(c + 1, 0.5 * x, kOrder, middle);
-        // −½∫v′² from the centre, by Simpson's rule.
-        u = length * (u0 - x * (c[1] * c[1] + 4 * middle * middle + slope * slope) * (1.0 / 12));
+        T u{};
+        if (form_->shortening) {
+            slope_moments(c, x, moment);
+            u = u0 - 0.5 * slope_product(moment, c);
+        }
         r1 = 1 - (0.5 * length) * slope * slope;
         rx = a + x_ + x + u;
         ry = deflection;
@@ -140,12 +169,10 @@ void ContactExpansion::look(const T* q, const T* v, const Frame<T>& frame, doubl
     touch.nx = ex / distance;
     touch.ny = ey / distance;
     touch.gap = distance - (disc_ + offset_ - gap_offset);  // (S25)
-    T speed, slope_speed, middle_speed, middle;
+    T speed, slope_speed, du{};
     taylor(d, x, kOrder + 1, speed);
     taylor(d + 1, x, kOrder, slope_speed);
-    taylor(d + 1, 0.5 * x, kOrder, middle_speed);
-    taylor(c + 1, 0.5 * x, kOrder, middle);
-    const T du = length * (du0 - x * (c[1] * d[1] + 4 * middle * middle_speed + slope * slope_speed) * (1.0 / 6));
+    if (form_->shortening) du = du0 - slope_product(moment, d);
     const T bvx = frame.disc_vx * frame.cos + frame.disc_vy * frame.sin,
             bvy = frame.disc_vy * frame.cos - frame.disc_vx * frame.sin;
     const T vx = du - ry * frame.spin, vy = speed + rx * frame.spin;
@@ -158,25 +185,23 @@ void ContactExpansion::look(const T* q, const T* v, const Frame<T>& frame, doubl
     touch.slip = touch.ny * vx - touch.nx * vy - touch.cam_t + offset_ * (r1 * v1y - slope * v1x) / square;  // (S27)
     touch.hub = touch.ny * rx - touch.nx * ry;
     touch.hub_t = -touch.ny * ry - touch.nx * rx + offset_;
-    const T x2 = 0.5 * x * x, x3 = x2 * x * (1.0 / 3);
-    touch.w0 = length * (c[1] * x + c[2] * x2 + c[3] * x3);
-    touch.w1 = length * (c[1] * x2 + 2 * c[2] * x3);
-    touch.w2 = length * (c[1] * x3);
 }
 
 template <class T>
 BEAMCAM_INLINE void ContactExpansion::rows(const Touch<T>& touch, const T* hq, std::size_t i, bool friction, T& jn,
                                            T& jt) const {
-    const double *y0 = shape(0), *y1 = shape(1), *y2 = shape(2), *y3 = shape(3), *y4 = shape(4), *y5 = shape(5);
+    const double* y = turned_.data() + i * (kOrder + 1);
     const T& x = touch.dx;
-    const T phi =
-        y0[i] + x * (y1[i] + x * 0.5 * (y2[i] + x * (1.0 / 3) * (y3[i] + x * 0.25 * (y4[i] + x * 0.2 * y5[i]))));
-    T axial{};
-    if (form_->shortening)
-        axial = -hq[i] - y1[i] * touch.w0 - y2[i] * touch.w1 - y3[i] * touch.w2 - form_->h[i] * touch.shift;
+    T phi = T{} + y[kOrder], axial{};
+    for (int m = kOrder - 1; m >= 0; --m) phi = y[m] + phi * x * (1.0 / (m + 1));
+    if (form_->shortening) {
+        axial = -hq[i] - form_->h[i] * touch.shift;
+        for (int j = 0; j < kOrder; ++j) axial = axial - y[1 + j] * touch.moment[j];
+    }
     jn = touch.nx * axial + touch.ny * phi;
     if (!friction) return;
-    const T slope = y1[i] + x * (y2[i] + x * 0.5 * (y3[i] + x * (1.0 / 3) * (y4[i] + x * 0.25 * y5[i])));
+    T slope = T{} + y[kOrder];
+    for (int m = kOrder - 2; m >= 0; --m) slope = y[1 + m] + slope * x * (1.0 / (m + 1));
     const double length = form_->shortening ? 1 : 0;
     const T r1 = 1 - (0.5 * length) * touch.v1 * touch.v1, square = r1 * r1 + touch.v1 * touch.v1;
     jt = touch.ny * axial - touch.nx * phi + offset_ * slope * (r1 + length * touch.v1 * touch.v1) / square;

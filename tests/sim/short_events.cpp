@@ -70,6 +70,46 @@ TEST(ShortEvents, AForceThatComesBackForAMomentIsFelt) {
     }
 }
 
+// Four impacts with friction: the foot slides along the beam while the force acts.
+Problem sliding_impacts() {
+    Problem p;
+    p.hub.radius = -0.2;
+    p.hub.inertia = 0;
+    p.beam.modes = 4;
+    p.beam.damping_ratio = {0.01};
+    p.beam.youngs_modulus = 5228378561.643409;
+    p.cam = Cam{{0.4932422104114824, 0.04482766586512027},
+                0.10143853877575118,
+                0.012775426736515709,
+                5.036029234261151,
+                0,
+                {},
+                0.3};
+    p.contact.stiffness = 445783678.00756127;
+    p.contact.damping = DampingLaw::zhang_sharf;
+    p.contact.restitution = 0.6044378288949936;
+    p.contact.friction = CoulombFriction{0.8887853113938958, 0.025063829724371288};
+    p.initial = {0.9640300516959706, -0.1698589022675927, InitialShape::straight};
+    return p;
+}
+
+TEST(ShortEvents, AccuracyInContactIsNotLimitedByTheExpansionOfTheShapes) {
+    for (const bool offset : {false, true}) {
+        Problem p = sliding_impacts();
+        if (offset) p.contact.offset.reset();
+        const Result fast = solve(p, Method::automatic, 1e-12, 0.36), tight = solve(p, Method::rk8, 1e-13, 0.36);
+        ASSERT_EQ(fast.impacts.size(), 4u) << offset;
+        ASSERT_EQ(tight.impacts.size(), 4u) << offset;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Impact &a = fast.impacts[i], &b = tight.impacts[i];
+            EXPECT_NEAR(a.t_start, b.t_start, 1e-13) << offset << " " << i;
+            // The impacts before have multiplied the tolerance by about ten.
+            EXPECT_NEAR(*a.v_n_after, *b.v_n_after, 1e-11) << offset << " " << i;
+            EXPECT_NEAR(a.impulse_n, b.impulse_n, 1e-12) << offset << " " << i;
+        }
+    }
+}
+
 // How many of the first impacts of two runs are the same: times within `time`, speeds after within `share`.
 std::size_t same_impacts(const Result& a, const Result& b, double time, double share) {
     const auto same = [&](const Impact& x, const Impact& y) {
