@@ -109,7 +109,8 @@ class Integrator {
     void limit_first_step(double h) { first_limit_ = h; }
     // One accepted step. The segment lives until the next call. Throws StepFailure.
     virtual const Segment& step() = 0;
-    // The last step again, ended at t1 inside it; y at its end is as accurate as a step's.
+    // The last step again, ended at t1 inside it; y at its end is as accurate as a step's. It may end before t1, where
+    // only a shorter step keeps to the tolerance.
     virtual const Segment& shorten(double t1) = 0;
     virtual const double* state() const = 0;  // at the end of the last segment
 

@@ -232,37 +232,21 @@ class Rk8 final : public Integrator, private Segment {
         t0 = t1;
         y_ = end_;
         k_[0] = k_[12];
-        dense_known_ = false;
-        bool rejected = false;
-        double error = std::numeric_limits<double>::infinity();
-        for (;;) {
-            double h = next_;
-            const bool to_stop = t0 + 1.01 * h >= stop_;
-            if (to_stop) h = stop_ - t0;
-            if (!(std::fabs(h) > 4e-16 * std::max(std::fabs(t0), 1e-300)) || !std::isfinite(h))
-                throw StepFailure(vanished(std::isfinite(error)));
-            error = advance(h);
-            if (error <= 1) {
-                const double factor =
-                    error == 0 ? kGrow : std::clamp(kSafety * std::pow(error, -0.125), kShrink, kGrow);
-                if (!to_stop || h * factor < next_) next_ = h * (rejected ? std::min(factor, 1.0) : factor);
-                break;
-            }
-            next_ = h * (std::isfinite(error) ? std::max(kSafety * std::pow(error, -0.125), kShrink) : 0.1);
-            rejected = true;
-            ++counters.rejected;
-        }
+        accept(false);
         ++counters.steps;
-        evaluate(t1, end_.data(), k_[12].data());
         return *this;
     }
 
     const Segment& shorten(double at) override {
-        // Exactly the step that would have been taken with this size.
-        dense_known_ = false;
-        advance(at - t0);
-        t1 = at;
-        evaluate(t1, end_.data(), k_[12].data());
+        // Exactly the step that would have been taken with this size. The longer one may have passed the test by
+        // chance.
+        const double error = advance(at - t0);
+        if (error > 1) {
+            reject(at - t0, error);
+            accept(true);
+            return *this;
+        }
+        arrive(at);
         return *this;
     }
 
@@ -286,6 +270,37 @@ class Rk8 final : public Integrator, private Segment {
     }
 
   private:
+    // Tries steps from (t0, y_) until one keeps to the tolerance.
+    void accept(bool rejected) {
+        double error = std::numeric_limits<double>::infinity();
+        for (;;) {
+            double h = next_;
+            const bool to_stop = t0 + 1.01 * h >= stop_;
+            if (to_stop) h = stop_ - t0;
+            if (!(std::fabs(h) > 4e-16 * std::max(std::fabs(t0), 1e-300)) || !std::isfinite(h))
+                throw StepFailure(vanished(std::isfinite(error)));
+            error = advance(h);
+            if (error <= 1) {
+                const double factor =
+                    error == 0 ? kGrow : std::clamp(kSafety * std::pow(error, -0.125), kShrink, kGrow);
+                if (!to_stop || h * factor < next_) next_ = h * (rejected ? std::min(factor, 1.0) : factor);
+                break;
+            }
+            reject(h, error);
+            rejected = true;
+        }
+        arrive(t1);
+    }
+    void reject(double h, double error) {
+        next_ = h * (std::isfinite(error) ? std::max(kSafety * std::pow(error, -0.125), kShrink) : 0.1);
+        ++counters.rejected;
+    }
+    void arrive(double t) {
+        t1 = t;
+        dense_known_ = false;
+        evaluate(t1, end_.data(), k_[12].data());
+    }
+
     void evaluate(double t, const double* y, double* dy) {
         ode_.rhs(t, y, dy);
         ++counters.rhs;

@@ -48,6 +48,7 @@ constexpr double kEndless = 1e60;        // of the length: far beyond any sense,
 constexpr double kBounces = 4;           // a first step in flight spans, at most
 constexpr double kLowestBounce = 1e-13;  // of the beam's length: the gap is known to about 1e-15 of it
 constexpr double kRestSpeed = 1e-12;     // [m/s] slower is rounding
+constexpr double kStepErrors = 10;       // of one step in the gap, to which several coordinates contribute
 // Chatter is summed up (S57) once what is left of it is so brief, against the fastest vibration and turn, that the
 // sum errs by (10⁻³)²/6 of the last rebound, and the pull on the beam stays the same all the while.
 constexpr double kBriefChatter = 1e-3, kSteadyPull = 1e-2;
@@ -133,17 +134,22 @@ class Run {
             const Segment* segment = &integrator_->step();
             last_step_ = segment->t1 - segment->t0;
             if ((++steps & kTold) == 0 || last_step_ * dynamics_.highest_frequency() > kLongStep) tell(segment->t1);
-            const Event event = first_event(*segment);
-            if (event.kind == EventKind::none) {
-                const bool kink = segment->t1 >= next_kink();
-                pass(*segment, segment->t0, kink);
-                if (kink) pass_kinks();
-                if (kink) go_on();
-            } else if (reach(*segment, event)) {
-                change(event);
-                pass_kinks();
-                go_on();
-            }
+            take(*segment);
+        }
+    }
+
+    // Goes to the first event in the segment, or to its end.
+    void take(const Segment& segment) {
+        const Event event = first_event(segment);
+        if (event.kind == EventKind::none) {
+            const bool kink = segment.t1 >= next_kink();
+            pass(segment, segment.t0, kink);
+            if (kink) pass_kinks();
+            if (kink) go_on();
+        } else if (reach(segment, event)) {
+            change(event);
+            pass_kinks();
+            go_on();
         }
     }
 
@@ -308,15 +314,25 @@ class Run {
             if (i == 1 && segment.t0 == phase_start_ && b.value <= 0) {
                 // It starts on the surface and is below it soon: where was it above?
                 if (!(a.rate < -kRestSpeed)) a = leaving(probe, a, b.t);
-                if (!(a.value > 0)) return {EventKind::touch, segment.t0};
+                if (!(a.value > 0) && !opens(segment, segment.t0)) return {EventKind::touch, segment.t0};
             } else if (i == 1 && segment.t0 == phase_start_) {
                 a.value = std::max(a.value, 0.0);  // rounding of the release
                 a.rate = std::max(a.rate, 0.0);
             }
-            if (const auto at = first_fall(probe, a, b, gap_rounding())) return {EventKind::touch, *at};
+            const auto at = first_fall(probe, a, b, gap_rounding());
+            if (at && !opens(segment, *at)) return {EventKind::touch, *at};
             a = b;
         }
         return {};
+    }
+
+    // At an instant where the gap is below zero: by no more than the integrator's error, while the beam moves away, or
+    // would within rounding, and is pulled away. After a lift the gap grows like t³ and the error comes first.
+    bool opens(const Segment& segment, double t) {
+        const ContactState c = contact_at(segment, t, false);
+        if (c.gap_rate < -problem_.contact.approach_floor.value || c.gap < -gap_error()) return false;
+        const double pull = scout_.free_gap_acceleration(t, probe_y_.data());
+        return pull > 0 && (c.gap_rate > 0 || c.gap_rate * c.gap_rate < 2 * pull * gap_rounding());
     }
 
     // |g̈| within the bounds, while the disc is no deeper than half its radius and its centre no farther than `far` from
@@ -584,18 +600,25 @@ class Run {
 
     // ---- transitions ----
 
-    // Puts (t_, y_) at the event. False when the run ends before.
+    // Puts (t_, y_) at the event. False when the run ends before, or a shorter step was taken instead.
     bool reach(const Segment& segment, const Event& event) {
         const double start = segment.t0;
         if (event.t > start) {
             const Segment* ended = &integrator_->shorten(event.t);
             // The re-taken step is more accurate than the dense output the event was found on: one
             // Newton step in time puts the touch or release where it belongs.
-            if (event.kind == EventKind::touch || event.kind == EventKind::release) {
+            double at = event.t;
+            if (ended->t1 == at && (event.kind == EventKind::touch || event.kind == EventKind::release)) {
                 const ContactState c = contact_at(*ended, ended->t1, false);
                 const double dt = -c.gap / c.gap_rate;
-                if (std::isfinite(dt) && std::fabs(dt) < 1e-3 * (ended->t1 - start))
-                    ended = &integrator_->shorten(event.t + dt);
+                if (std::isfinite(dt) && std::fabs(dt) < 1e-3 * (ended->t1 - start)) {
+                    at = event.t + dt;
+                    ended = &integrator_->shorten(at);
+                }
+            }
+            if (ended->t1 < at) {
+                take(*ended);
+                return false;
             }
             // Also when the run ends before the event: a longer run looks at this shortened step, too.
             pass(*ended, start, true);
@@ -652,6 +675,11 @@ class Run {
         unresolved_.gap = std::max(unresolved_.gap, std::fabs(left));
     }
     double gap_rounding() const { return kGapRounding * problem_.beam.length; }
+    // What a step may leave of the gap.
+    double gap_error() const {
+        const Solver& solver = problem_.solver;
+        return kStepErrors * (solver.rtol * (std::fabs(problem_.hub.radius) + problem_.beam.length) + solver.atol);
+    }
 
     void touch_at() {
         take_out_gap();
