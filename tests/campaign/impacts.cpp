@@ -163,6 +163,11 @@ Motion solve(Problem p, double end, Method method, double patience, double rtol 
         if (!error.partials.empty()) motion.impacts = error.partials.front().impacts;
     }
     motion.seconds = cpu_seconds() - start;
+    // Which of the slowest bounces of chatter are listed, and which summed up, hangs on a threshold of their duration.
+    std::erase_if(motion.impacts, [&](const Impact& i) {
+        return i.v_n_before < 0 && i.v_n_before > -0.1 * p.contact.approach_floor.value &&
+               p.contact.model == ContactModel::restitution;
+    });
     return motion;
 }
 

@@ -3,6 +3,7 @@
 #include "sim/exponential.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -333,6 +334,89 @@ TEST(ExponentialFlight, FindsEveryTurningPointOfASwingingHub) {
         for (std::size_t i = 0; i < slow.theta_zero.size(); ++i)
             EXPECT_NEAR(fast.theta_zero[i].t, slow.theta_zero[i].t, 1e-7);
     }
+}
+
+// What the search for touches relies on, sampled inside long steps of soft beams that turn fast.
+struct FlightSample {
+    double t, spin, angle, rate;
+    std::array<BeamPoint, 5> points;  // in the turning frame, with the velocity against it
+};
+FlightSample flight_sample(System& system, const Segment& segment, double t) {
+    std::vector<double> y(static_cast<std::size_t>(system.size));
+    segment.value(t, y.data());
+    system.place(t, y.data());
+    const Model& model = system.model();
+    const auto n = static_cast<std::size_t>(system.coordinates());
+    FlightSample s{t, y[n], model.hub_angle(), model.hub_rate(), {}};
+    const double c = std::cos(y[0]), w = std::sin(y[0]);
+    const auto turned = [&](Vec2 v) { return Vec2{c * v.x + w * v.y, c * v.y - w * v.x}; };
+    for (std::size_t k = 0; k < s.points.size(); ++k) {
+        BeamPoint& p = s.points[k];
+        model.point(model.length() * static_cast<double>(k + 1) / static_cast<double>(s.points.size()), p);
+        p.v = turned(p.v - s.spin * Vec2{-p.r.y, p.r.x});
+        p.v1 = turned(p.v1 - s.spin * Vec2{-p.r1.y, p.r1.x});
+        p.r1 = turned(p.r1);
+        p.r2 = turned(p.r2);
+    }
+    return s;
+}
+
+TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
+    constexpr int kSamples = 60;
+    constexpr double kSlack = 1 + 1e-9;
+    Dice dice(5);
+    int steps = 0, finite = 0;
+    for (int repeat = 0; repeat < 24; ++repeat) {
+        Problem p = falling_beam(repeat % 4 ? ModelKind::first_order : ModelKind::zeroth_order, Basis::hub_beam,
+                                 1 + dice.one_of(4));
+        p.beam.youngs_modulus *= std::pow(10, dice.between(-3, 0));
+        p.hub.radius = dice.between(-0.3, 0.5);
+        p.hub.inertia = std::pow(10, dice.between(-3, 1));
+        p.gravity = dice.about_zero(20);
+        if (dice.one_of(2)) p.hub.drive = HarmonicTorque{dice.about_zero(5), dice.between(0, 5), 1};
+        if (dice.one_of(3) == 0) p.beam.damping_ratio = {std::pow(10, dice.between(-3, 1))};
+        System system(p);
+        const double rtol = std::pow(10, dice.between(-8, -3));
+        const auto integrator = make_exponential(system, rtol, 1e-3 * rtol);
+        std::vector<double> y(static_cast<std::size_t>(system.size));
+        const auto n = static_cast<std::size_t>(system.coordinates());
+        y[0] = dice.about_zero(3);
+        y[n] = dice.about_zero(10);
+        for (std::size_t i = 1; i < n; ++i) {
+            y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
+            y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
+        }
+        integrator->start(0, y.data());
+        for (int step = 0; step < 25; ++step) {
+            const Segment& segment = integrator->step();
+            const MotionBounds* b = segment.bounds();
+            ASSERT_NE(b, nullptr);
+            ++steps;
+            if (std::isfinite(b->spin_acceleration)) ++finite;
+            FlightSample before = flight_sample(system, segment, segment.t0);
+            for (int k = 1; k <= kSamples; ++k) {
+                const double h = segment.t1 - segment.t0;
+                const FlightSample s = flight_sample(system, segment, segment.t0 + h * k / kSamples);
+                const double dt = s.t - before.t, rounding = 1e-13 * (1 + std::fabs(s.spin));
+                EXPECT_LE(std::fabs(s.spin), kSlack * b->spin) << repeat;
+                EXPECT_LE(std::fabs(s.spin - before.spin), kSlack * b->spin_acceleration * dt + rounding) << repeat;
+                EXPECT_GE(s.angle, b->angle_low - rounding) << repeat;
+                EXPECT_LE(s.angle, b->angle_high + rounding) << repeat;
+                EXPECT_GE(s.rate, b->rate_low - rounding) << repeat;
+                EXPECT_LE(s.rate, b->rate_high + rounding) << repeat;
+                for (std::size_t i = 0; i < s.points.size(); ++i) {
+                    const BeamPoint &a = before.points[i], &c = s.points[i];
+                    EXPECT_LE(norm(c.v), kSlack * b->deflection_speed + rounding) << repeat;
+                    EXPECT_LE(norm(c.v - a.v), kSlack * b->deflection_acceleration * dt + rounding) << repeat;
+                    EXPECT_LE(norm(c.v1), kSlack * b->slope_speed + rounding) << repeat;
+                    EXPECT_LE(std::fabs(c.r1.y), kSlack * b->slope) << repeat;
+                    EXPECT_LE(norm(c.r2), kSlack * b->curvature) << repeat;
+                }
+                before = s;
+            }
+        }
+    }
+    EXPECT_GT(finite, steps / 2);
 }
 
 // ---- contact -------------------------------------------------------------------------------------
