@@ -148,7 +148,11 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (!(touching_ && t == t_)) side_ = 1;
         touching_ = phase.touching;
-        falling_back_ = !form_ || phase.held || (touching_ && (system_.has_bristle() || !begin_touch(t, y)));
+        falling_back_ = !form_ || phase.held || (touching_ && system_.has_bristle());
+        if (!falling_back_ && touching_ && !begin_touch(t, y)) {
+            falling_back_ = true;
+            ++counters.handed_over;
+        }
         first_step_ = limited(std::numeric_limits<double>::infinity());
         if (falling_back_) return hand_over(t, y, first_step_);
         t_ = t;

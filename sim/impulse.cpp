@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/integrator.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -61,7 +63,8 @@ ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double 
             const double root = r.v_n * r.v_n + 2 * rate * lacking;
             if (root >= 0) end_at(lacking <= 0 ? 0 : 2 * lacking / (r.v_n + std::sqrt(root)), done);
         }
-        if (!std::isfinite(step)) break;  // cannot happen for a positive definite compliance
+        // Never for a positive definite compliance.
+        if (!std::isfinite(step)) throw StepFailure("the equations of the impact have no solution");
         const double work = r.v_n * step + 0.5 * rate * step * step;
         (compressing ? compression_work : restitution_work) += work;
         r.impulse_n += step;

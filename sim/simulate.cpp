@@ -267,7 +267,10 @@ class Run {
             2 * (scout_.travel_bound(range.spread.data()) + half * std::fabs(cam.speed) * cam.eccentricity);
         return touch_between(segment, segment.t1, std::max(pieces(segment), many(travel / (0.5 * cam.radius))));
     }
-    static int many(double pieces) { return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces)); }
+    int many(double pieces) {
+        if (pieces > kMostPieces) ++unresolved_.coarse;
+        return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces));
+    }
 
     // Every coordinate stays within `spread` of `middle`.
     struct Range {
@@ -401,7 +404,6 @@ class Run {
     // Looks that resolve the fastest vibration.
     Event touch_by_resolving(const Segment& segment) {
         const double turns = (segment.t1 - segment.t0) * scout_.highest_frequency();
-        if (turns > kMostPieces) ++unresolved_.coarse;
         return touch_between(segment, segment.t1, std::max(kMaxLooks, many(turns)));
     }
 
@@ -466,17 +468,23 @@ class Run {
         double operator()(int i) const { return i == count ? t1 : t0 + (t1 - t0) * i / count; }
     };
 
-    // Where a guard, known by its values f[0…last] at the instants, falls below zero between two of them that do not
-    // show it: where a parabola through the values comes near zero it is looked into.
+    // Where a guard without a rate, known by its values f[0…last] at the instants, falls below zero between two of them
+    // that do not show it. The rates are differences; they are looked for unless the values stay farther from zero than
+    // a curve bends that changes by them.
     template <class Value>
     static std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, const double* f, int last) {
-        for (int i = 1; i <= last && last > 1; ++i) {
-            if (!(f[i - 1] > 0) || f[i] < 0) continue;
-            const int m = std::clamp(i, 1, last - 1);
-            const double bend = f[m - 1] - 2 * f[m] + f[m + 1], lean = f[m + 1] - f[m - 1];
-            if (!(bend > 0) || f[m] - lean * lean / (8 * bend) > 0.05 * (f[m - 1] + f[m + 1])) continue;
-            const auto [at, highest] = find_peak([&](double t) { return -value(t); }, time(i - 1), time(i));
-            if (highest > 0) return find_root(value, time(i - 1), at, f[i - 1], -highest);
+        constexpr double kDifference = 1e-2, kRounding = 1e-9;  // of the step; of the guard
+        const double step = kDifference * (time.t1 - time.t0);
+        const auto guard = [&](double t) {
+            const double early = std::max(time.t0, t - step), late = std::min(time.t1, t + step);
+            return Guard{t, value(t), (value(late) - value(early)) / (late - early)};
+        };
+        double bend = 0;
+        for (int i = 1; i < last; ++i) bend = std::max(bend, std::fabs(f[i - 1] - 2 * f[i] + f[i + 1]));
+        const double deep = kRounding * std::fabs(*std::max_element(f, f + last + 1));
+        for (int i = 1; i <= last; ++i) {
+            if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
+            if (const auto at = first_fall(guard, guard(time(i - 1)), guard(time(i)), deep)) return at;
         }
         return std::nullopt;
     }
@@ -547,26 +555,9 @@ class Run {
             a = b;
         }
         if (!scout_.has_bristle()) return best;
-        const auto at = grip_between(segment, time, grip.data(), looks);
+        const auto at = first_dip_of_samples(grip_at, time, grip.data(), looks);
         if (at && (best.kind == EventKind::none || *at < best.t) && may_change_grip()) return {EventKind::grip, *at};
         return best;
-    }
-
-    // Where the grip, whose guard is known at the first looks, changes between two of them that do not show it.
-    std::optional<double> grip_between(const Segment& segment, const Instants& time, const double* grip, int looks) {
-        constexpr double kDifference = 1e-2, kRounding = 1e-9;  // of the step; of the guard
-        const double step = kDifference * (segment.t1 - segment.t0);
-        const auto guard = [&](double t) {
-            const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
-            const double rate = (watch(segment, late).grip - watch(segment, early).grip) / (late - early);
-            return Guard{t, watch(segment, t).grip, rate};
-        };
-        const double deep = kRounding * std::fabs(*std::max_element(grip, grip + looks + 1));
-        for (int i = 1; i <= looks; ++i) {
-            if (!(grip[i - 1] > 0) || grip[i] < 0) continue;
-            if (const auto at = first_fall(guard, guard(time(i - 1)), guard(time(i)), deep)) return at;
-        }
-        return std::nullopt;
     }
 
     // Else it stays for this step: too many changes at one instant.
