@@ -210,10 +210,12 @@ void judge_outputs(ObjectReader& r, Scene& scene) {
     const Member* list = r.node()->find("outputs");
     if (!list || list->value.items.size() != scene.outputs.size()) return;
     const Source& source = r.context().source;
+    Locator locator(source.text);
     for (const Node& object : list->value.items) {
-        const LineColumn at = locate(source.text, object.place.offset);
-        scene.output_places.push_back(
-            object.place.source == 0 ? fmt::format("{}:{}:{}", source.name, at.line, at.column) : source.name);
+        std::string& place = scene.output_places.emplace_back(source.name);
+        if (object.place.source != 0) continue;
+        const LineColumn at = locator.at(object.place.offset);
+        place += fmt::format(":{}:{}", at.line, at.column);
     }
     refuse_shared_files(r, list->value, scene.outputs);
 }

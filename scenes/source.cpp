@@ -54,18 +54,20 @@ std::string excerpt(std::string_view text, std::size_t offset) {
 
 }  // namespace
 
-LineColumn locate(std::string_view text, std::size_t offset) {
-    offset = std::min(offset, text.size());
-    std::string_view before = text.substr(0, offset);
-    LineColumn at;
-    at.line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
-    if (std::size_t newline = before.rfind('\n'); newline != std::string_view::npos)
-        before.remove_prefix(newline + 1);
-    else if (before.starts_with(kByteOrderMark))
-        before.remove_prefix(kByteOrderMark.size());
-    at.column = 1 + characters(before);
-    return at;
+Locator::Locator(std::string_view text)
+    : text_(text), offset_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0) {}
+
+LineColumn Locator::at(std::size_t offset) {
+    for (; offset_ < std::min(offset, text_.size()); ++offset_) {
+        if (text_[offset_] == '\n')
+            at_ = {at_.line + 1, 1};
+        else if (!is_continuation(text_[offset_]))
+            ++at_.column;
+    }
+    return at_;
 }
+
+LineColumn locate(std::string_view text, std::size_t offset) { return Locator(text).at(offset); }
 
 std::string describe(const std::vector<Source>& sources, const Message& message) {
     const Source& source = sources.at(message.place.source);

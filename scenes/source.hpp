@@ -37,6 +37,17 @@ struct LineColumn {
     std::size_t line = 1, column = 1;  // from 1; columns count characters, not bytes
 };
 LineColumn locate(std::string_view text, std::size_t offset);
+// The same for many offsets that never decrease, in one pass over the text.
+class Locator {
+  public:
+    explicit Locator(std::string_view text);
+    LineColumn at(std::size_t offset);
+
+  private:
+    std::string_view text_;
+    std::size_t offset_;
+    LineColumn at_;
+};
 
 // `file:line:column: text`, then the line itself with a caret below the place.
 std::string describe(const std::vector<Source>& sources, const Message& message);

@@ -39,6 +39,7 @@ CASES = {  # name: (command, text of n parts)
     "changes of a comparison": (["check", "{f}.json"], lambda n: outputs(
         ['{"type": "still", "at": 0, "compare": [{}, {"set": {' + ",".join(f'"hub.x-{i}": 1' for i in range(n)) + "}}]}"])),
     "outputs": (["check", "{f}.json"], lambda n: outputs(f'{{"type": "summary", "file": "s{i}.json"}}' for i in range(n))),
+    "outputs in one line": (["check", "{f}.json"], lambda n: outputs(f'{{"type": "summary", "file": "s{i}.json"}}' for i in range(n)).replace("\n", "")),
     "outputs that clash": (["check", "{f}.json"], lambda n: outputs('{"type": "summary", "file": "s.json"}' for _ in range(n))),
     "sequences and files": (["check", "{f}.json"], lambda n: outputs(
         [f'{{"type": "frames", "file": "a{i}-##.png"}}' for i in range(n // 2)] +
