@@ -20,18 +20,6 @@ bool is_opaque(std::span<const std::uint32_t> pixels) {
     return all >= 0xff000000;
 }
 
-std::string rgb_bytes(const render::Image& image) {
-    std::string bytes(image.pixels.size() * 3, '\0');
-    char* out = bytes.data();
-    for (std::uint32_t pixel : image.pixels) {
-        out[0] = static_cast<char>(pixel >> 16 & 0xff);
-        out[1] = static_cast<char>(pixel >> 8 & 0xff);
-        out[2] = static_cast<char>(pixel & 0xff);
-        out += 3;
-    }
-    return bytes;
-}
-
 std::string rgba_bytes(const render::Image& image) {
     std::string bytes(image.pixels.size() * 4, '\0');
     rgba_bytes(image.pixels, reinterpret_cast<std::uint8_t*>(bytes.data()));

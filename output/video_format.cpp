@@ -63,12 +63,6 @@ std::optional<Codec> codec_named(std::string_view wanted) {
     const auto at = std::ranges::find(kEntries, wanted, [](const Entry& e) { return std::string_view(e.name); });
     return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
 }
-
-std::vector<std::string_view> film_endings() {
-    std::vector<std::string_view> all;
-    for (const Home& h : kHomes) all.push_back(h.ending);
-    return all;
-}
 std::optional<Codec> default_codec(std::string_view ending) {
     const Home* h = home(ending);
     return h ? h->codecs.front() : std::nullopt;

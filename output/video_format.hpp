@@ -21,9 +21,7 @@ const char* name(Codec codec);   // "h264"
 const char* title(Codec codec);  // "H.264"
 std::optional<Codec> codec_named(std::string_view name);
 
-// Endings with the dot, the usual one first.
-std::vector<std::string_view> film_endings();
-// What a file of this ending holds unless told otherwise; nothing for an ending that is no film's.
+// Endings have their dot. What a file of this ending holds unless told otherwise; nothing: no film has that ending.
 std::optional<Codec> default_codec(std::string_view ending);
 bool goes_into(Codec codec, std::string_view ending);
 

@@ -168,9 +168,7 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
     if (borrowed) beam.side = 1;
     beam.low = -depth / 2 + beam.side * (depth / 2 - (borrowed ? sim::contact_offset(*with) : offset));
     beam.high = beam.low + depth;
-    beam.root_angle = std::atan2(-beam.left.front().x, beam.left.front().y);
     if (problem.cam && pose.nearest) {
-        beam.tilt = contact_tilt(problem, pose, base, factor);
         const Foot foot = foot_on(beam.line, pose.disc_centre);
         DrawnContact contact;
         contact.normal = foot.distance > 0 ? (foot.point - pose.disc_centre) * (1 / foot.distance) : Vec2{0, 1};

@@ -35,9 +35,7 @@ struct DrawnBeam {
     std::vector<Vec2> left;    // unit normals, tangent turned by +90°
     double low = 0, high = 0;  // the section spans line + left·[low, high] [m]
     double side = 0;        // +1: the cam lies to the right of the beam (below), −1: to the left; between: in passing
-    double root_angle = 0;  // of the drawn tangent at the root [rad]
     double base_angle = 0;  // of the base line as drawn [rad]
-    double tilt = 0;        // drawn minus true slope at the contact, before the turn [rad]
     std::optional<DrawnContact> contact;
     bool clear =
         true;  // false: it enters the disc, or touches it far from where the true beam does; the factor must yield

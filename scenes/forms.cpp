@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "output/video.hpp"
-#include "scenes/capabilities.hpp"
 #include "scenes/files.hpp"
 #include "scenes/object_reader.hpp"
 #include "scenes/suggest.hpp"
@@ -45,8 +44,7 @@ std::string problem_with_name(const std::string& name, const std::vector<const c
     if (std::string problem = problem_with_file(name); !problem.empty()) return problem;
     const std::string ending = std::filesystem::path(name).extension().string();
     if (std::ranges::find(endings, ending) == endings.end())
-        return not_available("file", ending)
-            .value_or(fmt::format("its name must end in {}", fmt::join(endings, " or ")));
+        return fmt::format("its name must end in {}", fmt::join(endings, " or "));
     if (numbered) return problem_with_numbering(name);
     return name.find('#') == std::string::npos ? "" : "'#' numbers the files of \"frames\"; choose another name";
 }

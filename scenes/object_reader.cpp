@@ -381,13 +381,11 @@ void ObjectReader::finish(const Elsewhere& elsewhere) {
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(known_, member.key) != known_.end()) continue;
         const std::string where = elsewhere ? elsewhere(member.key) : "";
-        const auto planned = not_available(without_indices(path_), member.key);
         findings_.error(member.key_place, path(member.key),
                         !where.empty()
                             ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), what(), where)
-                        : planned ? fmt::format("{}: {}", what(), *planned)
-                                  : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),
-                                                findings_.many() ? "" : suggestion_or_list(member.key, known_)));
+                            : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),
+                                          findings_.many() ? "" : suggestion_or_list(member.key, known_)));
     }
 }
 

@@ -17,15 +17,14 @@ namespace beamcam::render::figure {
 struct Series {
     std::string label = {};  // markup; empty: not explained
     std::vector<double> x, y;
-    int look = 0;               // colour, dash and marker, see `look`
-    bool line = true;           // through the points; NaN breaks it
-    bool every_point = false;   // a marker at each point
-    bool some_markers = false;  // a few markers along a line, to tell it in grey print
-    bool solid = false;         // no dash although the look has one
-    bool faded = false;         // lighter and thinner: not to be relied on
-    bool right = false;         // belongs to the right axis
-    double weight = 1;          // of the line
-    bool no_direct_label = false;
+    int look = 0;                // colour, dash and marker, see `look`
+    bool line = true;            // through the points; NaN breaks it
+    bool every_point = false;    // a marker at each point
+    bool some_markers = false;   // a few markers along a line, to tell it in grey print
+    bool solid = false;          // no dash although the look has one
+    bool faded = false;          // lighter and thinner: not to be relied on
+    bool right = false;          // belongs to the right axis
+    double weight = 1;           // of the line
     std::optional<Color> color;  // instead of the look's
     std::vector<double> value;   // colours the curve by the panel's colour bar; same length as x
 };

@@ -61,7 +61,7 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
             const double size = s.small ? style.numbers : style.letters;
-            const Lettering l{.size = size, .color = s.color, .across = s.across, .up = s.up, .on_halo = false};
+            const Lettering l{.size = size, .color = s.color, .across = s.across, .up = s.up};
             sheet.text(points.at(0) + Vec2{s.shift.x * size, -s.shift.y * size}, s.markup, l);
             return;
         }

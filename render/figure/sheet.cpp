@@ -78,7 +78,7 @@ void describe(cairo_surface_t* pdf, const Document& d) {
     };
     say(CAIRO_PDF_METADATA_TITLE, d.title);
     say(CAIRO_PDF_METADATA_SUBJECT, d.subject);
-    say(CAIRO_PDF_METADATA_KEYWORDS, d.scene.empty() ? d.keywords : d.scene);
+    say(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
     say(CAIRO_PDF_METADATA_CREATOR, d.creator);
     const std::string when = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(d.created)));
     say(CAIRO_PDF_METADATA_CREATE_DATE, when);
@@ -282,10 +282,6 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     cairo_save(cr_);
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -l.turned);
-    if (l.on_halo) {
-        rectangle(Box{dx, dy - label.ascent, label.width, label.ascent + label.descent}.inset(-0.12 * l.size));
-        fill(rgb(0xFFFFFF));
-    }
     use(l.color);
     cairo_move_to(cr_, dx, dy);
     show(label);

@@ -24,9 +24,9 @@ inline constexpr double points(double millimetres) { return millimetres * kPoint
 
 enum class Medium { png, pdf, svg };
 
-// What a file says about itself. PDF has room for these keys only; the scene goes into `keywords` there.
+// What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
 struct Document {
-    std::string title, subject, keywords;
+    std::string title, subject;
     std::string scene;         // JSON
     std::string creator;       // "beamcam 0.1.0"
     std::int64_t created = 0;  // [s] since 1970, UTC: part of the bytes, so never the clock
@@ -45,8 +45,7 @@ struct Lettering {
     Across across = Across::left;
     Up up = Up::baseline;
     bool bold = false;
-    double turned = 0;     // counter-clockwise [rad]
-    bool on_halo = false;  // on a white outline, over lines
+    double turned = 0;  // counter-clockwise [rad]
 };
 
 // No letter of a figure is smaller, sub- and superscripts included.

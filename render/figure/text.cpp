@@ -249,13 +249,4 @@ std::string to_plain(std::string_view markup) {
     return out;
 }
 
-std::string plain_text(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '$' || c == '\\' || c == '_' || c == '^') out += '\\';
-        out += c;
-    }
-    return out;
-}
-
 }  // namespace beamcam::render::figure

@@ -5,8 +5,7 @@
 //   $\dot{θ}$          a dot above, \ddot two
 //   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ stand for themselves.
 //
-// Unbalanced markup throws std::invalid_argument: labels are written by programmers. `plain_text` makes any user's
-// text safe.
+// Unbalanced markup throws std::invalid_argument: labels are written by programmers.
 #pragma once
 
 #include <string>
@@ -27,8 +26,5 @@ struct Run {
 std::vector<Run> parse_markup(std::string_view markup);
 std::string to_latex(std::string_view markup);
 std::string to_plain(std::string_view markup);
-
-// Any text as markup of itself.
-std::string plain_text(std::string_view text);
 
 }  // namespace beamcam::render::figure

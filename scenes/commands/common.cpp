@@ -8,7 +8,6 @@
 
 #include "output/errors.hpp"
 #include "output/standard_output.hpp"
-#include "scenes/capabilities.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/files.hpp"
 #include "scenes/plan.hpp"
@@ -130,8 +129,6 @@ std::string ending_of(const std::string& file) { return std::filesystem::path(fi
 
 void need_ending(const char* option, const std::string& file, std::initializer_list<std::string_view> endings) {
     if (file == "-" || std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) return;
-    if (const auto planned = not_available("file", ending_of(file)))
-        throw UsageError(fmt::format("{} {}: {}", option, file, *planned));
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
 }
 

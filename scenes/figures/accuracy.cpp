@@ -36,7 +36,7 @@ void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int lo
     points.label = sim::name(method);
     points.look = spread.look = look;
     points.every_point = true;
-    spread.no_direct_label = spread.solid = true;
+    spread.solid = true;
     spread.weight = 0.6;
     for (const sim::WorkRow& row : a.work) {
         if (row.method != method || !row.error || row.time.repeats == 0) continue;

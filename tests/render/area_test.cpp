@@ -208,7 +208,9 @@ TEST(Quadrilaterals, LeaveNoSeamAndDoNotOverlap) {
         const Picture all = painted(whole, 300, 300);
         for (int y = 0; y < 300; ++y)
             for (int x = 0; x < 300; ++x)
-                if (all.covered(x, y) == 1) ASSERT_EQ(owner.pixels[std::size_t(300 * y + x)], 1U) << x << ' ' << y;
+                if (all.covered(x, y) == 1) {
+                    ASSERT_EQ(owner.pixels[std::size_t(300 * y + x)], 1U) << x << ' ' << y;
+                }
     }
 }
 
