@@ -273,7 +273,8 @@ InitialState initial_state(const System& of) {
             if (!rest(system, 0, ride)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
             if (problem.cam->speed != 0) {
                 Riding riding(system, ride.xi);
-                ride = riding.find() ? riding.start() : left_behind(system, ride.xi);
+                state.left_behind = !riding.find();
+                ride = state.left_behind ? left_behind(system, ride.xi) : riding.start();
             }
             xi = ride.xi;
             std::copy_n(ride.rate.data(), n, y + n);

@@ -10,6 +10,7 @@ namespace beamcam::sim {
 struct InitialState {
     std::vector<double> y;  // of the system's `size`
     Phase phase;
+    bool left_behind = false;  // no motion along the turning cam was found: it is the beam at rest that moves along
 };
 
 // Throws StepFailure when no equilibrium is found. MODEL.md §11.

@@ -63,6 +63,7 @@ struct Fallbacks {
     long grips = 0;        // steps in which a bristle's grip stayed though it breaks and catches at one instant
     long strikes = 0;      // taken as plastic because the step's error swallows the rebound
     long coarse = 0;       // steps whose vibration is faster than the looks for a touch resolve
+    long left_behind = 0;  // resting starts on a turning cam without a motion along it
     double gap = 0;        // largest distance from zero of the gap at an event, taken out of it from there on [m]
     Method method = Method::rk8;
 };

@@ -115,6 +115,7 @@ class Run {
         const InitialState start = initial_state(dynamics_);
         y_ = start.y;
         t_ = 0;
+        unresolved_.left_behind = start.left_behind;
         kinks_ = dynamics_.drive().kinks();
         phase_ = start.phase;
         enter_phase();

@@ -25,7 +25,7 @@ void put(std::vector<double>& out, const Tally& t) {
     const Counters& c = t.counters;
     const Fallbacks& f = t.fallbacks;
     for (long value : {c.steps, c.rejected, c.rhs_evaluations, c.gap_evaluations, c.jacobians, t.floored, t.chatters,
-                       f.steps, f.handed_over, f.grips, f.strikes, f.coarse})
+                       f.steps, f.handed_over, f.grips, f.strikes, f.coarse, f.left_behind})
         out.push_back(static_cast<double>(value));
     out.push_back(f.gap);
     out.push_back(static_cast<int>(f.method));
@@ -104,7 +104,7 @@ Tally tally_of(Numbers& n) {
     Counters& c = t.counters;
     Fallbacks& f = t.fallbacks;
     for (long* value : {&c.steps, &c.rejected, &c.rhs_evaluations, &c.gap_evaluations, &c.jacobians, &t.floored,
-                        &t.chatters, &f.steps, &f.handed_over, &f.grips, &f.strikes, &f.coarse})
+                        &t.chatters, &f.steps, &f.handed_over, &f.grips, &f.strikes, &f.coarse, &f.left_behind})
         *value = n.whole();
     f.gap = n.next();
     f.method = static_cast<Method>(n.whole());

@@ -76,6 +76,10 @@ void tell_fallbacks(const Problem& problem, const Result& result, const Tally& t
     if (f.handed_over > 0)
         out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
                                   times(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
+    if (f.left_behind > 0)
+        out.push_back(
+            "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
+            "without inertia and may leave the cam");
     if (f.grips > 0)
         out.push_back(
             fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "

@@ -57,6 +57,20 @@ TEST(Resting, ForceOfAHeldRodIsThatOfWeightAndInertiaFromTheStart) {
         }
 }
 
+TEST(Resting, ACamThatLeavesTheBeamBehindIsReported) {
+    for (const ContactModel contact : {ContactModel::restitution, ContactModel::compliant})
+        for (const double speed : {5.0, 60.0})
+            for (const double phase : {0.0, 1.5, 3.0}) {
+                Problem p = riding(ModelKind::rigid, speed, phase);
+                p.contact.model = contact;
+                const std::vector<std::string> warnings = run(p, 1e-4).warnings;
+                const bool reported = std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+                    return w.find("follows the turning cam") != std::string::npos;
+                });
+                EXPECT_EQ(reported, following(p, phase).force < 0) << speed << " " << phase;
+            }
+}
+
 TEST(Resting, CompliantContactStartsPressedByTheSameForceAndDoesNotRing) {
     for (double speed : {1.0, 5.0}) {
         Problem p = riding(ModelKind::rigid, speed, 1);
