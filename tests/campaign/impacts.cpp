@@ -100,7 +100,6 @@ Scene brief(unsigned seed) {
                 p.gravity = dice.between(0, 1);
                 p.cam->eccentricity = dice.between(0.01, 0.04);
                 p.cam->speed = dice.about_zero(40);
-                p.initial.angular_velocity = dice.between(-1, 0);
                 break;
             case 3:  // pressed on by the hub: long contacts
                 p.hub.drive = ConstantTorque{-dice.between(1, 15)};
@@ -119,7 +118,8 @@ Scene brief(unsigned seed) {
                 p.cam->speed = dice.about_zero(30);
                 break;
         }
-        if (validate(p).empty()) return {p, 0.4};
+        if (p.initial.shape != InitialShape::resting) p.initial.angular_velocity = dice.between(-4, -1.5);
+        if (validate(p).empty()) return {p, 0.45};
     }
 }
 
