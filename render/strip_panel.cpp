@@ -562,10 +562,9 @@ class EnergyPanel final : public ChartPanel {
         const PanelSpec& spec = slot.spec;
         const int member = std::min(spec.member, facts.members() - 1);
         ChartContent c = blank(facts, spec, member);
-        if (is_wide(facts, slot.box))
-            c.words = std::string("Energy ");  // else the legend alone stands beside the symbol
+        if (is_wide(facts, slot.box)) c.words = "Energy ";  // else the legend alone stands beside the symbol
         c.symbol = math("E");
-        c.unit = std::string("J");
+        c.unit = "J";
         const sim::Table& table = facts.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
         if (!t) return c;

@@ -87,9 +87,9 @@ void tell_fallbacks(const Problem& problem, const Result& result, const Tally& t
                         times(f.grips, "step")));
     if (f.strikes > 0)
         out.push_back(
-            fmt::format("{} taken as plastic, because the rebound is smaller than the error of a step: tighten "
+            fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "
                         "solver.rtol",
-                        f.strikes == 1 ? "1 strike was" : fmt::format("{} strikes were", f.strikes)));
+                        times(f.strikes, "strike")));
     if (f.coarse > 0)
         out.push_back(
             fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
