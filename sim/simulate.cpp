@@ -485,7 +485,11 @@ class Run {
         const double deep = kRounding * std::fabs(*std::max_element(f, f + last + 1));
         for (int i = 1; i <= last; ++i) {
             if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
-            if (const auto at = first_fall(guard, guard(time(i - 1)), guard(time(i)), deep)) return at;
+            // A guard that starts at zero has the sign that was seen, not that of another rounding.
+            Guard before = guard(time(i - 1)), after = guard(time(i));
+            before.value = f[i - 1];
+            after.value = f[i];
+            if (const auto at = first_fall(guard, before, after, deep)) return at;
         }
         return std::nullopt;
     }
