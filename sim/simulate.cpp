@@ -256,27 +256,31 @@ class Run {
         return phase_.touching ? event_in_contact(segment) : touch_in(segment);
     }
 
+    // Every coordinate stays within `spread` of `middle`.
+    struct Range {
+        std::array<double, kMaxSize> middle, spread;
+    };
+
     Event touch_in(const Segment& segment) {
         if (const MotionBounds* bounds = segment.bounds()) return touch_by_advance(segment, *bounds);
         const Range range = range_in(segment);
         const double half = 0.5 * (segment.t1 - segment.t0);
         if (scout_.gap_lower_bound(segment.t0 + half, half, range.middle.data(), range.spread.data()) > 0) return {};
-
-        // A long step may carry the beam through the cam and out again: no piece moves it by more than half a radius.
+        return touch_between(segment, segment.t1, std::max(pieces(segment), pieces_by_travel(segment, range)));
+    }
+    // A long step may carry the beam through the cam and out again: no piece moves it by more than half a radius.
+    int pieces_by_travel(const Segment& segment, const Range& range) {
         const Cam& cam = *problem_.cam;
+        const double half = 0.5 * (segment.t1 - segment.t0);
         const double travel =
             2 * (scout_.travel_bound(range.spread.data()) + half * std::fabs(cam.speed) * cam.eccentricity);
-        return touch_between(segment, segment.t1, std::max(pieces(segment), many(travel / (0.5 * cam.radius))));
+        return many(travel / (0.5 * cam.radius));
     }
     int many(double pieces) {
         if (pieces > kMostPieces) ++unresolved_.coarse;
         return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces));
     }
 
-    // Every coordinate stays within `spread` of `middle`.
-    struct Range {
-        std::array<double, kMaxSize> middle, spread;
-    };
     // From the values at points of Chebyshev: a polynomial of that degree leaves the middle of its values there by no
     // more than Lebesgue's constant of the points, <= 1 + (2/π) ln 12, times half of their range.
     Range range_in(const Segment& segment) {
@@ -533,7 +537,8 @@ class Run {
                     return {EventKind::clamp, segment.t1};
             }
         }
-        const Instants time{segment.t0, segment.t1, pieces(segment)};
+        const int count = std::max(pieces(segment), pieces_by_travel(segment, range_in(segment)));
+        const Instants time{segment.t0, segment.t1, count};
         const auto release = [&](double t) { return watch(segment, t).release; };
         const auto grip_at = [&](double t) { return watch(segment, t).grip; };
         Event best;
@@ -541,8 +546,7 @@ class Run {
             if (t && (best.kind == EventKind::none || *t < best.t)) best = {kind, *t};
         };
         Watch a = watch(segment, segment.t0);
-        std::array<double, kMaxLooks + 1> grip;
-        grip[0] = a.grip;
+        grip_.assign(static_cast<std::size_t>(count) + 1, a.grip);
         if (segment.t0 == phase_start_) a.release.value = std::max(a.release.value, 0.0);
         int looks = 0;
         while (looks < time.count && best.kind == EventKind::none) {
@@ -551,7 +555,7 @@ class Run {
                 why_ = Stop::passed_cam;
                 throw StepFailure("the beam passed through the cam");
             }
-            grip[static_cast<std::size_t>(looks)] = b.grip;
+            grip_[static_cast<std::size_t>(looks)] = b.grip;
             offer(EventKind::release, first_fall(release, a.release, b.release, gap_rounding()));
             offer(EventKind::clamp, clamp_in(segment, a, b));
             if (b.grip < 0 && may_change_grip())
@@ -560,7 +564,7 @@ class Run {
             a = b;
         }
         if (!scout_.has_bristle()) return best;
-        const auto at = first_dip_of_samples(grip_at, time, grip.data(), looks);
+        const auto at = first_dip_of_samples(grip_at, time, grip_.data(), looks);
         if (at && (best.kind == EventKind::none || *at < best.t) && may_change_grip()) return {EventKind::grip, *at};
         return best;
     }
@@ -864,7 +868,7 @@ class Run {
     GapProbe gap_;  // of the scout
     Audience audience_;
     std::unique_ptr<Integrator> integrator_;
-    std::vector<double> y_, probe_y_, kinks_;
+    std::vector<double> y_, probe_y_, kinks_, grip_;  // grip_: the guard at the looks into one step
     Phase phase_;
     double end_ = 0, t_ = 0, phase_start_ = 0, first_approach_ = 0;
     std::optional<double> last_release_, settles_;  // settles_: when the chatter that was summed up is over

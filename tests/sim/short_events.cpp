@@ -197,6 +197,21 @@ TEST(ShortEvents, ABristleThatHasJustCaughtIsNotTornByRounding) {
     }
 }
 
+TEST(ShortEvents, ABeamThatIsDrivenThroughTheCamIsReportedByEveryMethod) {
+    // Nothing but the contact depends on the step: it may carry the beam through the cam and out again.
+    for (const double speed : {-4.867, -2.0, -20.0}) {
+        Problem p;
+        p.beam.model = ModelKind::rigid;
+        p.hub.drive = SpinUp{speed, 0.2146745623356371};
+        p.cam = Cam{{0.559, 0.0876}, 0.0613, 0.0235, 0.0012, -3.4175, {}, 0.3};
+        p.contact.stiffness = 88225.8;
+        p.contact.damping = DampingLaw::hunt_crossley;
+        p.initial.angle = 0.9916759;
+        for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf})
+            EXPECT_THROW(solve(p, method, 1e-8, 0.6), SolverError) << speed << " " << name(method);
+    }
+}
+
 // ---- touches that long steps could pass over -------------------------------------------------------
 
 TEST(ShortEvents, NoSignOfGravityHidesATouchFromLongSteps) {
