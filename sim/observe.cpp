@@ -97,19 +97,26 @@ class Sampled {
     double weight_[kCount];
 };
 
-// The largest value of sign·f from its samples at the ends and nodes of a step, where it could exceed `best`.
+// `best`, or the largest value of sign·f within a step, from its samples at the ends and nodes, if that is larger.
 double sampled_peak(const double* t, const double* f, double sign, double best) {
-    constexpr int kCount = TouchSamples::kCount;
-    int top = 0;
-    for (int i = 1; i < kCount; ++i)
-        if (sign * f[i] > sign * f[top]) top = i;
-    const double highest = sign * f[top];
-    if (top == 0 || top == kCount - 1) return highest;
-    // Between neighbours it rises by less than they differ.
-    const double rise = highest - std::min(sign * f[top - 1], sign * f[top + 1]);
-    if (highest + rise < best) return highest;
+    constexpr int kCount = TouchSamples::kCount, kPieces = 4;  // of an interval between samples
+    constexpr double kLebesgue = 2.9;  // how much farther from zero than its samples the polynomial may be
+    const auto [low, high] = std::minmax_element(f, f + kCount);
+    const double middle = sign * 0.5 * (*low + *high), half_range = 0.5 * (*high - *low);
+    if (middle + kLebesgue * half_range <= best) return best;
     const Sampled curve(t, f);
-    return std::max(highest, find_peak([&](double at) { return sign * curve(at); }, t[top - 1], t[top + 1]).second);
+    const auto at = [&](double instant) { return sign * curve(instant); };
+    const auto time = [&](int i) {
+        const int left = std::min(i / kPieces, kCount - 2);
+        return t[left] + (t[left + 1] - t[left]) * (i - left * kPieces) / kPieces;
+    };
+    std::array<double, kPieces*(kCount - 1) + 1> values;
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = at(time(static_cast<int>(i)));
+    for (const double value : values) best = value > best ? value : best;  // of a step of rounding's size: NaN
+    long vain = 0;
+    each_maximum(at, time, values.data(), static_cast<int>(values.size()) - 1, best, vain,
+                 [&](double, double value) { best = std::max(best, value); });
+    return best;
 }
 
 }  // namespace
@@ -514,10 +521,8 @@ void Recorder::contact_peaks(const Stretch& s) {
     if (!impact_open_) return;
     Impact& impact = result_.impacts.back();
     if (const TouchSamples* samples = s.segment->touch()) {
-        const double before = impact.force_peak.value_or(0);
-        impact.force_peak = std::max(before, sampled_peak(samples->t, samples->force, 1, before));
-        impact.penetration_peak =
-            std::max(impact.penetration_peak, sampled_peak(samples->t, samples->gap, -1, impact.penetration_peak));
+        impact.force_peak = sampled_peak(samples->t, samples->force, 1, impact.force_peak.value_or(0));
+        impact.penetration_peak = sampled_peak(samples->t, samples->gap, -1, impact.penetration_peak);
         return;
     }
     const auto contact_at = [&](double t) -> const ContactState& {
