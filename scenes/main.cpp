@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
-#include "scenes/cli.hpp"
+#include "scenes/commands/cli.hpp"
 
 int main(int argc, char** argv) {
     // Pictures must not depend on these, nor standard output on what libraries tell of themselves.

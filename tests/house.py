@@ -16,8 +16,14 @@ TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "
              "sim", "render", "output", "scenes", "tests"}
 IGNORED = {"build"}  # made by the build, never committed
 
-# A room may include itself and those before it. Tests may include everything.
+# A room may include itself and those before it, and so may the folders of a room. Tests may include everything.
 ROOMS = ["sim", "render", "output", "scenes"]
+FOLDERS = {
+    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "studies"],
+    "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
+    "output": ["files", "data", "image", "film"],
+    "scenes": ["scene", "figures", "format", "motions", "plan", "outputs", "regression", "commands"],
+}
 
 # Which headers only some files may see: the pattern, how many .cpp of which room.
 PRIVATE_LIBRARIES = [
@@ -69,6 +75,28 @@ def check_one_way(root):
                     yield f'{path.relative_to(root)}:{number}: include from the root, as "{room}/…"'
 
 
+def folder_of(room, path):
+    """Where a file or header of the room stands in the order of its folders; None: not in one of them."""
+    parts = str(path).split("/")
+    inside = len(parts) > 2 and parts[0] == room and parts[1] in FOLDERS[room]
+    return FOLDERS[room].index(parts[1]) if inside else None
+
+
+def check_folders(root):
+    for room in ROOMS:
+        for path in sources(root / room):
+            name = path.relative_to(root)
+            rank = folder_of(room, name)
+            if rank is None:
+                if len(name.parts) > 2:
+                    yield f"{name}: {name.parts[1]} is no folder of {room} (tests/house.py lists them)"
+                continue
+            for number, header in includes(path):
+                target = folder_of(room, header)
+                if target is not None and target > rank:
+                    yield f"{name}:{number}: {room}/{FOLDERS[room][rank]} may not include {header}"
+
+
 def check_private_libraries(root):
     for library, pattern, allowed in PRIVATE_LIBRARIES:
         for room in ROOMS:
@@ -96,7 +124,7 @@ def check_equations(root):
                     yield f"{path.relative_to(root)}:{number}: equation {cited} is not in sim/MODEL.md"
 
 
-CHECKS = [check_top_level, check_one_way, check_private_libraries, check_equations]
+CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries, check_equations]
 
 
 def self_test():
@@ -107,6 +135,8 @@ def self_test():
         ("render/a.hpp", '#include "output/png.hpp"\n', check_one_way),
         ("output/a.cpp", '#include "scenes/scene.hpp"\n', check_one_way),
         ("output/a.cpp", '#include "../sim/pose.hpp"\n', check_one_way),
+        ("sim/beam/a.hpp", '#include "sim/run/simulate.hpp"\n', check_folders),
+        ("scenes/kitchen/a.cpp", "", check_folders),
         ("sim/a.hpp", "#include <cvode/cvode.h>\n", check_private_libraries),
         ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
@@ -121,6 +151,7 @@ def self_test():
             (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
             if found := [breach for check in CHECKS for breach in check(root)]:
                 sys.exit(f"a sound house is refused: {found}")
+            (root / name).parent.mkdir(exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
             for check in CHECKS:
                 if bool(list(check(root))) != (check is guard):

@@ -19,10 +19,10 @@
 #include <new>
 #include <vector>
 
-#include "render/error.hpp"
-#include "render/lit.hpp"
-#include "render/modules.hpp"
-#include "render/tiles.hpp"
+#include "render/base/error.hpp"
+#include "render/base/modules.hpp"
+#include "render/draw/tiles.hpp"
+#include "render/gl/lit.hpp"
 
 namespace beamcam::render {
 namespace {

@@ -1,18 +1,18 @@
-#include "sim/accuracy.hpp"
+#include "sim/studies/accuracy.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "output/atomic_file.hpp"
-#include "output/interrupt.hpp"
-#include "output/manifest.hpp"
-#include "output/records.hpp"
-#include "render/figure/style.hpp"
+#include "output/data/manifest.hpp"
+#include "output/data/records.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
+#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/make.hpp"
-#include "scenes/progress.hpp"
+#include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/cache.hpp"
+#include "scenes/motions/cache.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "output/standard_output.hpp"
-#include "scenes/cli.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
 
 namespace beamcam::scenes {
 namespace {

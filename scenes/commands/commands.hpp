@@ -5,27 +5,18 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "output/standard_output.hpp"
+#include "output/files/standard_output.hpp"
 #include "scenes/commands/grammar.hpp"
-#include "scenes/run.hpp"
-#include "scenes/scene.hpp"
-#include "scenes/units.hpp"
+#include "scenes/format/units.hpp"
+#include "scenes/outputs/run.hpp"
+#include "scenes/scene/exit_code.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
-
-// Exit code 2.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-// Exit code 3. The report has one message or more, positioned and complete.
-struct SceneError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 void add_run(Grammar& grammar);
 void add_render(Grammar& grammar);

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "output/errors.hpp"
-#include "output/standard_output.hpp"
+#include "output/files/errors.hpp"
+#include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/files.hpp"
-#include "scenes/plan.hpp"
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 void add_set(Command& app, Common& common) {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "output/manifest.hpp"
-#include "output/video.hpp"
+#include "output/data/manifest.hpp"
+#include "output/film/video.hpp"
 #include "scenes/commands/commands.hpp"
 
 namespace beamcam::scenes {

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <optional>
 
-#include "output/interrupt.hpp"
-#include "output/manifest.hpp"
-#include "output/picture_source.hpp"
-#include "output/png.hpp"
-#include "output/table_reader.hpp"
-#include "scenes/cli.hpp"
+#include "output/data/manifest.hpp"
+#include "output/data/table_reader.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/film/picture_source.hpp"
+#include "output/image/png.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/comparison.hpp"
-#include "scenes/files.hpp"
+#include "scenes/regression/comparison.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {

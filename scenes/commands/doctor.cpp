@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "scenes/cli.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/provenance.hpp"
+#include "scenes/regression/provenance.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <optional>
 
-#include "render/figure/style.hpp"
+#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/plan.hpp"
-#include "scenes/run.hpp"
-#include "scenes/source.hpp"
-#include "scenes/suggest.hpp"
+#include "scenes/format/source.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/outputs/run.hpp"
+#include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <optional>
 
-#include "output/interrupt.hpp"
-#include "output/picture_source.hpp"
-#include "output/png_reader.hpp"
-#include "output/sha256.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/files/sha256.hpp"
+#include "output/film/picture_source.hpp"
+#include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/fan_out.hpp"
+#include "scenes/motions/fan_out.hpp"
 
 namespace beamcam::scenes {
 namespace {

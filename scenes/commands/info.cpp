@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "output/errors.hpp"
-#include "scenes/cli.hpp"
+#include "output/files/errors.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/provenance.hpp"
+#include "scenes/regression/provenance.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "output/atomic_file.hpp"
-#include "output/errors.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/errors.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/description.hpp"
-#include "scenes/embedded.hpp"
+#include "scenes/format/description.hpp"
+#include "scenes/format/embedded.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scenes/commands/commands.hpp"
-#include "scenes/description.hpp"
-#include "scenes/suggest.hpp"
+#include "scenes/format/description.hpp"
+#include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
 namespace {

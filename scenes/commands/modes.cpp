@@ -1,4 +1,4 @@
-#include "sim/modes.hpp"
+#include "sim/beam/modes.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "output/records.hpp"
+#include "output/data/records.hpp"
 #include "scenes/commands/commands.hpp"
 
 namespace beamcam::scenes {

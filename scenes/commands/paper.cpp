@@ -2,21 +2,21 @@
 
 #include <filesystem>
 
-#include "output/atomic_file.hpp"
-#include "output/errors.hpp"
-#include "output/interrupt.hpp"
-#include "output/manifest.hpp"
-#include "render/figure/style.hpp"
+#include "output/data/manifest.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/errors.hpp"
+#include "output/files/interrupt.hpp"
+#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/embedded.hpp"
-#include "scenes/fan_out.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/motions.hpp"
-#include "scenes/reader.hpp"
-#include "scenes/survey.hpp"
-#include "scenes/version.hpp"
+#include "scenes/format/embedded.hpp"
+#include "scenes/format/reader.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/motions.hpp"
+#include "scenes/plan/survey.hpp"
+#include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {

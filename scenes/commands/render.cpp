@@ -5,14 +5,14 @@
 #include <optional>
 #include <set>
 
-#include "output/standard_output.hpp"
-#include "scenes/checks.hpp"
+#include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/files.hpp"
-#include "scenes/forms.hpp"
-#include "scenes/plan.hpp"
-#include "scenes/reader.hpp"
-#include "scenes/run.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/format/reader.hpp"
+#include "scenes/outputs/run.hpp"
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -1,13 +1,13 @@
-#include "scenes/run.hpp"
+#include "scenes/outputs/run.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "output/standard_output.hpp"
-#include "scenes/cli.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
 
 namespace beamcam::scenes {
 namespace {

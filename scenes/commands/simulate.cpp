@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "scenes/commands/commands.hpp"
-#include "scenes/files.hpp"
-#include "scenes/plan.hpp"
-#include "scenes/run.hpp"
-#include "scenes/source.hpp"
-#include "scenes/suggest.hpp"
+#include "scenes/format/source.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/outputs/run.hpp"
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -1,19 +1,19 @@
 // The stress campaign: every case ends or is refused in words, or the command says so with exit code 1.
-#include "sim/stress.hpp"
+#include "sim/studies/stress.hpp"
 
 #include <fmt/format.h>
 
 #include <atomic>
 
-#include "output/atomic_file.hpp"
-#include "output/interrupt.hpp"
-#include "output/manifest.hpp"
-#include "output/png.hpp"
-#include "output/records.hpp"
-#include "output/stress_report.hpp"
-#include "render/survival.hpp"
+#include "output/data/manifest.hpp"
+#include "output/data/records.hpp"
+#include "output/data/stress_report.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/image/png.hpp"
+#include "render/plot/survival.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/fan_out.hpp"
+#include "scenes/motions/fan_out.hpp"
 
 namespace beamcam::scenes {
 namespace {

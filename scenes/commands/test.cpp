@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "output/atomic_file.hpp"
-#include "output/manifest.hpp"
-#include "scenes/cli.hpp"
+#include "output/data/manifest.hpp"
+#include "output/files/atomic_file.hpp"
+#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/regression.hpp"
+#include "scenes/regression/regression.hpp"
 
 namespace beamcam::scenes {
 namespace {

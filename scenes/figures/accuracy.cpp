@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "render/error.hpp"
+#include "render/base/error.hpp"
 #include "scenes/figures/recipes.hpp"
 
 namespace beamcam::scenes {

@@ -1,9 +1,9 @@
 // The picture of an assessment: error against run time of every method, and error against the number of modes.
 #pragma once
 
-#include "render/figure/figure.hpp"
-#include "scenes/scene.hpp"
-#include "sim/accuracy.hpp"
+#include "render/plot/figure.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/studies/accuracy.hpp"
 
 namespace beamcam::scenes {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "render/ticks.hpp"
-#include "sim/drive.hpp"
+#include "render/plot/ticks.hpp"
+#include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {
 namespace {

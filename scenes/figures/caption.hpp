@@ -1,7 +1,7 @@
 // What a caption says of its scene: the facts of the problem, and numbers with the digits that they have.
 //
 // Every figure states its scene by these functions alone, so that a caption says nothing that the scene does not.
-// All texts are markup (render/figure/text.hpp).
+// All texts are markup (render/plot/text.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/scene.hpp"
-#include "sim/simulate.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 

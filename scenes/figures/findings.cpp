@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "render/figure/text.hpp"
+#include "render/plot/text.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "sim/modes.hpp"
-#include "sim/paper.hpp"
+#include "sim/beam/modes.hpp"
+#include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scenes/figures/studies.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 

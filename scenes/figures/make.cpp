@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "output/png.hpp"
-#include "render/error.hpp"
-#include "render/figure/text.hpp"
-#include "scenes/version.hpp"
+#include "output/image/png.hpp"
+#include "render/base/error.hpp"
+#include "render/plot/text.hpp"
+#include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {

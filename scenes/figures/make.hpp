@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/figure/figure.hpp"
-#include "scenes/scene.hpp"
+#include "render/plot/figure.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 

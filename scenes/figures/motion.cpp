@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "scenes/figures/recipes.hpp"
-#include "sim/modes.hpp"
+#include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 #include <string_view>
 
-#include "render/error.hpp"
-#include "render/figure/figure.hpp"
+#include "render/base/error.hpp"
+#include "render/plot/figure.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/studies.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 

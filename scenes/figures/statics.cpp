@@ -6,7 +6,7 @@
 #include <span>
 
 #include "scenes/figures/recipes.hpp"
-#include "sim/paper.hpp"
+#include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scenes/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "scenes/figures/recipes.hpp"
-#include "sim/paper.hpp"
+#include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -1,7 +1,7 @@
 // CPU milliseconds of a figure of a million points, for each medium and kind of curve; sizes of the files.
 // With a folder as second argument the PDF and SVG files are kept there. Prints CSV: points,curve,medium,ms,bytes
 // (median of five).
-#include "render/figure/figure.hpp"
+#include "render/plot/figure.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "render/fonts.hpp"
+#include "render/draw/fonts.hpp"
 
 using namespace beamcam::render;
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "sim/initial.hpp"
-#include "sim/system.hpp"
+#include "sim/dynamics/initial.hpp"
+#include "sim/dynamics/system.hpp"
 
 using namespace beamcam::sim;
 

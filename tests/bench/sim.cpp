@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulate.hpp"
-#include "yardstick.hpp"
+#include "sim/run/simulate.hpp"
+#include "tests/bench/yardstick.hpp"
 
 using namespace beamcam;
 

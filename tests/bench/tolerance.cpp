@@ -16,7 +16,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/simulate.hpp"
+#include "sim/run/simulate.hpp"
 
 using namespace beamcam;
 

@@ -1,4 +1,4 @@
-#include "yardstick.hpp"
+#include "tests/bench/yardstick.hpp"
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/modal_model.hpp"
+#include "sim/beam/modal_model.hpp"
 
 namespace beamcam::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "sim/problem.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::bench {
 

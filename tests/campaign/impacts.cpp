@@ -14,8 +14,8 @@
 #include <ctime>
 #include <map>
 
-#include "scenes/scene.hpp"
-#include "sim/simulate.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/run/simulate.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {

@@ -1,8 +1,8 @@
 // The reader of baselines: entries or words; an edit of nothing leaves every byte but "renderers" readable.
-#include "scenes/baselines.hpp"
+#include "scenes/regression/baselines.hpp"
 
 #include "scenes/commands/commands.hpp"
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

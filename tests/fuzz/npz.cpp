@@ -2,7 +2,7 @@
 // hardly ever guess one.
 #include <libdeflate.h>
 
-#include "output/table_reader.hpp"
+#include "output/data/table_reader.hpp"
 #include "tests/fuzz/support.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // `--set`: each line is one override of the empty scene; all apply or are refused in words.
-#include "scenes/overrides.hpp"
-#include "scenes/reader.hpp"
+#include "scenes/format/overrides.hpp"
+#include "scenes/format/reader.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

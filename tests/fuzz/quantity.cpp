@@ -1,7 +1,7 @@
 // The parser of quantities with units: a finite value, or a reason.
 #include <cmath>
 
-#include "scenes/units.hpp"
+#include "scenes/format/units.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

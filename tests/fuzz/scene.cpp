@@ -1,7 +1,7 @@
 // The scene reader: every text is a scene or is refused in words; a scene written out is read back as the same.
-#include "scenes/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.hpp"
+#include "render/draw/image.hpp"
 
 namespace beamcam::output {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/film.hpp"
+#include "render/film/film.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SKIP_WITHOUT_GL() GTEST_SKIP() << "the software OpenGL driver is not built for sanitizers"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "render/film.hpp"
+#include "render/film/film.hpp"
 
 namespace beamcam::test {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/reader.hpp"
+#include "scenes/format/reader.hpp"
 
 namespace beamcam::scenes::testing {
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/integrator.hpp"
-#include "sim/model.hpp"
-#include "sim/simulate.hpp"
-#include "sim/system.hpp"
+#include "sim/beam/model.hpp"
+#include "sim/dynamics/system.hpp"
+#include "sim/integrate/integrator.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::sim::testing {
 

@@ -1,0 +1,197 @@
+#include "output/data/manifest.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/sha256.hpp"
+
+namespace beamcam::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path directory_of(const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); }
+
+struct FileIdentity {
+    std::uintmax_t size = 0;
+    std::string stamp;  // the inode is new whenever a file is replaced, the time whenever it is written to
+};
+
+// Throws IoError when the file is gone.
+FileIdentity identity_of(const fs::path& file) {
+    struct stat status;
+    if (stat(file.c_str(), &status) != 0) throw read_error(file, errno);
+    const std::int64_t modified = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec;
+    return {static_cast<std::uintmax_t>(status.st_size),
+            std::to_string(status.st_ino) + ":" + std::to_string(modified)};
+}
+
+// Which of the versions stands there; null when it is none.
+const MadeFile* standing(const fs::path& file, const std::vector<MadeFile>& versions) {
+    const FileIdentity there = identity_of(file);
+    std::string digest;
+    for (auto made = versions.rbegin(); made != versions.rend(); ++made) {
+        if (made->sha256.empty() || made->size != there.size) continue;
+        if (!made->stamp.empty() && made->stamp == there.stamp) return &*made;
+        if (digest.empty()) digest = sha256_of_file(file);
+        if (made->sha256 == digest) return &*made;
+    }
+    return nullptr;
+}
+
+bool is_file(const fs::path& file) {
+    std::error_code unreadable;
+    return fs::is_regular_file(file, unreadable);
+}
+
+MadeFiles read_manifest(const fs::path& directory) {
+    const fs::path manifest = directory / Manifest::kFileName;
+    if (!is_there(manifest) || !is_file(manifest)) return {};
+    return parse_manifest(read_file(manifest)).value_or(MadeFiles{});
+}
+
+}  // namespace
+
+Manifest::~Manifest() {
+    try {
+        save();
+    } catch (const std::exception&) {  // the outputs themselves are whole, and the journal lists them
+    }
+}
+
+// ---- reading -------------------------------------------------------------------------------------
+
+Manifest::Versions Manifest::load(const fs::path& directory) {
+    Versions all;
+    for (auto& [name, made] : read_manifest(directory)) all[name].push_back(made);
+    for (const fs::path& journal : journals_in(directory)) {
+        std::string text;
+        try {
+            text = read_file(journal);
+        } catch (const IoError&) {  // its run has ended meanwhile
+            continue;
+        }
+        for (auto& [name, made] : parse_journal(text).placed) all[name].push_back(made);
+    }
+    return all;
+}
+
+Manifest::Versions& Manifest::known_in(const fs::path& directory) {
+    std::optional<Versions>& known = directories_[directory].known;
+    if (!known) known = load(directory);
+    return *known;
+}
+
+const MadeFile* Manifest::known(const fs::path& file) {
+    const Versions& all = known_in(directory_of(file));
+    const auto versions = all.find(file.filename().string());
+    return versions == all.end() ? nullptr : standing(file, versions->second);
+}
+
+void Manifest::require_replaceable(const fs::path& file) {
+    const std::lock_guard lock(mutex_);
+    require_own(file);
+}
+
+void Manifest::require_own(const fs::path& file) {
+    if (force_ || !is_there(file) || !is_file(file)) return;  // AtomicFile refuses what is no file
+    if (known(file)) return;
+    Directory& directory = directories_[directory_of(file)];
+    directory.known = load(directory_of(file));  // another run may have made it meanwhile
+    if (known(file)) return;
+    throw WouldOverwrite(file.string() +
+                         (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
+                                                                              : " exists and was not made by beamcam") +
+                         "; move it, choose another name, or replace it with --force");
+}
+
+bool Manifest::is_made_from(const fs::path& file, const std::string& inputs) {
+    if (inputs.empty() || !is_file(file)) return false;
+    const std::lock_guard lock(mutex_);
+    const MadeFile* made = known(file);
+    return made != nullptr && made->origin.inputs == inputs;
+}
+
+std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
+    const Versions known = load(directory_of(file));
+    const auto versions = known.find(file.filename().string());
+    if (versions == known.end()) return std::nullopt;
+    const MadeFile* made = standing(file, versions->second);
+    return Entry{made ? *made : versions->second.back(), made != nullptr};
+}
+
+// ---- writing -------------------------------------------------------------------------------------
+
+Journal& Manifest::journal_in(const fs::path& directory) {
+    std::unique_ptr<Journal>& journal = directories_[directory].journal;
+    if (!journal) journal = std::make_unique<Journal>(directory);
+    return *journal;
+}
+
+Target Manifest::target(const fs::path& file, Origin origin) {
+    Target target(file);
+    target.before_creation = [this](const fs::path& temporary) {
+        const std::lock_guard lock(mutex_);
+        journal_in(directory_of(temporary)).add(journal_line(temporary.filename().string()));
+    };
+    target.before_rename = [this, file, origin = std::move(origin)](const fs::path& temporary) {
+        const FileIdentity identity = identity_of(temporary);
+        const MadeFile made{sha256_of_file(temporary), identity.size, origin, identity.stamp};
+        const std::string name = file.filename().string();
+        const std::lock_guard lock(mutex_);
+        require_own(file);  // the user may have put one there meanwhile
+        journal_in(directory_of(file)).add(journal_line(name, made));
+        known_in(directory_of(file))[name].push_back(made);
+    };
+    return target;
+}
+
+void Manifest::save() {
+    const std::lock_guard lock(mutex_);
+    for (auto& [directory, state] : directories_)
+        if (state.journal) settle(directory, state.journal);
+}
+
+void Manifest::recover(const fs::path& directory) {
+    const std::lock_guard lock(mutex_);
+    const fs::path place = directory_of(directory / Manifest::kFileName);
+    for (const fs::path& journal : journals_in(place))
+        if (is_abandoned(journal)) {
+            journal_in(place);
+            return settle(place, directories_[place].journal);
+        }
+}
+
+// Puts what the journals say into the manifest. Those of runs that are gone are removed, with what they have half
+// written.
+void Manifest::settle(const fs::path& directory, std::unique_ptr<Journal>& own) {
+    const DirectoryLock lock(directory);
+    std::vector<fs::path> abandoned;
+    for (const fs::path& journal : journals_in(directory))
+        if (is_abandoned(journal)) abandoned.push_back(journal);
+    MadeFiles files;
+    for (const auto& [name, versions] : load(directory)) {
+        if (!is_file(directory / name)) continue;  // gone
+        const MadeFile* made = versions.size() > 1 ? standing(directory / name, versions) : nullptr;
+        files[name] = made ? *made : versions.back();
+    }
+    if (files != read_manifest(directory)) {
+        Target manifest(directory / kFileName);
+        manifest.before_creation = [&](const fs::path& temporary) {
+            own->add(journal_line(temporary.filename().string()));
+        };
+        write_file(manifest, manifest_json(files));
+    }
+    for (const fs::path& journal : abandoned) {
+        remove_temporaries(directory, parse_journal(read_file(journal)));
+        std::error_code ignored;
+        fs::remove(journal, ignored);
+    }
+    own->remove();
+    own.reset();
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,329 @@
+#include "output/data/records.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <type_traits>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/numbers.hpp"
+
+namespace beamcam::output {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A value of any member below, absent ones as null. NaN and infinities become null as well: JSON has no other word.
+template <typename T>
+Json json_of(const T& value) {
+    return value;
+}
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+// Calls visit(name, value) for every field, in the order of the file; JSON and CSV share it.
+template <typename Visit>
+void for_each_field(const sim::Impact& i, Visit visit) {
+    visit("t_start", i.t_start);
+    visit("t_end", i.t_end);
+    visit("x", i.x);
+    visit("cam_angle", i.cam_angle);
+    visit("v_n_before", i.v_n_before);
+    visit("v_t_before", i.v_t_before);
+    visit("v_n_after", i.v_n_after);
+    visit("v_t_after", i.v_t_after);
+    visit("duration", i.duration);
+    visit("force_peak", i.force_peak);
+    visit("penetration_peak", i.penetration_peak);
+    visit("impulse_n", i.impulse_n);
+    visit("impulse_t", i.impulse_t);
+    visit("restitution", i.restitution);
+    visit("energy_lost", i.energy_lost);
+    visit("collision", i.collision);
+}
+
+template <typename Visit>
+void for_each_field(const sim::Collision& c, Visit visit) {
+    visit("t_start", c.t_start);
+    visit("t_end", c.t_end);
+    visit("count", c.count);
+    visit("x", c.x);
+    visit("v_n_before", c.v_n_before);
+    visit("v_n_after", c.v_n_after);
+    visit("restitution", c.restitution);
+    visit("force_peak", c.force_peak);
+    visit("energy_lost", c.energy_lost);
+}
+
+template <typename Record>
+Json array_of(const std::vector<Record>& records) {
+    Json list = Json::array();
+    for (const Record& record : records) {
+        Json object = Json::object();
+        for_each_field(record, [&object](const char* name, const auto& value) { object[name] = json_of(value); });
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+void append_cell(std::string& line, double value) { append_number(line, value); }
+void append_cell(std::string& line, int value) { line += std::to_string(value); }
+void append_cell(std::string& line, const std::optional<double>& value) {
+    if (value) append_number(line, *value);
+}
+
+// Messages may quote a user's bytes, which need not be UTF-8; they become U+FFFD.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json units(const sim::Problem& problem) {
+    Json map = Json::object();
+    for (const sim::Channel channel : sim::all_channels(problem)) map[sim::name(channel)] = sim::unit(channel, problem);
+    return map;
+}
+
+Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& channels) {
+    if (channels.size() != result.extrema.size())
+        throw std::logic_error("summary: " + std::to_string(channels.size()) + " channels for " +
+                               std::to_string(result.extrema.size()) + " extrema");
+    Json map = Json::object();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const sim::Extremum& e = result.extrema[i];
+        map[sim::name(channels[i])] = {{"min", e.min}, {"t_min", e.t_min}, {"max", e.max}, {"t_max", e.t_max}};
+    }
+    return map;
+}
+
+void add_reproducibility(const sim::Result& result, Json& json) {
+    json["reproducible_until"] = *result.reproducible_until;
+    Json& lost = json["not_reproducible"] = Json::array();
+    for (const sim::Interval& interval : result.not_reproducible)
+        lost.push_back({json_of(interval.from), json_of(interval.to)});
+    if (result.reproducible_again_from) json["reproducible_again_from"] = *result.reproducible_again_from;
+    json["compared_with"] = result.compared_with;
+    json["reproducibility"] = result.reproducibility;
+}
+
+constexpr const char* kManifestFormat = "beamcam manifest 1";
+
+Json json_of(const MadeFile& made) {
+    Json entry = {{"sha256", made.sha256}, {"size", made.size}};
+    const auto add = [&entry](const char* key, const std::string& text) {
+        if (!text.empty()) entry[key] = text;
+    };
+    add("version", made.origin.version);
+    add("scene", made.origin.scene);
+    add("inputs", made.origin.inputs);
+    add("stamp", made.stamp);
+    return entry;
+}
+
+// Nothing where it is not one.
+std::optional<MadeFile> made_file_of(const Json& entry) {
+    if (!entry.is_object()) return {};
+    const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
+    if (!digest.is_string() || !size.is_number_unsigned()) return {};
+    const auto text = [&entry](const char* key) {
+        const Json value = entry.value(key, Json());
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    return MadeFile{digest.get<std::string>(), size.get<std::uintmax_t>(),
+                    Origin{text("inputs"), text("version"), text("scene")}, text("stamp")};
+}
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json json_of(const sim::Timing& time) {
+    if (time.repeats == 0) return nullptr;
+    return {{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}};
+}
+
+// `head` comes first: what tells this row from the others.
+Json accuracy_row(Json head, const sim::AccuracyRow& row) {
+    head["error"] = json_of(row.error);
+    if (!row.error) {
+        head["note"] = row.note;
+        return head;
+    }
+    head["trusted_until"] = row.trusted_until;
+    head["seconds"] = json_of(row.time);
+    head["steps"] = row.steps;
+    head["rhs_evaluations"] = row.rhs_evaluations;
+    head["impacts"] = row.impacts;
+    head["touch_error"] = json_of(row.touch_error);
+    return head;
+}
+
+}  // namespace
+
+std::string impacts_json(const sim::Result& result) {
+    Json json;
+    json["impacts"] = array_of(result.impacts);
+    json["collisions"] = array_of(result.collisions);
+    return text_of(json);
+}
+
+std::string impacts_csv(const sim::Result& result) {
+    std::string text;
+    for_each_field(sim::Impact{}, [&text](const char* name, const auto&) {
+        if (!text.empty()) text += ',';
+        text += name;
+    });
+    text += '\n';
+    for (const sim::Impact& impact : result.impacts) {
+        std::string line;
+        for_each_field(impact, [&line](const char* name, const auto& value) {
+            if (std::string_view(name) != "t_start") line += ',';
+            append_cell(line, value);
+        });
+        text += line + '\n';
+    }
+    return text;
+}
+
+void write_impacts(const Target& file, const sim::Result& result) {
+    const std::string ending = file.path.extension().string();
+    if (ending == ".json") return write_file(file, impacts_json(result));
+    if (ending == ".csv") return write_file(file, impacts_csv(result));
+    throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
+}
+
+std::string summary_json(const sim::Problem& problem, const sim::Result& result,
+                         const std::vector<sim::Channel>& extrema, const Work* work) {
+    Json json;
+    json["units"] = units(problem);
+    json["model"] = sim::name(problem.beam.model);
+    json["modes"] = problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes;
+    json["end_time"] = result.end_time;
+    json["steps"] = result.counters.steps;
+    json["rhs_evaluations"] = result.counters.rhs_evaluations;
+    json["wall_seconds"] = result.wall_seconds;
+    Json& zeros = json["events"]["theta_zero"] = Json::array();
+    for (const sim::ZeroCrossing& zero : result.theta_zero)
+        zeros.push_back({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
+    json["extrema"] = extrema_of(result, extrema);
+    json["energy_residual_max"] = result.energy_residual_max;
+    json["energy_scale"] = result.energy_scale;
+    json["impacts"] = result.impacts.size();
+    json["collisions"] = result.collisions.size();
+    if (result.reproducible_until) add_reproducibility(result, json);
+    json["warnings"] = result.warnings;
+    if (work) for_each_count(*work, [&](const char* name, long count) { json["work"][name] = count; });
+    return text_of(json);
+}
+
+void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
+                   const std::vector<sim::Channel>& extrema, const Work* work) {
+    write_file(file, summary_json(problem, result, extrema, work));
+}
+
+std::string modes_json(const std::vector<sim::Mode>& modes) {
+    Json all = Json::array();
+    for (const sim::Mode& mode : modes) {
+        Json shape = Json::array();
+        for (const sim::Vec2& at : mode.shape) shape.push_back({at.x, at.y});
+        const bool lost = std::isnan(mode.omega);
+        all.push_back({{"omega", lost ? Json(nullptr) : Json(mode.omega)},
+                       {"hz", lost ? Json(nullptr) : Json(mode.omega / (2 * std::numbers::pi))},
+                       {"shape", std::move(shape)}});
+    }
+    return Json{{"modes", std::move(all)}}.dump(2) + "\n";
+}
+
+std::string accuracy_json(const sim::Accuracy& a) {
+    Json work = Json::array(), modes = Json::array(), models = Json::array(), contact = Json::array();
+    for (const auto& row : a.work)
+        work.push_back(accuracy_row({{"method", sim::name(row.method)}, {"rtol", row.rtol}}, row));
+    for (const auto& row : a.modes) modes.push_back(accuracy_row({{"modes", row.modes}}, row));
+    for (const auto& row : a.models) models.push_back(accuracy_row({{"model", sim::name(row.model)}}, row));
+    for (const auto& row : a.contact) contact.push_back(accuracy_row({{"change", row.change}}, row));
+    Json all = {{"of", a.of_tip ? "tip_deflection / length" : "theta"},
+                {"units", {{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}}},
+                {"end_time", a.end_time},
+                {"until", a.until},
+                {"reference_error", a.reference_error},
+                {"target", a.target},
+                {"time_integration", work},
+                {"modes", {{"against", a.most_modes}, {"rows", modes}}},
+                {"models", {{"against", sim::name(a.best_model)}, {"until", a.models_until}, {"rows", models}}},
+                {"contact", contact},
+                {"recommendation", nullptr}};
+    if (const auto& r = a.recommendation)
+        all["recommendation"] = {{"rtol", r->rtol},   {"modes", r->modes},     {"until", r->until},
+                                 {"error", r->error}, {"seconds", r->seconds}, {"text", r->text}};
+    return all.dump(2) + "\n";
+}
+
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    Json plates = Json::array(), cases = Json::array();
+    for (const sim::Plate& plate : campaign.plates)
+        plates.push_back({{"title", plate.title},
+                          {"row_title", plate.row_title},
+                          {"column_title", plate.column_title},
+                          {"rows", plate.rows},
+                          {"columns", plate.columns}});
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const sim::StressCase& one = campaign.cases[i];
+        const sim::StressResult& r = results[i];
+        cases.push_back({{"plate", one.plate},
+                         {"row", one.row},
+                         {"column", one.column},
+                         {"variant", one.variant},
+                         {"outcome", name(r.outcome)},
+                         {"closure", std::isnan(r.closure) ? Json(nullptr) : Json(r.closure)},
+                         {"steps_per_second", r.steps_per_second},
+                         {"steps", r.steps},
+                         {"impacts", r.impacts},
+                         {"reached", r.reached},
+                         {"words", r.words}});
+    }
+    return text_of({{"plates", std::move(plates)}, {"cases", std::move(cases)}});
+}
+
+std::string manifest_json(const MadeFiles& files) {
+    Json json;
+    json["format"] = kManifestFormat;
+    json["files"] = Json::object();
+    for (const auto& [name, made] : files) json["files"][name] = json_of(made);
+    return text_of(json);
+}
+
+std::optional<MadeFiles> parse_manifest(const std::string& text) {
+    const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (!json.is_object() || json.value("format", Json()) != kManifestFormat) return {};
+    const Json entries = json.value("files", Json());
+    if (!entries.is_object()) return {};
+    MadeFiles files;
+    for (const auto& item : entries.items()) {
+        const auto made = made_file_of(item.value());
+        if (!made) return {};
+        files[item.key()] = *made;
+    }
+    return files;
+}
+
+std::string journal_line(const std::string& temporary) { return line_of({{"temporary", temporary}}); }
+
+std::string journal_line(const std::string& name, const MadeFile& made) {
+    return line_of({{"name", name}, {"made", json_of(made)}});
+}
+
+JournalLines parse_journal(const std::string& text) {
+    JournalLines all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
+        if (!json.is_object()) continue;
+        const Json temporary = json.value("temporary", Json()), name = json.value("name", Json());
+        if (temporary.is_string()) all.temporaries.push_back(temporary.get<std::string>());
+        if (!name.is_string()) continue;
+        if (const auto made = made_file_of(json.value("made", Json())))
+            all.placed.emplace_back(name.get<std::string>(), *made);
+    }
+    return all;
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,80 @@
+// Impacts, collisions and the summary of a run as JSON and CSV, with the names scripts rely on; and the text of the
+// manifest. The only place in output/ that knows the JSON library.
+//
+// Keys come in a fixed order, numbers with as many digits as it takes to read the same bits back, undefined
+// values as null (an empty cell in CSV).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/files/errors.hpp"
+#include "output/files/target.hpp"
+#include "output/files/work.hpp"
+#include "sim/beam/modes.hpp"
+#include "sim/observe/channels.hpp"
+#include "sim/problem/problem.hpp"
+#include "sim/run/simulate.hpp"
+#include "sim/studies/accuracy.hpp"
+#include "sim/studies/stress.hpp"
+
+namespace beamcam::output {
+
+std::string impacts_json(const sim::Result& result);  // {"impacts": […], "collisions": […]}
+std::string impacts_csv(const sim::Result& result);   // the impacts alone
+
+// By the name's ending, .json or .csv. Throws UnsupportedOption for another, IoError.
+void write_impacts(const Target& file, const sim::Result& result);
+
+// `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
+// problem.
+std::string summary_json(const sim::Problem& problem, const sim::Result& result,
+                         const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
+void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
+                   const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
+
+// {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
+std::string modes_json(const std::vector<sim::Mode>& modes);
+
+// Every row of the assessment, its conditions and the recommendation.
+std::string accuracy_json(const sim::Accuracy& accuracy);
+
+// What a file was made from.
+struct Origin {
+    std::string inputs;          // as a digest of the caller's; equal inputs make equal files. Empty: not told.
+    std::string version, scene;  // of the program, and in full, where the file itself cannot say so
+    bool operator==(const Origin&) const = default;
+};
+
+// What beamcam knows of a file it made.
+struct MadeFile {
+    std::string sha256;
+    std::uintmax_t size = 0;  // [bytes]
+    Origin origin;
+    std::string stamp;  // of the file system, as long as nobody touched it; spares reading it; empty: not known
+    bool operator==(const MadeFile&) const = default;
+};
+using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory
+
+// {"plates": […], "cases": [{"plate", "row", "column", "variant", "outcome", "closure", "steps_per_second", …}, …]}
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+
+std::string manifest_json(const MadeFiles& files);
+// Nothing where the text is not a manifest.
+std::optional<MadeFiles> parse_manifest(const std::string& text);
+
+// Lines of a journal: a temporary file that is about to be created, and a file that is about to be put in its place.
+std::string journal_line(const std::string& temporary);
+std::string journal_line(const std::string& name, const MadeFile& made);
+struct JournalLines {
+    std::vector<std::string> temporaries;
+    std::vector<std::pair<std::string, MadeFile>> placed;  // by file name, in the order of the text
+};
+// Leaves out lines that are cut off.
+JournalLines parse_journal(const std::string& text);
+
+}  // namespace beamcam::output

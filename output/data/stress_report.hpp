@@ -1,0 +1,18 @@
+// What a stress campaign found, as text for the terminal and as CSV. (JSON: output/data/records.hpp.)
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/studies/stress.hpp"
+
+namespace beamcam::output {
+
+// A line for each plate with the count of each outcome, worst ledger and most steps a second; then every failure
+// with its cause, then how often each cause of stopping came up.
+std::string stress_text(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+
+// One line a case: plate, row, column, variant, outcome, closure, steps_per_second, steps, impacts, reached, words.
+std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+
+}  // namespace beamcam::output

@@ -1,0 +1,119 @@
+#include "output/data/table_difference.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "output/data/name_index.hpp"
+
+namespace beamcam::output {
+
+namespace {
+
+constexpr double kSameInstant = 1e-9;  // [s], relative beyond one second: far below any sampling, far above rounding
+
+struct Pair {
+    std::size_t a, b;  // rows
+    double t;
+};
+
+// An order of all numbers: empty cells come last.
+bool comes_before(double x, double y) { return x < y || (std::isnan(y) && !std::isnan(x)); }
+
+bool is_same_instant(double x, double y) {
+    if (std::isnan(x) || std::isnan(y)) return std::isnan(x) && std::isnan(y);
+    return x == y || std::abs(x - y) <= kSameInstant * std::max(1.0, std::abs(x));
+}
+
+std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
+    std::vector<std::size_t> order(t.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t k) { return comes_before(t[i], t[k]); });
+    return order;
+}
+
+std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double until) {
+    std::vector<Pair> pairs;
+    const std::vector<double>*ta = a.find("t"), *tb = b.find("t");
+    if (ta == nullptr || tb == nullptr) {
+        for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) pairs.push_back({i, i, double(i)});
+        return pairs;
+    }
+    const std::vector<std::size_t> oa = in_order_of(*ta), ob = in_order_of(*tb);
+    for (std::size_t i = 0, k = 0; i < oa.size() && k < ob.size();) {
+        const double x = (*ta)[oa[i]], y = (*tb)[ob[k]];
+        if (is_same_instant(x, y)) {
+            if (!(x > until)) pairs.push_back({oa[i], ob[k], x});
+            ++i, ++k;
+        } else if (comes_before(x, y)) {
+            ++i;
+        } else {
+            ++k;
+        }
+    }
+    return pairs;
+}
+
+NameIndex index_of(const std::vector<std::string>& names) {
+    NameIndex index;
+    for (std::size_t i = 0; i < names.size(); ++i) index.add(names[i], i);
+    return index;
+}
+
+bool same_bits(double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (std::isnan(x) && std::isnan(y));
+}
+
+ColumnDifference compare(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
+                         const std::vector<Pair>& rows) {
+    ColumnDifference d;
+    d.name = name;
+    double least = INFINITY, most = -INFINITY;
+    for (const Pair& row : rows) {
+        const double x = a[row.a], y = b[row.b];
+        if (!same_bits(x, y)) d.identical = false;
+        if (std::isnan(x) != std::isnan(y)) ++d.undefined;
+        if (std::isfinite(x)) least = std::min(least, x), most = std::max(most, x);
+        const double step = std::isnan(x) || std::isnan(y) || x == y ? 0 : std::abs(y - x);
+        if (step > d.largest) d.largest = step, d.t = row.t;
+    }
+    d.range = most > least ? most - least : 0;
+    const double scale = d.range > 0 ? d.range : std::abs(most);
+    d.share = d.largest == 0 ? 0 : scale > 0 && std::isfinite(scale) ? d.largest / scale : 1;
+    return d;
+}
+
+}  // namespace
+
+bool TableDifference::identical() const {
+    return same_shape() &&
+           std::all_of(columns.begin(), columns.end(), [](const ColumnDifference& c) { return c.identical; });
+}
+
+bool TableDifference::within(double share) const {
+    return same_shape() && std::all_of(columns.begin(), columns.end(), [share](const ColumnDifference& c) {
+               return c.undefined == 0 && c.share <= share;
+           });
+}
+
+TableDifference difference(const NamedTable& a, const NamedTable& b, double until) {
+    TableDifference d;
+    d.rows_a = a.rows();
+    d.rows_b = b.rows();
+    const std::vector<Pair> rows = common_rows(a, b, until);
+    d.rows_compared = rows.size();
+    const NameIndex in_a = index_of(a.names), in_b = index_of(b.names);
+    for (std::size_t i = 0; i < a.names.size(); ++i) {
+        if (const auto other = in_b.find(a.names[i]))
+            d.columns.push_back(compare(a.names[i], a.columns[i], b.columns[*other], rows));
+        else
+            d.only_in_a.push_back(a.names[i]);
+    }
+    for (const std::string& name : b.names)
+        if (!in_a.find(name)) d.only_in_b.push_back(name);
+    return d;
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,40 @@
+// How two tables of one motion differ, column by column, at the instants that both have.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "output/data/table_reader.hpp"
+
+namespace beamcam::output {
+
+struct ColumnDifference {
+    std::string name;
+    double largest = 0;         // |b − a|, in the column's unit
+    double t = 0;               // where; the row's number without a column "t"
+    double range = 0;           // of `a` over the rows compared: largest minus smallest value
+    double share = 0;           // largest / range; with no range: largest / |a|, or 1 where `a` is 0
+    std::size_t undefined = 0;  // rows where one of the two is empty and the other is not
+    bool identical = true;      // every bit, empty cells included
+};
+
+struct TableDifference {
+    std::size_t rows_a = 0, rows_b = 0, rows_compared = 0;
+    std::vector<std::string> only_in_a, only_in_b;  // columns
+    std::vector<ColumnDifference> columns;          // in the order of `a`
+
+    bool same_shape() const {
+        return rows_a == rows_b && rows_compared == rows_a && only_in_a.empty() && only_in_b.empty();
+    }
+    bool identical() const;
+    // Nothing differs by more than `share` of its column's range.
+    bool within(double share) const;
+};
+
+// Rows belong together by their "t" (equal to a billionth), or by their number where a table has none; those whose "t"
+// is empty by their order. Rows with t > `until` are not compared.
+TableDifference difference(const NamedTable& a, const NamedTable& b,
+                           double until = std::numeric_limits<double>::infinity());
+
+}  // namespace beamcam::output

@@ -1,0 +1,280 @@
+#include "output/data/table_reader.hpp"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <optional>
+
+#include "output/data/name_index.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/inflate.hpp"
+
+namespace beamcam::output {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+// ---- CSV ---------------------------------------------------------------------------------------
+
+class CsvParser {
+  public:
+    CsvParser(std::string_view text, const std::string& file) : text_(text), file_(file) {
+        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    }
+
+    NamedTable parse() {
+        std::string_view line;
+        if (!next_line(line)) throw IoError("cannot read " + file_ + ": the file is empty");
+        read_header(line);
+        while (next_line(line)) {
+            if (line.empty() && at_ >= text_.size()) break;
+            read_row(line);
+        }
+        return std::move(table_);
+    }
+
+  private:
+    [[noreturn]] void refuse(std::size_t column, const std::string& what) const {
+        throw IoError(file_ + ":" + std::to_string(line_) + ":" + std::to_string(column) + ": " + what);
+    }
+
+    bool next_line(std::string_view& line) {
+        if (at_ >= text_.size()) return false;
+        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        line = text_.substr(at_, end - at_);
+        at_ = end + 1;
+        ++line_;
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return true;
+    }
+
+    // Calls visit(cell, column of its first byte, number of the cell).
+    template <typename Visit>
+    static void for_cells(std::string_view line, Visit visit) {
+        std::size_t begin = 0;
+        for (std::size_t count = 0;; ++count) {
+            const std::size_t end = std::min(line.find(',', begin), line.size());
+            std::string_view cell = line.substr(begin, end - begin);
+            while (cell.starts_with(' ')) cell.remove_prefix(1);
+            while (cell.ends_with(' ')) cell.remove_suffix(1);
+            visit(cell, begin + 1, count);
+            if (end == line.size()) return;
+            begin = end + 1;
+        }
+    }
+
+    void read_header(std::string_view line) {
+        if (line.starts_with("# ")) line.remove_prefix(2);  // numpy.savetxt
+        for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t) {
+            if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+            if (cell.empty()) refuse(column, "a column without a name in the header");
+            if (number(cell)) refuse(column, in_quotes(cell) + " where a column's name should stand");
+            if (!index_.add(cell, table_.names.size()))
+                refuse(column, "the column " + in_quotes(cell) + " stands twice in the header");
+            table_.names.emplace_back(cell);
+        });
+        table_.columns.resize(table_.names.size());
+    }
+
+    void read_row(std::string_view line) {
+        std::size_t cells = 0;
+        for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t count) {
+            cells = count + 1;
+            if (count >= table_.columns.size()) return;
+            const std::optional<double> value = cell.empty() ? kNothing : number(cell);
+            if (!value) refuse(column, in_quotes(cell) + " is not a number");
+            table_.columns[count].push_back(*value);
+        });
+        if (cells != table_.columns.size())
+            refuse(1, std::to_string(cells) + " cells in this row, but the header has " +
+                          std::to_string(table_.columns.size()) + "; the file may be cut off");
+    }
+
+    static std::optional<double> number(std::string_view cell) {
+        if (cell.starts_with('+')) cell.remove_prefix(1);
+        double value = 0;
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+        if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+        return value;
+    }
+
+    // Short, without bytes that would speak to a terminal.
+    static std::string in_quotes(std::string_view cell) {
+        std::string text;
+        text.push_back('"');
+        for (const char c : cell.substr(0, 40)) text.push_back(c >= ' ' && c <= '~' ? c : '?');
+        text.append(cell.size() > 40 ? "...\"" : "\"");
+        return text;
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t at_ = 0, line_ = 0;
+    NamedTable table_;
+    NameIndex index_;  // of its names
+};
+
+// ---- NPZ: PKWARE's APPNOTE, and https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html --------
+
+static_assert(std::endian::native == std::endian::little, "NPZ is read in memory order");
+
+class NpzParser {
+  public:
+    NpzParser(std::string_view bytes, const std::string& file)
+        : bytes_(bytes), file_(file), inflater_(kLargestArchive), not_taken_(bytes.size()) {}
+
+    NamedTable parse() {
+        const std::size_t end = find_end();
+        const std::size_t count = value(end + 10, 2);
+        std::size_t at = value(end + 16, 4);
+        for (std::size_t i = 0; i < count; ++i) at = read_entry(at);
+        return std::move(table_);
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& what) const { throw IoError("cannot read " + file_ + ": " + what); }
+    [[noreturn]] void damaged() const { refuse("the archive is damaged or cut off; make or copy it again"); }
+
+    std::string_view part(std::size_t at, std::size_t size) const {
+        if (at > bytes_.size() || size > bytes_.size() - at) damaged();
+        return bytes_.substr(at, size);
+    }
+    std::size_t value(std::size_t at, std::size_t size) const {
+        std::size_t number = 0;
+        const std::string_view raw = part(at, size);
+        for (std::size_t i = 0; i < size; ++i) number |= std::size_t(static_cast<unsigned char>(raw[i])) << (8 * i);
+        return number;
+    }
+
+    std::size_t find_end() const {
+        if (!bytes_.starts_with("PK")) refuse(bytes_.empty() ? "the file is empty" : "it is not an NPZ archive");
+        const std::size_t found = bytes_.rfind("PK\x05\x06");
+        if (found == std::string_view::npos || found + 22 > bytes_.size()) damaged();
+        return found;
+    }
+
+    // One record of the directory; gives the place of the next.
+    std::size_t read_entry(std::size_t at) {
+        if (part(at, 4) != "PK\x01\x02") damaged();
+        const std::size_t method = value(at + 10, 2), crc = value(at + 16, 4), packed = value(at + 20, 4),
+                          size = value(at + 24, 4), name_size = value(at + 28, 2), offset = value(at + 42, 4);
+        std::string name(part(at + 46, name_size));
+        if (name.ends_with(".npy")) name.resize(name.size() - 4);
+        if (offset == 0xffffffff || size >= kLargestArchive) refuse("archives beyond 4 GiB are not read");
+        const std::size_t data = offset + 30 + value(offset + 26, 2) + value(offset + 28, 2);
+        read_array(name, unpacked(name, part(data, packed), method, size, crc));
+        return at + 46 + name_size + value(at + 30, 2) + value(at + 32, 2);
+    }
+
+    std::string unpacked(const std::string& name, std::string_view packed, std::size_t method, std::size_t size,
+                         std::size_t crc) {
+        // Arrays that share their bytes would unpack without end.
+        if (packed.size() > not_taken_) damaged();
+        not_taken_ -= packed.size();
+        std::string data;
+        if (method == 0) {
+            data = packed;
+        } else if (method == 8) {
+            auto plain = inflater_.deflate(packed, size);
+            if (!plain) damaged();
+            data = std::move(*plain);
+        } else {
+            refuse("the array \"" + name + "\" is packed in a way that numpy does not use");
+        }
+        if (data.size() != size || libdeflate_crc32(0, data.data(), data.size()) != crc) damaged();
+        return data;
+    }
+
+    void read_array(const std::string& name, const std::string& npy) {
+        const auto wrong = [&](const std::string& what) { refuse("the array \"" + name + "\" " + what); };
+        if (!npy.starts_with("\x93NUMPY") || npy.size() < 12) wrong("is not in numpy's format");
+        const bool old = npy[6] == 1;
+        std::size_t header_size = 0;
+        for (std::size_t i = 0; i < (old ? 2u : 4u); ++i)
+            header_size |= std::size_t(static_cast<unsigned char>(npy[8 + i])) << (8 * i);
+        const std::size_t begin = old ? 10 : 12;
+        if (header_size > npy.size() - begin) wrong("is cut off");
+        const std::string_view header(npy.data() + begin, header_size);
+        const std::string_view data(npy.data() + begin + header_size, npy.size() - begin - header_size);
+
+        std::vector<double> column;
+        const std::string type = between(header, "'descr': '", "'");
+        if (type == "<f8")
+            column = numbers<double>(data);
+        else if (type == "<f4")
+            column = numbers<float>(data);
+        else if (type == "<i8")
+            column = numbers<std::int64_t>(data);
+        else if (type == "<i4")
+            column = numbers<std::int32_t>(data);
+        else
+            wrong("has elements of type \"" + type + "\"; only numbers (<f8, <f4, <i8, <i4) can be compared");
+        const std::string shape = between(header, "'shape': (", ")");
+        if (shape != std::to_string(column.size()) + "," && !(shape.empty() && column.size() == 1))
+            wrong("has the shape (" + shape + "); a column has one dimension");
+        if (!table_.columns.empty() && column.size() != table_.rows())
+            wrong("has " + std::to_string(column.size()) + " rows, others have " + std::to_string(table_.rows()));
+        if (!index_.add(name, table_.names.size())) refuse("two arrays have the name \"" + name + "\"");
+        table_.names.push_back(name);
+        table_.columns.push_back(std::move(column));
+    }
+
+    static std::string between(std::string_view text, std::string_view before, std::string_view after) {
+        const std::size_t found = text.find(before);
+        if (found == std::string_view::npos) return {};
+        const std::size_t begin = found + before.size();
+        const std::size_t end = text.find(after, begin);
+        return end == std::string_view::npos ? std::string() : std::string(text.substr(begin, end - begin));
+    }
+
+    template <typename Number>
+    static std::vector<double> numbers(std::string_view data) {
+        std::vector<double> column(data.size() / sizeof(Number));
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            Number value;
+            std::memcpy(&value, data.data() + i * sizeof value, sizeof value);
+            column[i] = static_cast<double>(value);
+        }
+        return column;
+    }
+
+    static constexpr std::size_t kLargestArchive = 0xffffffff;  // [bytes], unpacked; what its format can say
+
+    std::string_view bytes_;
+    const std::string& file_;
+    Inflater inflater_;
+    std::size_t not_taken_;  // bytes of the file that no array has claimed yet
+    NamedTable table_;
+    NameIndex index_;  // of its names
+};
+
+}  // namespace
+
+const std::vector<double>* NamedTable::find(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+NamedTable parse_csv(std::string_view text, const std::string& file_name) { return CsvParser(text, file_name).parse(); }
+NamedTable parse_npz(std::string_view bytes, const std::string& file_name) {
+    return NpzParser(bytes, file_name).parse();
+}
+
+NamedTable read_table(const fs::path& file) {
+    const std::string bytes = read_file(file), name = file.string();
+    if (file.extension() == ".csv") return parse_csv(bytes, name);
+    if (file.extension() == ".npz") return parse_npz(bytes, name);
+    throw IoError("cannot read " + name + ": tables end in .csv or .npz");
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,24 @@
+// Channel tables as files: CSV for people and spreadsheets, NPZ for numpy.
+#pragma once
+
+#include <ostream>
+
+#include "output/files/errors.hpp"
+#include "output/files/target.hpp"
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::output {
+
+// One header line, commas, 17 significant digits, "\n"; an undefined value is an empty cell.
+// Throws IoError when the stream fails.
+void write_csv(std::ostream& out, const sim::Table& table);
+void write_csv(const Target& file, const sim::Table& table);
+
+// numpy.load(file)["theta"]: one array of float64 per channel, NaN where undefined; a plain zip archive without
+// compression. Throws UnsupportedOption beyond 4 GiB, which needs another format.
+void write_npz(const Target& file, const sim::Table& table);
+
+// By the name's ending, .csv or .npz. Throws UnsupportedOption for another.
+void write_table(const Target& file, const sim::Table& table);
+
+}  // namespace beamcam::output

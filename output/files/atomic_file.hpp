@@ -1,0 +1,65 @@
+// A file that appears whole or not at all: written under a hidden name beside its target, flushed
+// and renamed by `commit`, removed by the destructor otherwise.
+//
+// It does not ask whether the target may be replaced: that is manifest.hpp.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "output/files/errors.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/files/target.hpp"
+
+namespace beamcam::output {
+
+// Whether `commit` waits until the disk holds the bytes. Without, a power cut may lose the newest
+// files, but an interrupted or killed program may not; that is right for hundreds of frames.
+enum class Durability { synced, buffered };
+
+class AtomicFile {
+  public:
+    // Throws IoError: missing or unwritable directory, target that is a directory or a device, or that leads out of
+    // Target::within. A symbolic link is followed, so that the file it points to is replaced and the link stays.
+    explicit AtomicFile(Target target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(std::string_view bytes);                       // throws IoError
+    void commit(Durability durability = Durability::synced);  // throws IoError; at most once
+
+    const std::filesystem::path& target() const { return target_.path; }
+    // For libraries that open files themselves. Exists, empty, until they write to it.
+    const std::filesystem::path& temporary_path() const { return temporary_; }
+
+  private:
+    void create();
+
+    Target target_;                    // its path as the user wrote it, for messages
+    std::filesystem::path real_;       // absolute, links followed
+    std::filesystem::path temporary_;  // absolute
+    std::optional<TemporaryName> registered_;
+    int directory_ = -1;    // of both: a link that is changed meanwhile leads nowhere else
+    int descriptor_ = -1;   // of the temporary file
+    bool pending_ = false;  // the temporary file exists
+};
+
+// Writes the whole of `bytes` to `target`, atomically.
+void write_file(const Target& target, std::string_view bytes, Durability durability = Durability::synced);
+
+// Throws IoError when symbolic links lead `file`, which need not exist, out of the folder.
+void require_within(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+// Whether there is anything at `file`, links followed. Throws IoError when that cannot be known, as without permission.
+bool is_there(const std::filesystem::path& file);
+
+// Creates the directory and those above it. Throws IoError.
+void ensure_directory(const std::filesystem::path& directory);
+
+// The whole content. Throws IoError.
+std::string read_file(const std::filesystem::path& file);
+
+}  // namespace beamcam::output

@@ -1,0 +1,49 @@
+#include "output/files/inflate.hpp"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <new>
+
+namespace beamcam::output {
+namespace {
+
+constexpr std::size_t kMostOfOne = 1100;  // deflate makes a byte of at most 1032
+
+}  // namespace
+
+void Inflater::Free::operator()(libdeflate_decompressor* decompressor) const {
+    libdeflate_free_decompressor(decompressor);
+}
+
+Inflater::Inflater(std::size_t budget) : decompressor_(libdeflate_alloc_decompressor()), budget_(budget) {
+    if (!decompressor_) throw std::bad_alloc();
+}
+
+std::optional<std::string> Inflater::deflate(std::string_view packed, std::size_t size) {
+    if (size > budget_ || size / kMostOfOne > packed.size()) return std::nullopt;
+    std::string plain(size, '\0');
+    if (libdeflate_deflate_decompress(decompressor_.get(), packed.data(), packed.size(), plain.data(), size, nullptr) !=
+        LIBDEFLATE_SUCCESS)
+        return std::nullopt;
+    budget_ -= size;
+    return plain;
+}
+
+std::optional<std::string> Inflater::zlib(std::string_view packed) {
+    for (std::size_t room = std::min<std::size_t>(1 << 16, budget_); room > 0; room = std::min(4 * room, budget_)) {
+        std::string plain(room, '\0');
+        std::size_t got = 0;
+        const auto result = libdeflate_zlib_decompress(decompressor_.get(), packed.data(), packed.size(), plain.data(),
+                                                       plain.size(), &got);
+        if (result == LIBDEFLATE_SUCCESS) {
+            budget_ -= got;
+            plain.resize(got);
+            return plain;
+        }
+        if (result != LIBDEFLATE_INSUFFICIENT_SPACE || room == budget_) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,36 @@
+#include "output/files/standard_output.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "output/files/errors.hpp"
+#include "output/files/text_safety.hpp"
+
+namespace beamcam::output {
+namespace {
+
+[[noreturn]] void fail() { throw IoError("cannot write to standard output; is the pipe closed or the disk full?"); }
+
+}  // namespace
+
+void print_data(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail();
+}
+
+void print_text(std::string_view text) { print_data(visible(text)); }
+void print_json(std::string_view text) { print_data(escaped_json(text)); }
+
+void print_message(std::string_view text) noexcept try {
+    const std::string shown = visible(text);
+    [[maybe_unused]] const std::size_t written = std::fwrite(shown.data(), 1, shown.size(), stderr);
+} catch (const std::bad_alloc&) {
+    std::fputs("beamcam: no memory for a message\n", stderr);
+}
+
+void flush_data() {
+    if (!std::cout.flush()) fail();
+}
+
+}  // namespace beamcam::output

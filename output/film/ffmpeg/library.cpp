@@ -1,0 +1,229 @@
+// The module's entry, and what its files share (library.hpp). libavformat and libavcodec 59 to 61 (FFmpeg 5 to 7).
+#include "output/film/ffmpeg/library.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "render/base/modules.hpp"
+
+namespace beamcam::output::ffmpeg {
+namespace {
+
+// Containers of moving pictures, and pictures that are no PNG.
+constexpr const char* kContainers =
+    "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,gif,apng,avi,mpegts,nut,flv,ogg,ivf,h264,hevc,"
+    "yuv4mpegpipe,png_pipe,webp_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,image2";
+
+std::string url_of(const std::filesystem::path& file) {
+    return "file:" + file.string();  // keeps FFmpeg from reading a protocol into names such as "a:b.mp4"
+}
+
+// A Matroska number of variable length at the front of `in`: of 1 to 8 bytes, the first of which says how many.
+std::optional<std::uint64_t> read_number(std::istream& in, bool keep_marker) {
+    const int first = in.get();
+    if (first <= 0) return std::nullopt;
+    int more = 0;
+    while ((first & (0x80 >> more)) == 0) ++more;
+    std::uint64_t value = static_cast<unsigned>(keep_marker ? first : first & (0x7f >> more));
+    bool unknown = (first & (0x7f >> more)) == 0x7f >> more;  // all ones: the size was never filled in
+    for (int i = 0; i < more; ++i) {
+        const int byte = in.get();
+        if (byte < 0) return std::nullopt;
+        unknown = unknown && byte == 0xff;
+        value = value << 8 | static_cast<unsigned>(byte);
+    }
+    return unknown && !keep_marker ? std::numeric_limits<std::uint64_t>::max() : value;
+}
+
+// Does a Matroska or WebM file (RFC 8794, RFC 9559) end before its segment does? FFmpeg takes that for its end.
+bool is_cut_matroska(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    constexpr std::uint64_t kHeader = 0x1A45DFA3, kSegment = 0x18538067;
+    if (read_number(in, true) != kHeader) return false;
+    const auto header = read_number(in, false);
+    if (!header || *header > 4096) return false;
+    in.seekg(static_cast<std::streamoff>(*header), std::ios::cur);
+    if (read_number(in, true) != kSegment) return false;
+    const auto size = read_number(in, false);
+    if (!size || *size == std::numeric_limits<std::uint64_t>::max()) return false;
+    const auto begin = static_cast<std::uint64_t>(in.tellg());
+    std::error_code error;
+    const auto there = std::filesystem::file_size(file, error);
+    return !error && there - begin < *size;
+}
+
+class Library : public VideoLibrary {
+  public:
+    Library() { av_log_set_level(AV_LOG_QUIET); }  // reasons reach the user as exceptions
+    std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const override {
+        return ffmpeg::open_encoder(settings);
+    }
+    std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file) const override {
+        return ffmpeg::open_decoder(file);
+    }
+    std::int64_t concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file,
+                             const std::filesystem::path& named, const std::string& container) const override {
+        return ffmpeg::concatenate(segments, file, named, container);
+    }
+    std::string versions() const override {
+        const auto words = [](const char* name, unsigned version) {
+            return std::string(name) + " " + std::to_string(version >> 16 & 0xff) + "." +
+                   std::to_string(version >> 8 & 0xff) + "." + std::to_string(version & 0xff);
+        };
+        return words("libavcodec", avcodec_version()) + ", " + words("libavformat", avformat_version()) + ", " +
+               words("libswscale", swscale_version());
+    }
+    bool has_encoder(const std::string& name) const override {
+        return avcodec_find_encoder_by_name(name.c_str()) != nullptr;
+    }
+};
+
+const Library kLibrary;
+
+}  // namespace
+
+std::string reason(int code) {
+    std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+    av_strerror(code, text.data(), text.size());
+    return text.data();
+}
+
+void fail(const char* doing, int code) {
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    throw CodecFailure(std::string(doing) + ": " + reason(code));
+}
+
+void add_options(AVDictionary** to, const OptionList& options, const std::string& encoder) {
+    for (const auto& [key, value] : options) {
+        const std::size_t colon = key.find(':');
+        if (colon == std::string::npos)
+            av_dict_set(to, key.c_str(), value.c_str(), 0);
+        else if (key.compare(0, colon, encoder) == 0)
+            av_dict_set(to, key.c_str() + colon + 1, value.c_str(), 0);
+    }
+}
+
+// ---- reading -------------------------------------------------------------------------------------
+
+InputFile::InputFile(const std::filesystem::path& file) : file_(file) {
+    format_ = avformat_alloc_context();
+    if (format_ == nullptr) throw std::bad_alloc();
+    format_->format_whitelist = av_strdup(kContainers);
+    format_->protocol_whitelist = av_strdup("file");
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "pattern_type", "none", 0);  // of pictures: "%d" and "*" are characters
+    int code = avformat_open_input(&format_, url_of(file).c_str(), nullptr, &options);  // frees it when it fails
+    av_dict_free(&options);
+    if (code == AVERROR_INVALIDDATA || code == AVERROR(EINVAL))
+        refuse("it is no film or picture that FFmpeg can read, or it is damaged at its beginning", code);
+    if (code < 0) refuse(reason(code));
+    const auto close = [&](const char* why, int status) {
+        avformat_close_input(&format_);
+        if (status < 0) refuse(why, status);
+        refuse(why);
+    };
+    code = avformat_find_stream_info(format_, nullptr);
+    if (code < 0) close(kDamaged, code);
+    if (std::string_view(format_->iformat->name).starts_with("matroska") && is_cut_matroska(file)) close(kDamaged, 0);
+}
+
+InputFile::~InputFile() { avformat_close_input(&format_); }
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : file_(std::move(other.file_)), format_(std::exchange(other.format_, nullptr)) {}
+
+std::string InputFile::tag(const char* key) const {
+    const AVDictionaryEntry* entry = av_dict_get(format_->metadata, key, nullptr, 0);
+    return entry != nullptr ? entry->value : "";
+}
+
+void InputFile::refuse(const std::string& why) const { throw IoError("cannot read " + file_.string() + ": " + why); }
+
+void InputFile::refuse(const char* why, int code) const {
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    refuse(std::string(why) + " (FFmpeg: " + reason(code) + ")");
+}
+
+std::optional<FrameRange> frame_range(const InputFile& file) {
+    FrameRange range;
+    const std::string text = file.tag("beamcam-frames");
+    const bool read = std::sscanf(text.c_str(), "%9ld:%9ld of %9ld:%9ld", &range.first, &range.end, &range.begin_of_all,
+                                  &range.end_of_all) == 4;
+    const bool sound = range.begin_of_all <= range.first && range.first < range.end && range.end <= range.end_of_all;
+    return read && sound ? std::optional(range) : std::nullopt;
+}
+
+long declared_frames(const InputFile& file, const AVStream& stream) {
+    if (const auto range = frame_range(file)) return range->count();
+    return stream.nb_frames;
+}
+
+// ---- writing -------------------------------------------------------------------------------------
+
+OutputFile::OutputFile(const std::filesystem::path& file, std::filesystem::path named, const std::string& container)
+    : named_(std::move(named)) {
+    const int code = avformat_alloc_output_context2(&format_, nullptr, container.c_str(), url_of(file).c_str());
+    if (code < 0) fail("setting up the film", code);
+    stream_ = avformat_new_stream(format_, nullptr);
+    if (stream_ == nullptr) {
+        avformat_free_context(format_);
+        throw std::bad_alloc();
+    }
+}
+
+OutputFile::~OutputFile() {
+    avio_closep(&format_->pb);
+    avformat_free_context(format_);
+}
+
+void OutputFile::fail_to_write(int code) const {
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    const int error_number = AVUNERROR(code);
+    throw write_error(named_, error_number > 0 ? error_number : EIO);
+}
+
+void OutputFile::set_tag(const std::string& key, const std::string& value) {
+    av_dict_set(&format_->metadata, key.c_str(), value.c_str(), 0);
+}
+
+void OutputFile::write_header(const OptionList& options) {
+    int code = avio_open(&format_->pb, format_->url, AVIO_FLAG_WRITE);
+    if (code < 0) fail_to_write(code);
+    // bitexact: no library version, no date.
+    format_->flags |= AVFMT_FLAG_BITEXACT;
+    AVDictionary* dictionary = nullptr;
+    add_options(&dictionary, options, "");
+    code = avformat_write_header(format_, &dictionary);
+    av_dict_free(&dictionary);
+    if (code < 0) fail_to_write(code);
+}
+
+void OutputFile::write(AVPacket& packet) {
+    int code = av_interleaved_write_frame(format_, &packet);
+    if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
+    if (code < 0) fail_to_write(code);
+}
+
+void OutputFile::end() {
+    int code = av_write_trailer(format_);
+    if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
+    const int closed = avio_closep(&format_->pb);
+    if (code >= 0) code = closed;
+    if (code < 0) fail_to_write(code);
+}
+
+}  // namespace beamcam::output::ffmpeg
+
+BEAMCAM_MODULE(static_cast<const beamcam::output::VideoLibrary&>(beamcam::output::ffmpeg::kLibrary))

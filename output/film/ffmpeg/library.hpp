@@ -1,0 +1,89 @@
+// What the files of this module share: FFmpeg's errors as exceptions, and the one way in which films are opened.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "output/film/video_library.hpp"
+
+struct AVDictionary;
+struct AVFormatContext;
+struct AVPacket;
+struct AVStream;
+
+namespace beamcam::output::ffmpeg {
+
+// FFmpeg's words for a negative status.
+std::string reason(int code);
+
+// Throws std::bad_alloc for want of memory, else CodecFailure "doing: reason".
+[[noreturn]] void fail(const char* doing, int code);
+
+// A film or picture file, opened for reading. Only containers of pictures are recognized, and nothing but this file is
+// read: play lists, scripts and names with patterns would open other files or addresses.
+class InputFile {
+  public:
+    // Throws IoError.
+    explicit InputFile(const std::filesystem::path& file);
+    ~InputFile();
+    InputFile(InputFile&& other) noexcept;
+    InputFile& operator=(InputFile&&) = delete;
+
+    AVFormatContext& format() const { return *format_; }
+    const std::filesystem::path& file() const { return file_; }
+    std::string tag(const char* key) const;                     // of its metadata; empty when there is none
+    [[noreturn]] void refuse(const std::string& why) const;     // IoError with the file's name
+    [[noreturn]] void refuse(const char* why, int code) const;  // the same with FFmpeg's reason
+
+  private:
+    std::filesystem::path file_;
+    AVFormatContext* format_ = nullptr;
+};
+
+// Frames that a part of a film holds: first ≤ n < end, of those of the whole film. From the tag "beamcam-frames".
+struct FrameRange {
+    long first = 0, end = 0, begin_of_all = 0, end_of_all = 0;
+    long count() const { return end - first; }
+};
+std::optional<FrameRange> frame_range(const InputFile& file);
+
+// How many frames the file says that this stream holds; 0: it does not say.
+long declared_frames(const InputFile& file, const AVStream& stream);
+
+constexpr const char* kDamaged = "the film is damaged or cut off; make or copy it again";
+
+// The other files of the module.
+std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings);
+std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file);
+std::int64_t concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file,
+                         const std::filesystem::path& named, const std::string& container);
+
+// A film that is being written: container, one stream, a packet.
+class OutputFile {
+  public:
+    // `named`: what messages call it.
+    OutputFile(const std::filesystem::path& file, std::filesystem::path named, const std::string& container);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    AVFormatContext& format() const { return *format_; }
+    AVStream& stream() const { return *stream_; }
+    void set_tag(const std::string& key, const std::string& value);
+    void write_header(const OptionList& options);
+    void write(AVPacket& packet);  // of the stream's time base
+    void end();
+
+  private:
+    [[noreturn]] void fail_to_write(int code) const;
+
+    std::filesystem::path named_;
+    AVFormatContext* format_ = nullptr;
+    AVStream* stream_ = nullptr;
+};
+
+// Adds to a dictionary; keys of the form "name:key" are for the encoder of that name alone.
+void add_options(AVDictionary** to, const OptionList& options, const std::string& encoder);
+
+}  // namespace beamcam::output::ffmpeg

@@ -1,0 +1,187 @@
+#include "output/film/palette.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace beamcam::output {
+namespace {
+
+constexpr int kBits = 5, kSide = 1 << kBits, kFineBits = 6, kFineSide = 1 << kFineBits;
+constexpr std::size_t kColors = 256, kExact = 24;  // of them kept for the commonest colours as they are
+
+struct Rgb {
+    int r, g, b;
+};
+// Over white: premultiplied colour and the rest of the alpha.
+Rgb over_white(std::uint32_t p) {
+    const int rest = 255 - static_cast<int>(p >> 24);
+    return {static_cast<int>(p >> 16 & 255) + rest, static_cast<int>(p >> 8 & 255) + rest,
+            static_cast<int>(p & 255) + rest};
+}
+std::uint32_t packed(Rgb c) {
+    return 0xff000000U | static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 |
+           static_cast<std::uint32_t>(c.b);
+}
+std::size_t cell_of(Rgb c, int bits) {
+    const int drop = 8 - bits;
+    return static_cast<std::size_t>(((c.r >> drop) << 2 * bits) | ((c.g >> drop) << bits) | (c.b >> drop));
+}
+
+}  // namespace
+
+PaletteMaker::PaletteMaker() : cells_(static_cast<std::size_t>(kSide) * kSide * kSide) {}
+
+void PaletteMaker::add(const render::Image& image) {
+    std::unordered_map<std::uint32_t, std::uint64_t> counts;
+    for (std::uint32_t p : image.pixels) {
+        const Rgb c = over_white(p);
+        ++counts[packed(c)];
+    }
+    for (const auto& [color, count] : counts) {
+        const Rgb c{static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255),
+                    static_cast<int>(color & 255)};
+        Cell& cell = cells_[cell_of(c, kBits)];
+        // Rare colours matter more than their area: edges and thin curves are what the eye follows.
+        const double weight = std::max(1.0, 8.0 * static_cast<double>(count) / (8.0 + static_cast<double>(count) / 64));
+        cell.count += weight;
+        cell.r += weight * c.r, cell.g += weight * c.g, cell.b += weight * c.b;
+    }
+    std::map<std::uint32_t, std::uint64_t> known;
+    for (std::size_t i = 0; i < seen_colors_.size(); ++i) known[seen_colors_[i]] = seen_counts_[i];
+    for (const auto& [color, count] : counts)
+        if (count > image.pixels.size() / 5000) known[color] += count;
+    seen_colors_.clear(), seen_counts_.clear();
+    for (const auto& [color, count] : known) seen_colors_.push_back(color), seen_counts_.push_back(count);
+}
+
+std::vector<std::uint32_t> PaletteMaker::frequent() const {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    for (std::size_t i = 0; i < seen_colors_.size(); ++i) order.emplace_back(seen_counts_[i], seen_colors_[i]);
+    std::ranges::sort(order, [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    std::vector<std::uint32_t> out;
+    for (const auto& [count, color] : order)
+        if (out.size() < kExact) out.push_back(color);
+    return out;
+}
+
+std::vector<std::uint32_t> PaletteMaker::colors() const {
+    struct Item {
+        int r, g, b;
+        Cell cell;
+    };
+    std::vector<Item> items;
+    for (int r = 0; r < kSide; ++r)
+        for (int g = 0; g < kSide; ++g)
+            for (int b = 0; b < kSide; ++b) {
+                const Cell& cell = cells_[static_cast<std::size_t>((r << 2 * kBits) | (g << kBits) | b)];
+                if (cell.count > 0) items.push_back({r, g, b, cell});
+            }
+    std::vector<std::uint32_t> out = frequent();
+    if (items.empty()) return {0xff000000U};
+    // Median cut: the box with the most (weight × extent) is halved at the median of its longest side.
+    struct Cut {
+        std::size_t from, to;
+    };
+    const auto extent = [&](const Cut& c, int& channel) {
+        int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
+        for (std::size_t i = c.from; i < c.to; ++i) {
+            const int v[3] = {items[i].r, items[i].g, items[i].b};
+            for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], v[k]), high[k] = std::max(high[k], v[k]);
+        }
+        channel = 1;  // green first where equal: the eye sees it best
+        for (int k : {0, 2})
+            if (high[k] - low[k] > high[channel] - low[channel]) channel = k;
+        return high[channel] - low[channel];
+    };
+    std::vector<Cut> cuts{{0, items.size()}};
+    while (cuts.size() + out.size() < kColors) {
+        std::size_t best = cuts.size();
+        double most = 0;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            int channel = 0;
+            double weight = 0;
+            const int side = extent(cuts[i], channel);
+            for (std::size_t k = cuts[i].from; k < cuts[i].to; ++k) weight += items[k].cell.count;
+            if (side > 0 && weight * side > most) most = weight * side, best = i;
+        }
+        if (best == cuts.size()) break;
+        const Cut cut = cuts[best];
+        int channel = 0;
+        extent(cut, channel);
+        const auto value = [&](const Item& item) { return channel == 0 ? item.r : channel == 1 ? item.g : item.b; };
+        std::stable_sort(items.begin() + static_cast<std::ptrdiff_t>(cut.from),
+                         items.begin() + static_cast<std::ptrdiff_t>(cut.to),
+                         [&](const Item& a, const Item& b) { return value(a) < value(b); });
+        double all = 0, part = 0;
+        for (std::size_t k = cut.from; k < cut.to; ++k) all += items[k].cell.count;
+        std::size_t middle = cut.from + 1;
+        for (std::size_t k = cut.from; k + 1 < cut.to; ++k) {
+            part += items[k].cell.count;
+            middle = k + 1;
+            if (part >= all / 2) break;
+        }
+        cuts[best] = {cut.from, middle};
+        cuts.push_back({middle, cut.to});
+    }
+    for (const Cut& cut : cuts) {
+        Cell sum;
+        for (std::size_t k = cut.from; k < cut.to; ++k) {
+            const Cell& c = items[k].cell;
+            sum.count += c.count, sum.r += c.r, sum.g += c.g, sum.b += c.b;
+        }
+        const auto mean = [&](double v) { return static_cast<int>(std::lround(v / sum.count)); };
+        out.push_back(packed({mean(sum.r), mean(sum.g), mean(sum.b)}));
+    }
+    std::ranges::sort(out);
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colors.begin(), colors.end()) {
+    if (colors_.empty() || colors_.size() > kColors) throw std::logic_error("PaletteTable: 1 to 256 colours");
+    index_.resize(static_cast<std::size_t>(kFineSide) * kFineSide * kFineSide);
+    for (int r = 0; r < kFineSide; ++r)
+        for (int g = 0; g < kFineSide; ++g)
+            for (int b = 0; b < kFineSide; ++b) {
+                const int R = 4 * r + 2, G = 4 * g + 2, B = 4 * b + 2;
+                int best = 0, least = std::numeric_limits<int>::max();
+                for (std::size_t i = 0; i < colors_.size(); ++i) {
+                    const int dr = R - static_cast<int>(colors_[i] >> 16 & 255),
+                              dg = G - static_cast<int>(colors_[i] >> 8 & 255),
+                              db = B - static_cast<int>(colors_[i] & 255);
+                    const int d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;  // roughly what the eye tells apart
+                    if (d < least) least = d, best = static_cast<int>(i);
+                }
+                index_[static_cast<std::size_t>((r << 2 * kFineBits) | (g << kFineBits) | b)] =
+                    static_cast<std::uint8_t>(best);
+            }
+    // Colours of the palette map to themselves whatever their cell's centre is nearest to.
+    for (std::size_t i = 0; i < colors_.size(); ++i)
+        index_[cell_of({static_cast<int>(colors_[i] >> 16 & 255), static_cast<int>(colors_[i] >> 8 & 255),
+                        static_cast<int>(colors_[i] & 255)},
+                       kFineBits)] = static_cast<std::uint8_t>(i);
+}
+
+void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
+                           const render::Tiles& part) const {
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y) {
+            const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
+            std::uint8_t* out = to + y * stride;
+            for (int x = left; x < right; ++x) out[x] = index_[cell_of(over_white(row[x]), kFineBits)];
+        }
+    });
+}
+void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const {
+    render::Tiles all(image.width, image.height);
+    all.add_all();
+    convert(image, to, stride, all);
+}
+
+}  // namespace beamcam::output

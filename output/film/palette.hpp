@@ -1,0 +1,47 @@
+// 256 colours for a film, and the way from pixels to them.
+//
+// The colours are found once, from a few frames (median cut on a histogram of 5 bits a channel, each box then at the
+// mean of its pixels), so that nothing flickers; a table of 64³ cells turns pixels into indices, one picture at a
+// time. Transparent pixels show over white.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/draw/image.hpp"
+#include "render/draw/tiles.hpp"
+
+namespace beamcam::output {
+
+class PaletteMaker {
+  public:
+    PaletteMaker();
+    void add(const render::Image& image);
+    std::vector<std::uint32_t> colors() const;  // 0xffRRGGBB, at most 256, those of frequent flat areas exact
+
+  private:
+    struct Cell {
+        double count = 0, r = 0, g = 0, b = 0;
+    };
+    std::vector<std::uint32_t> frequent() const;
+    std::vector<Cell> cells_;                 // 32³
+    std::vector<std::uint32_t> seen_colors_;  // flat colours, and how often
+    std::vector<std::uint64_t> seen_counts_;
+};
+
+class PaletteTable {
+  public:
+    explicit PaletteTable(std::span<const std::uint32_t> colors);  // 1 to 256
+    // One byte a pixel, rows of `stride` bytes; what is not of the part stays.
+    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride, const render::Tiles& part) const;
+    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const;
+
+  private:
+    std::vector<std::uint32_t> colors_;
+    std::vector<std::uint8_t> index_;  // 64³: by the upper 6 bits of each channel
+};
+
+}  // namespace beamcam::output

@@ -1,0 +1,531 @@
+#include "output/film/video.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "output/files/atomic_file.hpp"
+#include "output/film/palette.hpp"
+#include "output/film/video_library.hpp"
+#include "output/film/yuv.hpp"
+#include "render/base/memory.hpp"
+
+namespace beamcam::output {
+
+namespace {
+
+// ---- options -----------------------------------------------------------------------------------
+
+constexpr double kLongestHold = 5;  // [s]
+constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
+                                 "medium",    "slow",      "slower",   "veryslow", "placebo"};
+std::string presets_in_words() {
+    std::string text;
+    for (const char* preset : kPresets) text += (text.empty() ? "" : ", ") + std::string(preset);
+    return text;
+}
+
+// ---- what each kind of film asks of FFmpeg -------------------------------------------------------
+
+enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
+struct Recipe {
+    const char* container;
+    std::vector<std::string> encoders;
+    const char* pixel_format;
+    PixelLayout layout;
+    OptionList encoder_options, container_options;
+    std::string missing;
+};
+
+const char* container_of(std::string_view ending) {
+    if (ending == ".webm") return "webm";
+    if (ending == ".mov") return "mov";
+    if (ending == ".mkv") return "matroska";
+    if (ending == ".gif") return "gif";
+    if (ending == ".apng") return "apng";
+    if (ending == ".webp") return "webp";
+    return "mp4";
+}
+
+void add_encoder(Recipe& r, const VideoOptions& o) {
+    const std::string crf = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
+    switch (o.codec) {
+        case Codec::h264:
+            // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
+            r = {r.container,
+                 {"libx264"},
+                 "yuv420p",
+                 PixelLayout::yuv420,
+                 {{"preset", o.preset}, {"crf", crf}, {"x264-params", "cpu-independent=1"}},
+                 {},
+                 {}};
+            return;
+        case Codec::vp9:
+            // Columns of tiles may run on several threads; the picture does not depend on how many do.
+            r = {r.container,
+                 {"libvpx-vp9"},
+                 o.transparent ? "yuva420p" : "yuv420p",
+                 o.transparent ? PixelLayout::yuva420 : PixelLayout::yuv420,
+                 {{"crf", crf}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}},
+                 {},
+                 {}};
+            if (o.transparent) r.encoder_options.emplace_back("auto-alt-ref", "0");  // which alpha cannot have
+            return;
+        case Codec::av1:
+            r = {r.container,
+                 {"libsvtav1", "libaom-av1"},
+                 "yuv420p",
+                 PixelLayout::yuv420,
+                 {{"crf", crf}, {"libsvtav1:preset", "8"}, {"libaom-av1:cpu-used", "6"}, {"libaom-av1:b", "0"}},
+                 {},
+                 {}};
+            return;
+        case Codec::prores:
+            r = {r.container,
+                 {"prores_ks"},
+                 "yuva444p10le",
+                 PixelLayout::yuva444p10,
+                 {{"profile", "4444"}, {"vendor", "apl0"}, {"alpha_bits", o.transparent ? "16" : "0"}},
+                 {},
+                 {}};
+            return;
+        case Codec::ffv1:
+            r = {r.container,
+                 {"ffv1"},
+                 o.transparent ? "bgra" : "bgr0",
+                 PixelLayout::bgra,
+                 {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}},
+                 {},
+                 {}};
+            return;
+        case Codec::gif:
+            r = {r.container, {"gif"}, "pal8", PixelLayout::indices, {}, {{"loop", "0"}}, {}};
+            return;
+        case Codec::apng:
+            r = {r.container,
+                 {"apng"},
+                 o.transparent ? "rgba" : "rgb24",
+                 o.transparent ? PixelLayout::rgba : PixelLayout::rgb,
+                 {{"compression_level", "6"}, {"pred", "up"}},
+                 {{"plays", "0"}},
+                 {}};
+            return;
+        case Codec::webp:
+            r = {r.container,
+                 {"libwebp_anim"},
+                 "bgra",
+                 PixelLayout::bgra,
+                 {{"quality", "80"}, {"compression_level", "2"}},
+                 {{"loop", "0"}},
+                 {}};
+            return;
+    }
+}
+
+// What makes a film whose pictures last unequally as long as they do together.
+void keep_durations(Recipe& r, const VideoOptions& o) {
+    const FrameRate fps = frame_rate(o.fps);
+    // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
+    if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
+    // Else their last picture would last as long as the one before.
+    if (o.codec == Codec::gif)
+        r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));
+    if (o.codec == Codec::apng)
+        r.container_options.emplace_back("final_delay", std::to_string(fps.base) + "/" + std::to_string(fps.rate));
+}
+
+Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
+    Recipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
+    add_encoder(r, o);
+    r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
+    for (const std::string& encoder : r.encoders) r.missing += (encoder == r.encoders.front() ? "" : " or ") + encoder;
+    r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
+    // faststart: the index stands first, so that players begin before they have the whole file.
+    // use_metadata_tags: keys of our own are kept.
+    if (ending == ".mp4" || ending == ".mov")
+        r.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
+    if (o.variable_rate) keep_durations(r, o);
+    return r;
+}
+
+// Bytes of each pixel in the order named, colour not premultiplied.
+void copy_pixels(const std::uint32_t* from, int count, PixelLayout layout, std::uint8_t* out) {
+    for (int x = 0; x < count; ++x) {
+        const std::uint32_t p = from[x], a = p >> 24;
+        std::uint32_t r = p >> 16 & 255, g = p >> 8 & 255, b = p & 255;
+        if (a != 0 && a != 255) r = (255 * r + a / 2) / a, g = (255 * g + a / 2) / a, b = (255 * b + a / 2) / a;
+        if (layout == PixelLayout::bgra) std::swap(r, b);
+        *out++ = static_cast<std::uint8_t>(r);
+        *out++ = static_cast<std::uint8_t>(g);
+        *out++ = static_cast<std::uint8_t>(b);
+        if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(a);
+    }
+}
+void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride,
+                 const render::Tiles& part) {
+    const std::ptrdiff_t size = layout == PixelLayout::rgb ? 3 : 4;
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y)
+            copy_pixels(image.pixels.data() + std::ptrdiff_t(y) * image.width + left, right - left, layout,
+                        to + y * stride + left * size);
+    });
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+FrameRate frame_rate(double fps) {
+    if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
+    // 23.976, 23.98, 29.97, 59.94 …: the decimals people write differ from n·1000/1001 by less than 0.005,
+    // and no whole rate lies that near to one of them.
+    for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
+        if (std::abs(fps - whole * 1000.0 / 1001) < 0.005) return {whole * 1000, 1001};
+    FrameRate best{static_cast<int>(std::lround(fps)), 1};
+    for (int base = 1; base <= 1000; ++base) {
+        const FrameRate candidate{static_cast<int>(std::lround(fps * base)), base};
+        if (std::abs(candidate.value() - fps) < std::abs(best.value() - fps) - 1e-12 * fps) best = candidate;
+    }
+    return best;
+}
+
+std::vector<std::string> problems(const VideoOptions& o, std::string_view ending) {
+    std::vector<std::string> found;
+    for (std::string problem : {format_problem(ending, o.codec, o.transparent),
+                                size_problem(o.codec, o.width, o.height), rate_problem(o.codec, o.fps)})
+        if (!problem.empty()) found.push_back(std::move(problem));
+    const auto quality = quality_scale(o.codec);
+    if (o.crf && !quality)
+        found.push_back(std::string(title(o.codec)) + " has no crf: it keeps what its format can; leave it out");
+    else if (o.crf && (*o.crf < 0 || *o.crf > quality->worst))
+        found.push_back("crf " + std::to_string(*o.crf) + " is not possible; use 0 (best) to " +
+                        std::to_string(quality->worst) + ", " + std::to_string(quality->usual) + " looks lossless");
+    if (o.codec == Codec::gif && (o.palette.empty() || o.palette.size() > 256))
+        found.push_back("a GIF needs a palette of 1 to 256 colours");
+    if (std::find(kPresets.begin(), kPresets.end(), o.preset) == kPresets.end())
+        found.push_back("the preset \"" + o.preset + "\" is not known; use one of " + presets_in_words());
+    if (o.threads < 1 || o.threads > 4)
+        found.push_back(std::to_string(o.threads) +
+                        " encoder threads are not possible; use 1 to 4, beyond that the film depends on the number");
+    return found;
+}
+
+// A picture on its way: a frame that belongs to the module.
+struct VideoInput::Slot {
+    FramePlanes* frame = nullptr;
+    int uses = 0;         // places in the queue, and one for being the latest picture
+    render::Tiles stale;  // where it is not what its input converted last
+};
+
+// Each input fills a few slots of its own in turn and queues them; `worker` encodes the queue in order. The number of
+// slots bounds how far drawing runs ahead.
+struct VideoWriter::Impl {
+    using Slot = VideoInput::Slot;
+    static constexpr std::size_t kSlotsOfAnInput = 3, kLongestQueue = 12;
+
+    AtomicFile file;
+    VideoOptions options;
+    PixelLayout layout = PixelLayout::yuv420;
+    std::optional<PaletteTable> table;  // of a GIF
+    std::unique_ptr<Encoder> encoder;   // the worker's, but for making frames, until `stop`
+    std::unique_ptr<VideoInput> own;    // of `write`
+
+    mutable std::mutex mutex;  // guards what follows
+    std::condition_variable changed;
+    std::deque<Slot> slots;
+    Slot* latest = nullptr;  // queued last; kept for `repeat`
+    struct Shown {
+        Slot* slot;
+        bool again;  // the picture before, once more
+    };
+    std::deque<Shown> queue;
+    long waiting = 0;  // of the worker: times that the picture coded last is to be shown again
+    long longest_hold = 0;
+    bool closing = false;    // nothing more will come
+    bool abandoned = false;  // and what waits is dropped
+    std::exception_ptr failure;
+    VideoStatistics cost;
+    std::thread worker;
+
+    Impl(const Target& target, const VideoOptions& wanted) : file(target), options(wanted) {
+        open();
+        try {
+            worker = std::thread([this] { work(); });
+        } catch (const std::system_error&) {
+            throw IoError("cannot make " + target.path.string() +
+                          ": no thread can be started for the encoder; close some programs or raise the limits "
+                          "(ulimit -u, ulimit -v)");
+        }
+    }
+
+    ~Impl() { stop(true); }
+
+    void open() {
+        const Recipe recipe = recipe_of(options, file.target().extension().string());
+        layout = recipe.layout;
+        if (options.variable_rate) {
+            longest_hold = std::lround(kLongestHold * options.fps);
+            options.metadata["beamcam-rate-mode"] = "variable";  // what `concat` looks for
+        }
+        std::vector<std::uint32_t> colors = options.palette;
+        if (!colors.empty()) table.emplace(colors);
+        colors.resize(256, 0xff000000U);
+        const FrameRate fps = frame_rate(options.fps);
+        EncoderSettings settings;
+        settings.file = file.temporary_path();
+        settings.named = file.target();
+        settings.width = options.width;
+        settings.height = options.height;
+        settings.rate = fps.rate;
+        settings.rate_base = fps.base;
+        settings.threads = options.threads;
+        settings.container = recipe.container;
+        settings.encoders = recipe.encoders;
+        settings.pixel_format = recipe.pixel_format;
+        settings.encoder_options = recipe.encoder_options;
+        settings.container_options = recipe.container_options;
+        settings.missing = recipe.missing;
+        if (layout == PixelLayout::indices) std::copy(colors.begin(), colors.end(), settings.palette.emplace().begin());
+        settings.metadata.assign(options.metadata.begin(), options.metadata.end());
+        try {
+            encoder = video_library().open_encoder(settings);
+        } catch (const CodecFailure& error) {                       // what no rule of ours knew
+            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
+            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
+                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                    " pixels here (" + error.what() +
+                                    "); choose a smaller size, or write frames (NAME-####.png)");
+        }
+    }
+
+    // Slots for one more input.
+    std::vector<Slot*> more_slots() {
+        const std::lock_guard lock(mutex);
+        std::vector<Slot*> more;
+        for (std::size_t i = 0; i < kSlotsOfAnInput; ++i) {
+            slots.push_back({&encoder->make_frame(), 0, render::Tiles(options.width, options.height)});
+            slots.back().stale.add_all();
+            more.push_back(&slots.back());
+        }
+        return more;
+    }
+
+    void work() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            const Clock::time_point idle = Clock::now();
+            changed.wait(lock, [this] { return closing || !queue.empty(); });
+            cost.idle_seconds += seconds_since(idle);
+            if (abandoned || queue.empty()) return;
+            const auto [slot, again] = queue.front();
+            if (again && waiting + 1 < longest_hold) {
+                ++waiting;
+                ++cost.held;
+            } else {
+                encode(*slot, lock);
+            }
+            queue.pop_front();
+            --slot->uses;
+            changed.notify_all();
+        }
+    }
+
+    // After what waits to be shown again has had its time. What fails is left where the next `write` or `finish` finds
+    // it, and ends `work`.
+    void encode(Slot& slot, std::unique_lock<std::mutex>& lock) {
+        const long held = std::exchange(waiting, 0);
+        lock.unlock();
+        const Clock::time_point start = Clock::now();
+        std::exception_ptr error;
+        try {
+            if (held > 0) encoder->hold(held);
+            encoder->encode(*slot.frame);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        const double spent = seconds_since(start);
+        lock.lock();
+        cost.encode_seconds += spent;
+        if (!error) {
+            ++cost.frames;
+            return;
+        }
+        closing = abandoned = true;
+        failure = error;
+    }
+
+    // What is left after the last picture was queued, and the end of the file.
+    void finish() {
+        stop(false);
+        std::unique_lock lock(mutex);
+        // A film that ends with a picture held ends with its last frame, so that it lasts as long as it should.
+        if (!failure && waiting > 0) {
+            --waiting;
+            --cost.held;
+            encode(*latest, lock);
+        }
+        if (failure) std::rethrow_exception(failure);
+        const Clock::time_point start = Clock::now();
+        encoder->finish();
+        cost.encode_seconds += seconds_since(start);
+        file.commit();
+    }
+
+    // The picture queued last; null before the first.
+    Slot* last() {
+        const std::lock_guard lock(mutex);
+        return latest;
+    }
+
+    // Waits until `ready`, which runs under the lock. Throws what the encoder met.
+    template <typename Ready>
+    void wait_until(std::unique_lock<std::mutex>& lock, Ready ready) {
+        const Clock::time_point start = Clock::now();
+        changed.wait(lock, [&] { return failure || ready(); });
+        cost.wait_seconds += seconds_since(start);
+        if (failure) std::rethrow_exception(failure);
+    }
+
+    // One of these that is neither waiting nor the latest.
+    Slot& unused(const std::vector<Slot*>& among) {
+        std::unique_lock lock(mutex);
+        Slot* found = nullptr;
+        wait_until(lock, [&] {
+            for (Slot* slot : among)
+                if (slot->uses == 0) found = slot;
+            return found != nullptr;
+        });
+        return *found;
+    }
+
+    void convert(const render::Image& image, Slot& slot) {
+        if (image.width != options.width || image.height != options.height)
+            throw std::logic_error("a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                                   " in a film of " + std::to_string(options.width) + "x" +
+                                   std::to_string(options.height));
+        const Clock::time_point start = Clock::now();
+        convert(image, *slot.frame, slot.stale);
+        slot.stale.clear();
+        const double spent = seconds_since(start);
+        const std::lock_guard lock(mutex);
+        cost.convert_seconds += spent;
+    }
+
+    void convert(const render::Image& image, const FramePlanes& frame, const render::Tiles& part) const {
+        YuvaPlanes planes;
+        for (std::size_t i = 0; i < 4; ++i) {
+            planes.plane[i] = frame.plane[i];
+            planes.stride[i] = frame.stride[i];
+        }
+        switch (layout) {
+            case PixelLayout::yuv420:
+                return convert_to_yuv420(image,
+                                         {{planes.plane[0], planes.plane[1], planes.plane[2]},
+                                          {planes.stride[0], planes.stride[1], planes.stride[2]}},
+                                         part);
+            case PixelLayout::yuva420:
+                return convert_to_yuva420(image, planes, part);
+            case PixelLayout::yuva444p10:
+                return convert_to_yuva444p10(image, planes, part);
+            case PixelLayout::indices:
+                return table->convert(image, planes.plane[0], planes.stride[0], part);
+            case PixelLayout::bgra:
+            case PixelLayout::rgba:
+            case PixelLayout::rgb:
+                return copy_pixels(image, layout, planes.plane[0], planes.stride[0], part);
+        }
+    }
+
+    void enqueue(Slot& slot, bool again = false) {
+        std::unique_lock lock(mutex);
+        wait_until(lock, [this] { return queue.size() < kLongestQueue; });
+        queue.push_back({&slot, again});
+        ++slot.uses;
+        if (latest != &slot) {
+            if (latest != nullptr) --latest->uses;
+            latest = &slot;
+            ++slot.uses;
+        }
+        changed.notify_all();
+    }
+
+    void stop(bool abandon) {
+        {
+            const std::lock_guard lock(mutex);
+            closing = true;
+            abandoned = abandoned || abandon;
+        }
+        changed.notify_all();
+        if (worker.joinable()) worker.join();
+    }
+};
+
+VideoWriter::VideoWriter(const Target& file, const VideoOptions& options) {
+    if (const auto found = problems(options, file.path.extension().string()); !found.empty()) {
+        std::string text;
+        for (const std::string& problem : found) text += (text.empty() ? "" : "\n") + problem;
+        throw UnsupportedOption(text);
+    }
+    impl_ = std::make_unique<Impl>(file, options);
+}
+
+VideoWriter::~VideoWriter() = default;
+
+void VideoWriter::write(const render::Image& image) {
+    if (!impl_->own) impl_->own = std::make_unique<VideoInput>(*this);
+    render::Tiles all(impl_->options.width, impl_->options.height);
+    all.add_all();
+    impl_->own->convert(image, all);
+    impl_->own->send();
+}
+
+void VideoWriter::repeat() {
+    Impl::Slot* last = impl_->last();
+    if (last == nullptr) throw std::logic_error("VideoWriter: nothing to repeat");
+    impl_->enqueue(*last, true);
+}
+
+VideoInput::VideoInput(VideoWriter& film) : film_(*film.impl_), slots_(film_.more_slots()) {}
+
+void VideoInput::convert(const render::Image& image, const render::Tiles& changed) {
+    for (Slot* slot : slots_) slot->stale.add(changed);
+    Slot& slot = film_.unused(slots_);
+    film_.convert(image, slot);
+    filled_ = &slot;
+}
+
+void VideoInput::send() {
+    if (filled_ == nullptr) throw std::logic_error("VideoInput: nothing to send");
+    film_.enqueue(*std::exchange(filled_, nullptr));
+}
+
+void VideoWriter::finish() {
+    if (impl_->last() == nullptr) throw std::logic_error("VideoWriter: a film needs at least one picture");
+    impl_->finish();
+}
+
+VideoStatistics VideoWriter::statistics() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->cost;
+}
+
+long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file) {
+    AtomicFile target(file);
+    const std::int64_t frames = video_library().concatenate(segments, target.temporary_path(), file.path,
+                                                            container_of(file.path.extension().string()));
+    target.commit();
+    return static_cast<long>(frames);
+}
+
+}  // namespace beamcam::output

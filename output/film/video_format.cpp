@@ -1,0 +1,140 @@
+#include "output/film/video_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace beamcam::output {
+namespace {
+
+struct Entry {
+    Codec codec;
+    const char *name, *title;
+    bool alpha, even;
+    int usual, worst;  // of crf; worst 0: none
+};
+constexpr std::array kEntries{Entry{Codec::h264, "h264", "H.264", false, true, 18, 51},
+                              Entry{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
+                              Entry{Codec::av1, "av1", "AV1", false, true, 26, 63},
+                              Entry{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
+                              Entry{Codec::ffv1, "ffv1", "FFV1", true, false, 0, 0},
+                              Entry{Codec::gif, "gif", "GIF", false, false, 0, 0},
+                              Entry{Codec::apng, "apng", "APNG", true, false, 0, 0},
+                              Entry{Codec::webp, "webp", "WebP", true, false, 0, 0}};
+
+const Entry& entry(Codec codec) { return *std::ranges::find(kEntries, codec, &Entry::codec); }
+
+struct Home {
+    std::string_view ending;
+    std::array<std::optional<Codec>, 4> codecs;  // the usual one first
+};
+constexpr std::array kHomes{Home{".mp4", {Codec::h264, Codec::av1}},
+                            Home{".webm", {Codec::vp9, Codec::av1}},
+                            Home{".mov", {Codec::prores, Codec::h264}},
+                            Home{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9, Codec::av1}},
+                            Home{".gif", {Codec::gif}},
+                            Home{".apng", {Codec::apng}},
+                            Home{".webp", {Codec::webp}}};
+
+const Home* home(std::string_view ending) {
+    const auto at = std::ranges::find(kHomes, ending, &Home::ending);
+    return at == kHomes.end() ? nullptr : &*at;
+}
+
+constexpr int kSmallestSide = 16, kLargestSide = 16384;                // x264's
+constexpr int kSmallestAv1Side = 64;                                   // SVT-AV1's
+constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
+constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
+constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;    // [Hz]
+
+std::string plain(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+const char* name(Codec codec) { return entry(codec).name; }
+const char* title(Codec codec) { return entry(codec).title; }
+std::optional<Codec> codec_named(std::string_view wanted) {
+    const auto at = std::ranges::find(kEntries, wanted, [](const Entry& e) { return std::string_view(e.name); });
+    return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
+}
+std::optional<Codec> default_codec(std::string_view ending) {
+    const Home* h = home(ending);
+    return h ? h->codecs.front() : std::nullopt;
+}
+bool goes_into(Codec codec, std::string_view ending) {
+    const Home* h = home(ending);
+    return h && std::ranges::find(h->codecs, std::optional(codec)) != h->codecs.end();
+}
+
+bool has_alpha(Codec codec) { return entry(codec).alpha; }
+bool needs_even_sides(Codec codec) { return entry(codec).even; }
+std::optional<QualityScale> quality_scale(Codec codec) {
+    const Entry& e = entry(codec);
+    if (e.worst == 0) return std::nullopt;
+    return QualityScale{e.usual, e.worst};
+}
+
+std::string format_problem(std::string_view ending, Codec codec, bool transparent) {
+    const Home* h = home(ending);
+    if (!h) {
+        std::string all;
+        for (const Home& known : kHomes) all += (all.empty() ? "" : ", ") + std::string(known.ending);
+        return std::string("\"").append(ending) + "\" is no film's ending; use " + all;
+    }
+    if (!goes_into(codec, ending)) {
+        std::string held, homes;
+        for (const auto& c : h->codecs)
+            if (c) held += (held.empty() ? "" : " or ") + std::string(name(*c));
+        for (const Home& known : kHomes)
+            if (goes_into(codec, known.ending)) homes += (homes.empty() ? "" : " or ") + std::string(known.ending);
+        return std::string(title(codec)) + " does not go into a " + std::string(ending) + " file, which holds " + held +
+               "; name a " + homes + " file, or change the codec";
+    }
+    if (transparent && !has_alpha(codec))
+        return std::string(title(codec)) +
+               (codec == Codec::gif ? " has no half-transparent pixels, and every edge needs them"
+                                    : " cannot be transparent") +
+               "; name a .webm (vp9), .mov (prores), .mkv (ffv1), .apng or .webp file, or write frames (NAME-####.png)";
+    return {};
+}
+
+std::string size_problem(Codec codec, int width, int height) {
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (std::min(width, height) < kSmallestSide || std::max(width, height) > kLargestSide)
+        return "a film of " + size + " pixels is not possible; both sides must be " + std::to_string(kSmallestSide) +
+               " to " + std::to_string(kLargestSide);
+    if (codec == Codec::av1 && std::min(width, height) < kSmallestAv1Side)
+        return "an AV1 film of " + size + " pixels is not possible; both sides must be at least " +
+               std::to_string(kSmallestAv1Side) + ", or choose another codec";
+    if (codec == Codec::webp && std::max(width, height) > kLargestWebpSide)
+        return "an animated WebP of " + size + " pixels is not possible; both sides must be at most " +
+               std::to_string(kLargestWebpSide) + ", or choose another codec";
+    if (8 * (std::int64_t{width} + 128) * (std::int64_t{height} + 128) > kLargestPicture)
+        return "a film of " + size +
+               " pixels is not possible, because FFmpeg takes no picture larger than "
+               "16250x16250; choose a smaller size, or write frames (NAME-####.png)";
+    if (needs_even_sides(codec) && (width % 2 != 0 || height % 2 != 0))
+        return "a film of " + size + " pixels is not possible, because " + title(codec) +
+               " (yuv420p) stores colour for pairs of rows and columns; use " + std::to_string(width + width % 2) +
+               "x" + std::to_string(height + height % 2) +
+               ", or a .mov (prores), .mkv (ffv1), .gif, .apng or .webp file";
+    return {};
+}
+
+std::string rate_problem(Codec codec, double fps) {
+    if (!(fps >= kSlowest && fps <= kFastest))
+        return plain(fps) + " frames per second is not possible; use 0.1 to 1000";
+    if (codec == Codec::gif && fps > kFastestGif)
+        return "a GIF counts in hundredths of a second, and players slow down one of more than 50 frames per second; "
+               "use 50, 25 or 20, or a .webp or .apng file for " +
+               plain(fps);
+    return {};
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,17 @@
+#include "output/film/video_library.hpp"
+
+#include "render/base/modules.hpp"
+
+namespace beamcam::output {
+
+const VideoLibrary& video_library() {
+    try {
+        static const auto* const library = static_cast<const VideoLibrary*>(render::load_module("beamcam_video.so"));
+        return *library;
+    } catch (const render::ModuleError& error) {
+        throw MissingCodec(std::string("films need FFmpeg's libraries (Debian: libavcodec59 or newer): ") +
+                           error.what());
+    }
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,104 @@
+// What the module that links FFmpeg offers (beamcam_video.so, from output/ffmpeg/): encoders, decoders, and joining
+// films packet by packet. It is loaded when first used.
+//
+// Every function throws what went wrong in the user's terms (errors.hpp), CodecFailure, or std::bad_alloc.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/files/errors.hpp"
+
+namespace beamcam::output {
+
+// FFmpeg failed where no rule of ours foresaw it.
+struct CodecFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// Segments that do not make one film: another codec, size, rate, encoder setting or scene, out of order, or no film.
+struct Mismatch : IoError {
+    using IoError::IoError;
+};
+
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
+struct EncoderSettings {
+    std::filesystem::path file;   // exists; it is overwritten
+    std::filesystem::path named;  // what messages call it
+    int width = 0, height = 0;    // [px]
+    int rate = 0, rate_base = 1;  // frames per second = rate / rate_base
+    int threads = 1;
+    std::string container;                                  // FFmpeg's name of the muxer
+    std::vector<std::string> encoders;                      // FFmpeg's names; the first that exists is used
+    std::string pixel_format;                               // FFmpeg's name
+    OptionList encoder_options;                             // keys "x:name" are for encoder x alone
+    OptionList container_options;                           //
+    std::string missing;                                    // the message when there is none of these encoders
+    std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
+    OptionList metadata;
+};
+
+// A picture to be filled by the caller: the planes of its pixel format, those that it has.
+struct FramePlanes {
+    std::uint8_t* plane[4] = {};
+    std::ptrdiff_t stride[4] = {};  // [bytes]
+};
+
+class Encoder {
+  public:
+    virtual ~Encoder() = default;  // finished or not
+    // A frame of the encoder's own. Any thread, one at a time.
+    virtual FramePlanes& make_frame() = 0;
+    // Adds the frame to the film; the caller may change it again as soon as this returns.
+    virtual void encode(FramePlanes& frame) = 0;
+    // The frame added last is shown for so many frames' time more.
+    virtual void hold(std::int64_t frames) = 0;
+    virtual void finish() = 0;
+};
+
+struct VideoFacts {
+    int width = 0, height = 0;  // [px]
+    long frames = 0;            // as the file says; 0: it does not
+    double seconds = 0;         // as the file says; 0: it does not
+    std::string codec, container;
+    std::map<std::string, std::string> metadata;
+
+    bool is_still() const { return container.ends_with("_pipe") && container != "webp_pipe"; }
+};
+
+class Decoder {
+  public:
+    virtual ~Decoder() = default;
+    virtual const VideoFacts& facts() const = 0;
+    // The next picture as 4·width·height bytes R, G, B, A. False after the last one.
+    virtual bool next(std::uint8_t* rgba) = 0;
+};
+
+class VideoLibrary {
+  public:
+    virtual ~VideoLibrary() = default;
+    virtual std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const = 0;
+    virtual std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file) const = 0;
+    // One film out of several, packets as they are. `file` exists and is overwritten; messages call it `named`.
+    // Returns how many frames there are.
+    virtual std::int64_t concatenate(const std::vector<std::filesystem::path>& segments,
+                                     const std::filesystem::path& file, const std::filesystem::path& named,
+                                     const std::string& container) const = 0;
+    virtual std::string versions() const = 0;                     // "libavcodec 59.37.100, …"
+    virtual bool has_encoder(const std::string& name) const = 0;  // by FFmpeg's name
+};
+
+// Throws MissingCodec with every place that was searched.
+const VideoLibrary& video_library();
+
+}  // namespace beamcam::output

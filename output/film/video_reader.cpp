@@ -1,0 +1,47 @@
+#include "output/film/video_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace beamcam::output {
+
+VideoReader::VideoReader(const std::filesystem::path& file)
+    : file_(file), decoder_(video_library().open_decoder(file)) {
+    const VideoFacts& found = facts();
+    if (found.width <= kLargestSide && found.height <= kLargestSide) return;
+    throw IoError("cannot read " + file.string() + ": " + std::to_string(found.width) + "x" +
+                  std::to_string(found.height) + " pixels are more than the " + std::to_string(kLargestSide) + "x" +
+                  std::to_string(kLargestSide) + " that beamcam handles");
+}
+
+bool VideoReader::next(Raster& picture) {
+    picture.resize(facts().width, facts().height);
+    if (decoder_->next(picture.rgba.data())) {
+        ++read_;
+        return true;
+    }
+    if (read_ == 0 || read_ < facts().frames)
+        throw IoError("cannot read " + file_.string() + ": the film ends after " + std::to_string(read_) + " of its " +
+                      std::to_string(facts().frames) + " frames; make or copy it again");
+    return false;
+}
+
+VideoAbilities video_abilities() {
+    const VideoLibrary& library = video_library();
+    VideoAbilities found{library.versions(), {}};
+    const std::pair<const char*, std::vector<const char*>> wanted[] = {
+        {"H.264 (libx264)", {"libx264"}},
+        {"VP9 (libvpx)", {"libvpx-vp9"}},
+        {"AV1 (libsvtav1, libaom)", {"libsvtav1", "libaom-av1"}},
+        {"ProRes", {"prores_ks"}},
+        {"FFV1", {"ffv1"}},
+        {"GIF", {"gif"}},
+        {"APNG", {"apng"}}};
+    for (const auto& [name, any] : wanted)
+        found.encoders[name] =
+            std::any_of(any.begin(), any.end(), [&](const char* encoder) { return library.has_encoder(encoder); });
+    return found;
+}
+
+}  // namespace beamcam::output

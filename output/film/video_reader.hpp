@@ -1,0 +1,39 @@
+// Films as pixels, decoded by FFmpeg's libraries: MP4, WebM, GIF, APNG and whatever else they know.
+//
+// The colours are those of
+//     ffmpeg -i FILM -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba -f framehash -hash sha256 -
+// so that anyone can check a digest. A film that is damaged or ends early is an error, not a shorter film.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "output/film/video_library.hpp"
+#include "output/image/raster.hpp"
+
+namespace beamcam::output {
+
+class VideoReader {
+  public:
+    // Throws IoError, MissingCodec.
+    explicit VideoReader(const std::filesystem::path& file);
+
+    const VideoFacts& facts() const { return decoder_->facts(); }
+    bool next(Raster& picture);  // false after the last; throws IoError
+
+  private:
+    std::filesystem::path file_;
+    std::unique_ptr<Decoder> decoder_;
+    long read_ = 0;
+};
+
+// What the FFmpeg libraries of this machine can do. Throws MissingCodec.
+struct VideoAbilities {
+    std::string versions;                  // "libavcodec 59.37.100, …"
+    std::map<std::string, bool> encoders;  // of those that beamcam's outputs use
+};
+VideoAbilities video_abilities();
+
+}  // namespace beamcam::output

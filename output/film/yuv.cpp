@@ -1,0 +1,157 @@
+#include "output/film/yuv.hpp"
+
+#include <stdexcept>
+#include <string>
+
+// The loops below are plain C++ that compilers vectorize; on x86-64 a wider version is chosen when the program
+// starts. Sanitizers cannot instrument that choice, and integers give the same bytes in every version.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define BEAMCAM_WIDEST __attribute__((target_clones("avx2", "sse4.1", "default")))
+#else
+#define BEAMCAM_WIDEST
+#endif
+
+namespace beamcam::output {
+
+namespace {
+
+// Coefficients of the formula in the header, times 255 levels, with 16 fractional bits.
+constexpr double kRed = 0.2126, kBlue = 0.0722;
+constexpr double kOne = 65536.0 / 255;
+constexpr int rounded(double value) { return static_cast<int>(value < 0 ? value - 0.5 : value + 0.5); }
+
+constexpr int kYR = rounded(219 * kOne * kRed);
+constexpr int kYB = rounded(219 * kOne * kBlue);
+constexpr int kYG = rounded(219 * kOne) - kYR - kYB;  // white is exactly 235
+constexpr int kCbR = rounded(224 * kOne * -kRed / (2 * (1 - kBlue)));
+constexpr int kCbB = rounded(224 * kOne * 0.5);
+constexpr int kCbG = -kCbR - kCbB;  // greys are exactly 128
+constexpr int kCrR = rounded(224 * kOne * 0.5);
+constexpr int kCrB = rounded(224 * kOne * -kBlue / (2 * (1 - kRed)));
+constexpr int kCrG = -kCrR - kCrB;
+
+}  // namespace
+
+// Two rows of pixels into two of luma and one of each chroma. `width` is even.
+BEAMCAM_WIDEST void convert_two_rows(const std::uint32_t* __restrict above, const std::uint32_t* __restrict below,
+                                     int width, std::uint8_t* __restrict y_above, std::uint8_t* __restrict y_below,
+                                     std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
+    const auto luma = [](std::uint32_t p) __attribute__((always_inline)) {
+        const int r = p >> 16 & 0xff, g = p >> 8 & 0xff, b = p & 0xff;
+        return static_cast<std::uint8_t>((kYR * r + kYG * g + kYB * b + (16 << 16) + (1 << 15)) >> 16);
+    };
+    for (int x = 0; x < width; ++x) y_above[x] = luma(above[x]);
+    for (int x = 0; x < width; ++x) y_below[x] = luma(below[x]);
+    for (int x = 0; x < width / 2; ++x) {
+        const std::uint32_t p = above[2 * x], q = above[2 * x + 1], s = below[2 * x], t = below[2 * x + 1];
+        // Red and blue are summed side by side, each in 16 bits: four times 255 fits.
+        const std::uint32_t rb = (p & 0xff00ff) + (q & 0xff00ff) + (s & 0xff00ff) + (t & 0xff00ff);
+        const int r = static_cast<int>(rb >> 16), b = static_cast<int>(rb & 0xffff);
+        const int g = static_cast<int>((p >> 8 & 0xff) + (q >> 8 & 0xff) + (s >> 8 & 0xff) + (t >> 8 & 0xff));
+        constexpr int offset = (128 << 18) + (1 << 17);  // 18 bits: the sums are of four pixels
+        cb[x] = static_cast<std::uint8_t>((kCbR * r + kCbG * g + kCbB * b + offset) >> 18);
+        cr[x] = static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 18);
+    }
+}
+
+namespace {
+
+void require_even(const render::Image& image, const char* what) {
+    if (image.width % 2 != 0 || image.height % 2 != 0)
+        throw std::logic_error(std::string(what) + ": odd size " + std::to_string(image.width) + "x" +
+                               std::to_string(image.height));
+}
+
+render::Tiles whole(const render::Image& image) {
+    render::Tiles all(image.width, image.height);
+    all.add_all();
+    return all;
+}
+
+}  // namespace
+
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::Tiles& part) {
+    require_even(image, "convert_to_yuv420");
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int row = top; row < bottom; row += 2) {
+            const std::uint32_t* pixels = image.pixels.data() + std::ptrdiff_t(row) * image.width + left;
+            convert_two_rows(pixels, pixels + image.width, right - left, to.plane[0] + row * to.stride[0] + left,
+                             to.plane[0] + (row + 1) * to.stride[0] + left,
+                             to.plane[1] + row / 2 * to.stride[1] + left / 2,
+                             to.plane[2] + row / 2 * to.stride[2] + left / 2);
+        }
+    });
+}
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) { convert_to_yuv420(image, to, whole(image)); }
+
+namespace {
+
+struct Straight {
+    int r = 0, g = 0, b = 0, a = 0;
+};
+Straight straight(std::uint32_t p) {
+    const int a = static_cast<int>(p >> 24);
+    if (a == 0) return {};
+    const auto channel = [&](int c) { return a == 255 ? c : (255 * c + a / 2) / a; };
+    return {channel(static_cast<int>(p >> 16 & 255)), channel(static_cast<int>(p >> 8 & 255)),
+            channel(static_cast<int>(p & 255)), a};
+}
+
+// Four pixels with the upper left one at (x, y).
+void convert_four(const render::Image& image, const YuvaPlanes& to, int x, int y) {
+    int r = 0, g = 0, b = 0, weight = 0;
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const Straight c =
+                straight(image.pixels[std::size_t(y + j) * std::size_t(image.width) + std::size_t(x + i)]);
+            to.plane[0][(y + j) * to.stride[0] + x + i] =
+                static_cast<std::uint8_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 15)) >> 16);
+            to.plane[3][(y + j) * to.stride[3] + x + i] = static_cast<std::uint8_t>(c.a);
+            r += c.r * c.a, g += c.g * c.a, b += c.b * c.a, weight += c.a;
+        }
+    if (weight > 0) r = (r + weight / 2) / weight, g = (g + weight / 2) / weight, b = (b + weight / 2) / weight;
+    constexpr int offset = (128 << 16) + (1 << 15);
+    to.plane[1][y / 2 * to.stride[1] + x / 2] =
+        static_cast<std::uint8_t>((kCbR * r + kCbG * g + kCbB * b + offset) >> 16);
+    to.plane[2][y / 2 * to.stride[2] + x / 2] =
+        static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 16);
+}
+
+void convert_row_10(const render::Image& image, const YuvaPlanes& to, int y, int left, int right) {
+    const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
+    std::array<std::uint16_t*, 4> out{};
+    for (std::size_t i = 0; i < 4; ++i) out[i] = reinterpret_cast<std::uint16_t*>(to.plane[i] + y * to.stride[i]);
+    for (int x = left; x < right; ++x) {
+        const Straight c = straight(row[x]);
+        // Two bits more of the same numbers: four times the levels of 8 bits.
+        out[0][x] = static_cast<std::uint16_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 13)) >> 14);
+        out[1][x] = static_cast<std::uint16_t>((kCbR * c.r + kCbG * c.g + kCbB * c.b + (128 << 16) + (1 << 13)) >> 14);
+        out[2][x] = static_cast<std::uint16_t>((kCrR * c.r + kCrG * c.g + kCrB * c.b + (128 << 16) + (1 << 13)) >> 14);
+        out[3][x] = static_cast<std::uint16_t>((c.a * 1023 + 127) / 255);
+    }
+}
+
+}  // namespace
+
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+    require_even(image, "convert_to_yuva420");
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; y += 2)
+            for (int x = left; x < right; x += 2) convert_four(image, to, x, y);
+    });
+}
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to) {
+    convert_to_yuva420(image, to, whole(image));
+}
+
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+    part.for_each_run([&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y) convert_row_10(image, to, y, left, right);
+    });
+}
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to) {
+    convert_to_yuva444p10(image, to, whole(image));
+}
+
+}  // namespace beamcam::output

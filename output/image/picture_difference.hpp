@@ -1,0 +1,41 @@
+// How two pictures of one size differ: in numbers, and as a picture that shows where.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "output/image/raster.hpp"
+
+namespace beamcam::output {
+
+struct PixelBox {  // [px], right and bottom not included
+    int left = 0, top = 0, right = 0, bottom = 0;
+    bool empty() const { return right <= left; }
+    int width() const { return right - left; }
+    int height() const { return bottom - top; }
+};
+
+struct PictureDifference {
+    std::size_t pixels = 0;
+    std::size_t changed = 0;      // some channel differs by more than the threshold
+    std::size_t antialiased = 0;  // of those, what looks like the edge of a shape in one of the pictures (see below)
+    int largest = 0;              // difference of a channel, 0…255, whatever the threshold
+    PixelBox box;                 // around what changed
+    double ssim = 1;              // mean structural similarity of brightness, −1…1
+    double lowest_ssim = 1;       // of the least similar window
+
+    bool identical() const { return largest == 0; }
+    double share() const { return pixels == 0 ? 0 : static_cast<double>(changed) / static_cast<double>(pixels); }
+};
+
+// Structural similarity: Z. Wang et al., IEEE Trans. Image Process. 13 (2004) 600, of the brightness (BT.709) over
+// white, in windows of 8 × 8 pixels four apart, as in FFmpeg's filter "ssim". Antialiasing: a pixel between a brighter
+// and a darker neighbour, one of which lies in a plain area of both pictures; V. Vyšniauskas, "Anti-aliased pixel and
+// intensity slope detector", Elektronika ir Elektrotechnika 95 (2009) 107. Throws std::logic_error when the sizes
+// differ.
+PictureDifference difference(const Raster& a, const Raster& b, int threshold = 0);
+
+// `a` faded to grey, with what changed in vermilion, antialiasing in yellow, and a frame around all of it.
+Raster difference_picture(const Raster& a, const Raster& b, int threshold = 0);
+
+}  // namespace beamcam::output

@@ -1,0 +1,67 @@
+// PNG stills and frames: 8 bits, RGB when every pixel is opaque, otherwise RGBA; sRGB; text as iTXt (UTF-8).
+// One filter ("up") and two ways to compress; with either the same picture gives the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output/files/atomic_file.hpp"
+#include "render/draw/image.hpp"
+#include "render/draw/tiles.hpp"
+
+namespace beamcam::output {
+
+enum class PngCompression {
+    small,  // libdeflate: for single pictures
+    quick,  // literals and runs (run_deflate.hpp), in a tenth of the time and a fifth larger: for sequences of drawings
+};
+
+struct PngOptions {
+    std::optional<double> dpi;                    // [1/inch], > 0; absent: the file says nothing about size
+    std::map<std::string, std::string> metadata;  // keyword (1–79 characters of ASCII) → text (UTF-8)
+    PngCompression compression = PngCompression::small;
+};
+
+// The file's bytes. Throws UnsupportedOption for impossible options, std::logic_error for an empty image.
+std::string encode_png(const render::Image& image, const PngOptions& options = {});
+
+// Pictures of one size and with the same options, one after the other: only what changed is looked at for repetition.
+// The bytes are those of encode_png.
+class PngSequence {
+  public:
+    explicit PngSequence(PngOptions options);
+
+    // `changed`: where the picture may differ from the one before; all of the first. The file's bytes stay until the
+    // next is encoded. Throws as encode_png.
+    const std::string& encode(const render::Image& image, const render::Tiles& changed);
+
+    // The stretches of a row in which a pixel may differ from the one above it.
+    class Others {
+      public:
+        Others() = default;
+        Others(int width, int height);
+        void compare(const render::Image& image, const render::Tiles& changed);
+        std::span<const std::uint8_t> row(std::size_t y) const;  // 0 or 1 for each stretch
+
+      private:
+        std::size_t columns_ = 0;
+        std::vector<std::uint8_t> stretches_;
+    };
+
+  private:
+    PngOptions options_;
+    Others others_;
+    std::string file_;
+};
+
+// Throws IoError as well. Frames of a sequence need not be synced one by one.
+void write_png(const Target& file, const render::Image& image, const PngOptions& options = {},
+               Durability durability = Durability::synced);
+
+}  // namespace beamcam::output

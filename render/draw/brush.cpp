@@ -1,0 +1,187 @@
+#include "render/draw/brush.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <utility>
+
+#include "render/draw/cairo_status.hpp"
+
+namespace beamcam::render {
+
+void Brush::begin(cairo_t* cr) {
+    cr_ = cr;
+    exceptions_ = std::uncaught_exceptions();
+}
+
+void Brush::end() {
+    if (!cr_) return;
+    const cairo_status_t status = cairo_status(cr_);
+    cairo_destroy(std::exchange(cr_, nullptr));
+    if (std::uncaught_exceptions() == exceptions_) require_success(status);
+}
+
+void Brush::use(Color c) { cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a); }
+
+// ---- where the ink goes ------------------------------------------------------------------------
+
+void Brush::touch(const Box& box) {
+    if (!touched) return;
+    const Box wide = box.inset(-1);  // antialiased edges reach into the next pixel
+    if (!limit_) return touched->add(wide);
+    const double x = std::max(wide.x, limit_->x), y = std::max(wide.y, limit_->y);
+    const Box within{x, y, std::min(wide.right(), limit_->right()) - x, std::min(wide.bottom(), limit_->bottom()) - y};
+    if (!within.empty()) touched->add(within);
+}
+
+void Brush::pass(const Box& box) {
+    if (touched) path_.push_back(box);
+}
+
+// In pieces about as long as a tile, so that a slanted line keeps to few of them.
+void Brush::pass_line(Vec2 from, Vec2 to) {
+    constexpr double kPiece = 48, kMost = 1000;
+    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost));
+    for (int i = 0; i < pieces; ++i) {
+        const Vec2 a = from + (to - from) * (double(i) / pieces), b = from + (to - from) * (double(i + 1) / pieces);
+        path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
+    }
+}
+
+void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
+    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
+    const double step = (to - from) / pieces;
+    const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
+    for (int i = 0; i < pieces; ++i) {
+        const double p = from + i * step, q = p + step;
+        const double ax = radius * std::cos(p), ay = -radius * std::sin(p), bx = radius * std::cos(q),
+                     by = -radius * std::sin(q);
+        path_.push_back(
+            Box{c.x + std::min(ax, bx), c.y + std::min(ay, by), std::abs(bx - ax), std::abs(by - ay)}.inset(-bulge));
+    }
+}
+
+// A stroke is near its path; a fill is anywhere between.
+void Brush::touch_path(double around, bool inside) {
+    if (!touched) return;
+    if (!inside) {
+        for (const Box& box : path_) touch(box.inset(-around));
+        return;
+    }
+    if (!path_.empty()) touch(path_box());
+}
+
+Box Brush::path_box() const {
+    Bounds all;
+    for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
+    return path_.empty() ? Box{} : Box{all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0};
+}
+
+void Brush::note(char what, std::initializer_list<double> numbers, std::string_view words) {
+    if (!keeps_stencils()) return;
+    key_.append(1, what).append(words);
+    key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
+}
+
+void Brush::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
+    if (keeps_stencils() && !name.empty() && stencils->paint(name, box, color, cr_, paint)) return;
+    use(color);
+    paint(cr_);
+}
+
+// ---- paths -------------------------------------------------------------------------------------
+
+void Brush::move_to(Vec2 p) {
+    cairo_move_to(cr_, p.x, p.y);
+    note('m', {p.x, p.y});
+    start_ = at_ = p, open_ = true;
+}
+void Brush::line_to(Vec2 p) {
+    cairo_line_to(cr_, p.x, p.y);
+    note('l', {p.x, p.y});
+    if (!open_) start_ = at_ = p;  // as Cairo does
+    if (touched) pass_line(at_, p);
+    at_ = p, open_ = true;
+}
+void Brush::close() {
+    cairo_close_path(cr_);
+    note('z', {});
+    if (touched && open_) pass_line(at_, start_);
+    at_ = start_;
+}
+
+void Brush::polyline(std::span<const Vec2> points) {
+    bool pen_down = false;
+    for (Vec2 p : points) {
+        if (std::isnan(p.x) || std::isnan(p.y)) {
+            pen_down = false;
+        } else {
+            pen_down ? line_to(p) : move_to(p);
+            pen_down = true;
+        }
+    }
+}
+
+void Brush::arc(Vec2 c, double radius, double from, double to) {
+    if (to >= from)
+        cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
+    else
+        cairo_arc(cr_, c.x, c.y, radius, -from, -to);
+    note('a', {c.x, c.y, radius, from, to});
+    const auto place = [&](double angle) { return c + Vec2{std::cos(angle), -std::sin(angle)} * radius; };
+    if (!open_) start_ = at_ = place(from);
+    if (touched) pass_line(at_, place(from)), pass_arc(c, radius, from, to);
+    at_ = place(to), open_ = true;
+}
+
+void Brush::circle(Vec2 c, double radius) {
+    cairo_new_sub_path(cr_);
+    cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
+    cairo_close_path(cr_);
+    note('o', {c.x, c.y, radius});
+    if (touched) pass_arc(c, radius, 0, 2 * std::numbers::pi);
+    start_ = at_ = c + Vec2{radius, 0}, open_ = true;
+}
+
+void Brush::rectangle(const Box& b) {
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    note('r', {b.x, b.y, b.w, b.h});
+    pass(b);
+    start_ = at_ = {b.x, b.y}, open_ = true;
+}
+
+// ---- ink ---------------------------------------------------------------------------------------
+
+void Brush::fill(Color c) {
+    fill_keeping_path(c);
+    new_path();
+}
+void Brush::fill_keeping_path(Color c) {
+    // Cairo paints what is translucent inside faster than a stencil would.
+    const bool kept = !key_.empty() && c.a == 1;
+    ink(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
+    touch_path(0, true);
+}
+void Brush::new_path() {
+    cairo_new_path(cr_);
+    path_.clear();
+    key_.clear();
+    open_ = false;
+}
+void Brush::stroke(const Pen& pen) {
+    if (!key_.empty()) {
+        note(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
+        for (double length : pen.dash) note('d', {length});
+    }
+    ink(pen.color, key_, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+        cairo_set_line_width(cr, pen.width);
+        cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+        cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
+        cairo_stroke_preserve(cr);
+    });
+    touch_path(pen.width / 2, false);  // joins are round
+    new_path();
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,80 @@
+// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::Sheet) have in common.
+// Units are the drawing's own, y down.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/draw/color.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/draw/stencils.hpp"
+#include "render/draw/tiles.hpp"
+
+using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
+
+namespace beamcam::render {
+
+enum class Cap { butt, round };
+struct Pen {
+    Color color;
+    double width = 1;
+    std::vector<double> dash = {};
+    Cap cap = Cap::round;
+};
+
+class Brush {
+  public:
+    Brush(const Brush&) = delete;
+    Brush& operator=(const Brush&) = delete;
+
+    void move_to(Vec2 p);
+    void line_to(Vec2 p);
+    void polyline(std::span<const Vec2> points);  // NaN breaks the line
+    void close();
+    void arc(Vec2 centre, double radius, double from, double to);  // angles counter-clockwise, Y up [rad]
+    void circle(Vec2 centre, double radius);
+    void rectangle(const Box& box);
+    void fill(Color color);
+    void fill_keeping_path(Color color);
+    void stroke(const Pen& pen);
+
+    // Where ink went, while this is set: never too few tiles.
+    Tiles* touched = nullptr;
+    // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
+    Stencils* stencils = nullptr;
+
+  protected:
+    Brush() = default;
+    ~Brush() noexcept(false) { end(); }
+    void begin(cairo_t* cr);     // takes it over; before anything is drawn
+    void end();                  // while its surface is there; throws what Cairo could not draw
+    void use(Color color);       // for what is painted next
+    void touch(const Box& box);  // ink within it, blurred edges included
+    void pass(const Box& box);   // the path is there
+    void new_path();
+    // What else tells this path from others.
+    void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
+    // Paints the path, or the stencil called `name` that it made.
+    void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
+    bool keeps_stencils() const { return stencils && touched && !limit_; }
+    cairo_t* cr_ = nullptr;
+    const Box* limit_ = nullptr;  // nothing is painted beyond
+
+  private:
+    int exceptions_ = 0;  // in flight when drawing began
+    void pass_line(Vec2 from, Vec2 to);
+    void pass_arc(Vec2 centre, double radius, double from, double to);
+    void touch_path(double around, bool inside);
+    Box path_box() const;
+    std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
+    std::string key_;        // of the path, while stencils are kept
+    Vec2 start_, at_;        // of the open part of the path
+    bool open_ = false;
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,266 @@
+#include "render/draw/canvas.hpp"
+
+#include <cairo.h>
+#include <fmt/format.h>
+#include <pango/pangocairo.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "render/base/error.hpp"
+#include "render/draw/font_handles.hpp"
+
+namespace beamcam::render {
+
+std::string escape(std::string_view plain) {
+    char* escaped = g_markup_escape_text(plain.data(), static_cast<gssize>(plain.size()));
+    std::string out = escaped;
+    g_free(escaped);
+    return out;
+}
+
+// STIX is a little smaller on the body than Inter; 112 % matches the x-heights.
+std::string math(std::string_view symbol) {
+    return fmt::format("<span face='STIXGeneral' style='italic' weight='normal' size='112%'>{}</span>", symbol);
+}
+
+struct Canvas::Handles {
+    cairo_surface_t* surface = nullptr;
+    ~Handles() {
+        if (surface) {
+            cairo_surface_flush(surface);
+            cairo_surface_destroy(surface);
+        }
+    }
+};
+
+namespace {
+
+cairo_surface_t* surface_of(const Image& image) {
+    // Cairo writes only through surfaces that are drawn to; sources are read.
+    auto* bytes = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(image.pixels.data()));
+    return cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
+}
+
+// The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
+void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> within) {
+    cairo_surface_t* surface = surface_of(source);
+    cairo_set_source_surface(cr, surface, x, y);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    for (const Box& b : within)
+        if (!b.empty()) cairo_rectangle(cr, b.x, b.y, b.w, b.h);
+    cairo_fill(cr);
+    cairo_surface_destroy(surface);
+}
+
+PangoWeight pango(Weight weight) {
+    switch (weight) {
+        case Weight::regular:
+            return PANGO_WEIGHT_NORMAL;
+        case Weight::medium:
+            return PANGO_WEIGHT_MEDIUM;
+        case Weight::semibold:
+            return PANGO_WEIGHT_SEMIBOLD;
+    }
+    return PANGO_WEIGHT_NORMAL;
+}
+
+// Figures are tabular so that running numbers do not jitter.
+PangoLayout* laid_out(PangoContext* context, const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = pango_layout_new(context);
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, "Inter,STIXGeneral,Noto Sans CJK SC");
+    pango_font_description_set_weight(font, pango(style.weight));
+    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    pango_layout_set_ellipsize(layout, style.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
+    pango_layout_set_width(layout, style.max_width > 0 ? static_cast<int>(style.max_width * PANGO_SCALE) : -1);
+    const std::string wrapped = "<span font_features='tnum=1'>" + markup + "</span>";
+    pango_layout_set_markup(layout, wrapped.c_str(), static_cast<int>(wrapped.size()));
+    return layout;
+}
+
+// What was laid out lately is there already: most words of a film are those of the frame before.
+std::string key_of(const std::string& markup, const TextStyle& style) {
+    const double numbers[] = {style.size, style.max_width, static_cast<double>(style.weight)};
+    std::string key(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    return key += markup;
+}
+PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextStyle& style) {
+    return fonts.handles().words.get(key_of(markup, style),
+                                     [&] { return laid_out(fonts.handles().context, markup, style); });
+}
+
+constexpr double kHalo = 0.30;  // width of its outline in parts of the size
+
+struct Metrics {
+    Box ink;          // relative to the baseline's start
+    double advance;   // [px]
+    double baseline;  // from the layout's top
+};
+
+Metrics metrics(PangoLayout* layout) {
+    PangoRectangle ink, logical;
+    pango_layout_get_extents(layout, &ink, &logical);
+    const double k = 1.0 / PANGO_SCALE, baseline = pango_layout_get_baseline(layout) * k;
+    return {{ink.x * k, ink.y * k - baseline, ink.width * k, ink.height * k}, logical.width * k, baseline};
+}
+
+}  // namespace
+
+Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), image_(image), fonts_(fonts) {
+    handles_->surface = surface_of(image);
+    begin(cairo_create(handles_->surface));
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn: {}", image.width, image.height,
+                                       cairo_status_to_string(cairo_status(cr_))));
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+}
+Canvas::~Canvas() noexcept(false) { end(); }
+
+void Canvas::rounded(const Box& b, double r) {
+    constexpr double q = std::numbers::pi / 2;
+    cairo_new_sub_path(cr_);
+    cairo_arc(cr_, b.right() - r, b.y + r, r, -q, 0);
+    cairo_arc(cr_, b.right() - r, b.bottom() - r, r, 0, q);
+    cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
+    cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
+    cairo_close_path(cr_);
+    note('O', {b.x, b.y, b.w, b.h, r});
+    pass(b);
+}
+
+void Canvas::paint(Color c) {
+    use(c);
+    cairo_paint(cr_);
+    if (touched) touched->add_all();
+}
+
+// A shaft and a filled head; an arrow shorter than its head is a smaller head.
+void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
+    const Vec2 way = to - from;
+    const double length = norm(way);
+    if (!(length > 0)) return;
+    const Vec2 u = way * (1 / length), v = sim::perp(u);
+    const double tip = std::min(head, length);
+    const Vec2 neck = to - u * tip;
+    if (length > tip) {
+        move_to(from);
+        line_to(neck + u * (0.2 * tip));
+        stroke({pen.color, pen.width, {}, Cap::butt});
+    }
+    move_to(to);
+    line_to(neck + v * (0.42 * tip));
+    line_to(neck - v * (0.42 * tip));
+    close();
+    fill(pen.color);
+}
+
+namespace {
+// In whole pixels, rounded outwards, within the source.
+Box whole_part(const Image& source, const Box& part) {
+    const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
+    const double y0 = std::clamp(std::floor(part.y), 0.0, double(source.height));
+    const double x1 = std::clamp(std::ceil(part.right()), x0, double(source.width));
+    const double y1 = std::clamp(std::ceil(part.bottom()), y0, double(source.height));
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+}  // namespace
+
+void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
+    const Box b = whole_part(source, part), there{b.x + x, b.y + y, b.w, b.h};
+    blend(cr_, source, x, y, {&there, 1});
+    use({});
+    if (!there.empty()) touch(there);
+}
+
+void Canvas::image_tiles(const Image& source, int x, int y, const Tiles& tiles) {
+    std::vector<Box> runs;
+    tiles.for_each_run([&](int left, int top, int right, int bottom) {
+        const int x0 = std::max(left, x), y0 = std::max(top, y);
+        const int x1 = std::min(right, x + source.width), y1 = std::min(bottom, y + source.height);
+        runs.push_back({double(x0), double(y0), double(x1 - x0), double(y1 - y0)});
+    });
+    blend(cr_, source, x, y, runs);
+    use({});
+    if (touched) touched->add(tiles);
+}
+
+void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
+    cairo_set_operator(cr_, CAIRO_OPERATOR_SOURCE);
+    image_part(source, x, y, part);
+    cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
+}
+
+void Canvas::paint_pixels(const std::function<void(const PixelView&, Tiles*)>& paint) {
+    if (limit_) throw std::logic_error("Canvas::paint_pixels: clips are not kept to");
+    cairo_surface_t* surface = cairo_get_target(cr_);
+    cairo_surface_flush(surface);
+    auto* pixels = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface));
+    paint({pixels, image_.width, image_.height, image_.width}, touched);
+    cairo_surface_mark_dirty(surface);
+}
+
+void Canvas::clip(const Box& b, const std::function<void()>& draw) {
+    cairo_save(cr_);
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    cairo_clip(cr_);
+    const Box* before = std::exchange(limit_, &b);
+    draw();
+    limit_ = before;
+    cairo_restore(cr_);
+}
+
+std::string Canvas::drawable(std::string_view plain) const {
+    std::string out;
+    const char* end = plain.data() + plain.size();
+    for (const char* at = plain.data(); at < end; at = g_utf8_next_char(at)) {
+        const gunichar character = g_utf8_get_char_validated(at, end - at);
+        if (character >= gunichar(-2)) break;  // not UTF-8: the reader refuses it long before
+        const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
+        // Joiners and selectors only tell pictographs how to look.
+        if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
+        if (character >= 0x80) {
+            if (pango_layout_get_unknown_glyphs_count(prepare(fonts_, escape(one), {})) > 0) continue;
+        }
+        out += one;
+    }
+    return out;
+}
+
+Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = prepare(fonts_, markup, style);
+    const Metrics m = metrics(layout);
+    double x = baseline.x;
+    if (style.align == Align::centre) x -= m.advance / 2;
+    if (style.align == Align::right) x -= m.advance;
+    cairo_move_to(cr_, x, baseline.y - m.baseline);
+    const bool halo = style.halo && halos;
+    if (halo) {
+        pango_cairo_layout_path(cr_, layout);
+        note('t', {x, baseline.y}, key_of(markup, style));
+        pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
+        stroke({*style.halo, kHalo * style.size});
+        cairo_move_to(cr_, x, baseline.y - m.baseline);
+    }
+    use(style.color);
+    pango_cairo_show_layout(cr_, layout);
+    new_path();
+    const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
+    touch(ink.inset(halo ? -1 - kHalo / 2 * style.size : -1));  // glyphs stand on whole pixels
+    if (record) record->push_back(ink);
+    return {x, ink.y, m.advance, ink.h};
+}
+
+Box Canvas::measure(const std::string& markup, const TextStyle& style) {
+    PangoLayout* layout = prepare(fonts_, markup, style);
+    const Metrics m = metrics(layout);
+    return {0, m.ink.y, m.advance, m.ink.h};
+}
+
+}  // namespace beamcam::render

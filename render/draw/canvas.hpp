@@ -1,0 +1,77 @@
+// Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
+//
+// Text is Pango markup (`escape` what users wrote). Every text drawn can be recorded, so that tests
+// check that labels keep to their boxes and apart from each other.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/draw/area.hpp"
+#include "render/draw/brush.hpp"
+#include "render/draw/color.hpp"
+#include "render/draw/fonts.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/draw/image.hpp"
+
+namespace beamcam::render {
+
+std::string escape(std::string_view plain);
+std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
+
+enum class Weight { regular, medium, semibold };
+enum class Align { left, centre, right };
+struct TextStyle {
+    double size = 16;  // [px]
+    Color color = {};
+    Weight weight = Weight::regular;
+    Align align = Align::left;
+    double max_width = 0;            // > 0: cut with an ellipsis there [px]
+    std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
+};
+
+class Canvas : public Brush {
+  public:
+    Canvas(Image& image, const Fonts& fonts);
+    ~Canvas() noexcept(false);  // throws what Cairo could not draw: a picture is whole, or an error
+
+    void rounded(const Box& box, double radius);
+    void paint(Color color);
+    void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
+
+    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards]. Whole
+    // pixels.
+    void image_part(const Image& source, int x, int y, const Box& part);
+    // The same within these tiles of the picture.
+    void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
+    // Puts it in the place of what is there.
+    void replace_part(const Image& source, int x, int y, const Box& part);
+    // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
+    void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
+    // What `draw` draws shows within the box only.
+    void clip(const Box& box, const std::function<void()>& draw);
+
+    // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
+    std::string drawable(std::string_view plain) const;
+    Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
+    const Fonts& fonts() const { return fonts_; }
+    const Image& image() const { return image_; }                    // as drawn so far
+    Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
+
+    bool halos = true;                   // false: there is no paper that texts could be outlined with
+    std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
+
+  private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+    const Image& image_;
+    const Fonts& fonts_;
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,116 @@
+#include "render/draw/color.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+const Palette kLight{.paper = rgb(0xFCFCFA),
+                     .ink = rgb(0x1B1F27),
+                     .muted = rgb(0x666C78),
+                     .faint = rgb(0xB9BEC7),
+                     .grid = rgb(0xE3E5E8),
+                     .motion = rgb(0x0072B2),
+                     .motion_faint = rgb(0xC3D9E8),
+                     .contact = rgb(0xD55E00),
+                     .contact_faint = rgb(0xF3D9C7),
+                     .steel = rgb(0xC3C9D3),
+                     .steel_edge = rgb(0x2A2F39),
+                     .pin = rgb(0x4A505C),
+                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xD3DAE3), rgb(0xE8A06A), rgb(0xC65200)},
+                     .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
+                     .shadow = 0.30};
+
+const Palette kDark{.paper = rgb(0x14171D),
+                    .ink = rgb(0xF1F3F6),
+                    .muted = rgb(0xA0A7B4),
+                    .faint = rgb(0x565D6A),
+                    .grid = rgb(0x2B303A),
+                    .motion = rgb(0x56B4E9),
+                    .motion_faint = rgb(0x2A4458),
+                    .contact = rgb(0xFF8A3D),
+                    .contact_faint = rgb(0x53341F),
+                    .steel = rgb(0x8D95A3),
+                    .steel_edge = rgb(0xD9DEE6),
+                    .pin = rgb(0xC3C9D3),
+                    .moment = {rgb(0x2E9BE0), rgb(0x7DB7DC), rgb(0xC4CBD6), rgb(0xEBA878), rgb(0xFF7A1F)},
+                    .force = {rgb(0xFFD9B8), rgb(0xFF9A4A), rgb(0xFF5A00)},
+                    .shadow = 0.55};
+
+const Palette kPrint{.paper = rgb(0xFFFFFF),
+                     .ink = rgb(0x000000),
+                     .muted = rgb(0x4A4A4A),
+                     .faint = rgb(0xA8A8A8),
+                     .grid = rgb(0xDDDDDD),
+                     .motion = rgb(0x0072B2),
+                     .motion_faint = rgb(0xBFD8E8),
+                     .contact = rgb(0xD55E00),
+                     .contact_faint = rgb(0xF5DCCB),
+                     .steel = rgb(0xD9D9D9),
+                     .steel_edge = rgb(0x000000),
+                     .pin = rgb(0x333333),
+                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xE4E4E4), rgb(0xE8A06A), rgb(0xC65200)},
+                     .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
+                     .shadow = 0.22};
+
+template <std::size_t N>
+Color along(const std::array<Color, N>& stops, double share) {
+    const double at = std::clamp(share, 0.0, 1.0) * (N - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), N - 2);
+    return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
+}
+
+}  // namespace
+
+const Palette& palette(Theme theme) {
+    switch (theme) {
+        case Theme::light:
+            return kLight;
+        case Theme::dark:
+            return kDark;
+        case Theme::print:
+            return kPrint;
+    }
+    return kLight;
+}
+
+namespace {
+// Relative luminance and contrast of sRGB colours (WCAG 2.1).
+double luminance(const Color& c) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+}
+double contrast(const Color& a, const Color& b) {
+    const double x = luminance(a), y = luminance(b);
+    return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+}  // namespace
+
+Color readable(const Palette& palette, Color color) {
+    constexpr double kLeast = 3;
+    constexpr int kSteps = 20;
+    for (int k = 0; k < kSteps; ++k)
+        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps); contrast(mixed, palette.paper) >= kLeast)
+            return mixed;
+    return palette.ink;
+}
+
+Color series_color(const Palette& p, std::size_t i) {
+    // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it
+    // under every common colour deficiency: eight in all with the palette's own.
+    static constexpr std::array kOnLight{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x882255),
+                                         rgb(0x332288), rgb(0x56B4E9), rgb(0x603018)};
+    static constexpr std::array kOnDark{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5),
+                                        rgb(0xF0F0D8), rgb(0xD81848), rgb(0xA800F0)};
+    const auto& others = p.paper.g < 0.5 ? kOnDark : kOnLight;
+    return i == 0 ? p.motion : others[(i - 1) % others.size()];
+}
+
+Color moment_color(const Palette& p, double share) { return along(p.moment, 0.5 + 0.5 * share); }
+Color force_color(const Palette& p, double share) { return along(p.force, share); }
+Color age_color(const Palette& p, double age, double half_life) {
+    return mix(p.steel, p.contact, std::pow(0.5, age / half_life));
+}
+
+}  // namespace beamcam::render

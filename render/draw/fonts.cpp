@@ -1,0 +1,216 @@
+#include "render/draw/fonts.hpp"
+
+#include <fmt/format.h>
+#include <pango/pangofc-fontmap.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/base/error.hpp"
+#include "render/draw/font_handles.hpp"
+
+namespace beamcam::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct KnownFile {
+    const char* name;
+    const char* package;  // Debian's
+};
+
+constexpr std::array kFiles{KnownFile{"Inter-Regular.otf", "fonts-inter"}, KnownFile{"Inter-Medium.otf", "fonts-inter"},
+                            KnownFile{"Inter-SemiBold.otf", "fonts-inter"},
+                            KnownFile{"STIXGeneral-Regular.otf", "fonts-stix"},
+                            KnownFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
+constexpr std::array kCjkFiles{KnownFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
+                               KnownFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
+
+constexpr std::array kPrintFiles{KnownFile{"LiberationSans-Regular.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSans-Bold.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSerif-Italic.ttf", "fonts-liberation"}};
+constexpr std::array kPrintCjkFiles{KnownFile{"DroidSansFallbackFull.ttf", "fonts-droid-fallback"}};
+
+std::vector<fs::path> folders() {
+    if (const char* own = std::getenv("BEAMCAM_FONT_DIR"); own && *own) return {own};
+    return {"/usr/share/fonts/opentype/inter",      "/usr/share/fonts/opentype/stix",
+            "/usr/share/fonts/opentype/noto",       "/usr/share/fonts/truetype/inter",
+            "/usr/share/fonts/truetype/liberation", "/usr/share/fonts/truetype/liberation2",
+            "/usr/share/fonts/truetype/droid",      "/usr/local/share/fonts"};
+}
+
+// Empty when it is nowhere.
+fs::path find(const KnownFile& file) {
+    for (const fs::path& folder : folders()) {
+        std::error_code unreadable;
+        if (fs::is_regular_file(folder / file.name, unreadable)) return folder / file.name;
+    }
+    return {};
+}
+
+void require(const FontFile& file) {
+    if (!file.path.empty()) return;
+    std::string tried;
+    for (const fs::path& folder : folders()) tried += (tried.empty() ? "" : ", ") + folder.string();
+    throw FontError(
+        fmt::format("font {} not found (looked in {}); install the Debian package {}, or set "
+                    "BEAMCAM_FONT_DIR to a folder that holds it",
+                    file.name, tried, file.package));
+}
+
+std::vector<FontFile> files_of(Typefaces typefaces, bool cjk) {
+    const bool print = typefaces == Typefaces::print;
+    std::vector<FontFile> files;
+    const auto look_for = [&](std::span<const KnownFile> known) {
+        for (const KnownFile& file : known) files.push_back({file.name, file.package, find(file)});
+    };
+    look_for(print ? std::span<const KnownFile>(kPrintFiles) : kFiles);
+    if (cjk) look_for(print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles);
+    return files;
+}
+
+void add(FcConfig* config, const FontFile& file) {
+    if (!FcConfigAppFontAddFile(config, reinterpret_cast<const FcChar8*>(file.path.c_str())))
+        throw FontError(fmt::format("font {} cannot be read as a font; reinstall the Debian package {}",
+                                    file.path.string(), file.package));
+}
+
+// Pango has fontconfig read the system's files in a thread of its own, needed or not. An empty current configuration
+// spares that: what is set is not read. Once for the process; nothing is ever looked up in it.
+void keep_system_settings_out() {
+    static const bool done = [] {
+        FcConfig* empty = FcConfigCreate();
+        return empty && FcConfigSetCurrent(empty);
+    }();
+    if (!done) throw FontError("fontconfig cannot create a configuration (out of memory)");
+}
+
+}  // namespace
+
+// Scripts from U+2E80 on. Pictographs, variation selectors and mathematical letters are none of them, and such a font
+// has none.
+bool needs_cjk(std::string_view utf8) {
+    for (std::size_t i = 0; i < utf8.size();) {
+        const auto lead = static_cast<unsigned char>(utf8[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+        std::uint32_t letter = length == 1 ? lead : lead & (0xFFU >> (length + 1));
+        for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
+            letter = letter << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
+        if ((letter >= 0x2E80 && letter < 0xE000) || (letter >= 0xF900 && letter < 0xFB00) ||
+            (letter >= 0xFE30 && letter < 0xFE50) || (letter >= 0xFF00 && letter < 0xFFF0) ||
+            (letter >= 0x20000 && letter < 0x40000))
+            return true;
+        i += length;
+    }
+    return false;
+}
+
+std::vector<FontFile> font_files(Typefaces typefaces) { return files_of(typefaces, typefaces == Typefaces::print); }
+
+std::string missing_glyphs(std::string_view utf8) {
+    if (needs_cjk(utf8))
+        return fmt::format("no font of the figure can write \"{}\"; install the Debian package fonts-droid-fallback",
+                           utf8);
+    return fmt::format(
+        "no font of the figure can write \"{}\"; use other characters, or install the Debian packages "
+        "fonts-liberation and fonts-droid-fallback",
+        utf8);
+}
+
+// ---- the sets at rest ----------------------------------------------------------------------------
+
+namespace {
+
+// Pango 1.50 sorts fonts in threads of its own, which let go of their set of fonts when they are done. A set that is
+// destroyed meanwhile is destroyed by two threads at once, without a lock (pangofc-fontmap.c, free_patterns). So no set
+// in use is ever destroyed: it rests here until somebody asks for the same files.
+class Resting {
+  public:
+    std::unique_ptr<Fonts::Handles> take(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        std::vector<std::unique_ptr<Fonts::Handles>>& all = sets_[key];
+        if (all.empty()) return nullptr;
+        auto last = std::move(all.back());
+        all.pop_back();
+        return last;
+    }
+    void put(std::unique_ptr<Fonts::Handles> handles) {
+        const std::lock_guard lock(mutex_);
+        sets_[handles->key].push_back(std::move(handles));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, std::vector<std::unique_ptr<Fonts::Handles>>> sets_;
+};
+
+Resting& resting() {
+    static Resting* const all = new Resting;  // outlives the threads
+    return *all;
+}
+
+}  // namespace
+
+// Of a set that could not be loaded: one that could rests instead.
+Fonts::Handles::~Handles() {
+    if (map) g_object_unref(map);
+    if (config) FcConfigDestroy(config);
+}
+
+namespace {
+
+std::unique_ptr<Fonts::Handles> load(std::span<const FontFile> files) {
+    auto handles = std::make_unique<Fonts::Handles>();
+    Fonts::Handles& h = *handles;
+    h.config = FcConfigCreate();  // empty: no system file is read
+    if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
+    for (const FontFile& file : files) add(h.config, file);
+    h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
+    if (!h.map) throw FontError("Pango was built without FreeType; install Debian's libpangocairo-1.0-0");
+    pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(h.map), h.config);
+    pango_cairo_font_map_set_resolution(PANGO_CAIRO_FONT_MAP(h.map), 72);
+    h.context = pango_font_map_create_context(h.map);
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(h.context, options);
+    cairo_font_options_destroy(options);
+    pango_context_set_round_glyph_positions(h.context, FALSE);
+    pango_context_set_language(h.context, pango_language_from_string("en"));  // not the locale's
+    h.layout = pango_layout_new(h.context);
+    return handles;
+}
+
+}  // namespace
+
+Fonts::Fonts(bool cjk, Typefaces typefaces) {
+    keep_system_settings_out();
+    const std::vector<FontFile> files = files_of(typefaces, cjk);
+    std::string key;
+    for (const FontFile& file : files) {
+        require(file);
+        (key += file.path.native()) += '\n';
+    }
+    auto handles = resting().take(key);
+    if (!handles) {
+        handles = load(files);
+        handles->key = std::move(key);
+    }
+    handles_.reset(handles.release());
+}
+
+void Fonts::PutBack::operator()(Handles* handles) const {
+    handles->words.forget();
+    resting().put(std::unique_ptr<Handles>(handles));
+}
+
+}  // namespace beamcam::render

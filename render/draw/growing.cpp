@@ -1,0 +1,44 @@
+#include "render/draw/growing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render {
+
+GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least) {
+    GrowingPath out;
+    const std::size_t n = std::min(times.size(), points.size());
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool near = !out.points.empty() && norm(points[i] - out.points.back()) < least;  // false beside NaN
+        if (near && i + 1 < n) continue;
+        out.times.push_back(times[i]);
+        out.points.push_back(points[i]);
+    }
+    return out;
+}
+
+Box GrowingLayer::until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen) {
+    const auto last = static_cast<std::size_t>(std::ranges::upper_bound(path.times, t) - path.times.begin());
+    const bool back = last < drawn_;
+    if (back) {
+        std::ranges::fill(image_.pixels, 0U);
+        drawn_ = 0;
+    }
+    if (last == drawn_) return back ? whole() : Box{};
+    Bounds changed;
+    Canvas canvas(image_, fonts);
+    for (std::size_t i = std::max<std::size_t>(drawn_, 1); i < last; ++i) {
+        const Vec2 a = path.points[i - 1], b = path.points[i];
+        if (std::isnan(a.x) || std::isnan(b.x)) continue;
+        canvas.move_to(a);
+        canvas.line_to(b);
+        canvas.stroke(pen);
+        changed.add(a, pen.width / 2 + 1), changed.add(b, pen.width / 2 + 1);
+    }
+    drawn_ = last;
+    if (back) return whole();
+    return changed.x1 < changed.x0 ? Box{}
+                                   : Box{changed.x0, changed.y0, changed.x1 - changed.x0, changed.y1 - changed.y0};
+}
+
+}  // namespace beamcam::render

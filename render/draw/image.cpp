@@ -1,0 +1,2 @@
+// Image is all in its header.
+#include "render/draw/image.hpp"

@@ -1,0 +1,285 @@
+// The contact close up, in the frame of its tangent (to the right) and normal (up): the undeformed faces of beam and
+// cam, true, not exaggerated, heights in micrometres against widths in millimetres. Where they overlap is what the
+// contact law calls penetration.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/film/panel.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kBelow = 1.35, kAbove = 1.9;  // heights shown, in largest penetrations
+
+class CloseUpPanel final : public Panel {
+  public:
+    CloseUpPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
+        const double u = facts.unit;
+        plot_ = {std::round(box_.x + 70 * u), std::round(box_.y + 46 * u), std::round(box_.w - 78 * u),
+                 std::round(box_.h - 46 * u - 40 * u)};
+        for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
+        for (int k = 0; k < facts.frames(); ++k)
+            if (const auto near = facts.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
+        if (!motion().problem.cam) return;
+        const double radius = motion().problem.cam->radius;
+        // An impulsive contact does not penetrate: a millionth of the radius keeps a scale.
+        if (!(depth_ > 1e-9 * radius)) depth_ = 1e-4 * radius;
+        // The cam falls to the lower edge at the sides.
+        half_width_ = std::min(std::sqrt(2 * radius * 1.2 * depth_), 0.9 * radius);
+        shown_ = {-kBelow * depth_, kAbove * depth_};
+        if (shown_.high < 2e-6 || shown_.high > 5e-3) unit_ = prefix_for(shown_.high);
+    }
+
+    void draw_ground(Canvas& canvas) const override {
+        const double u = facts_.unit;
+        const Palette& p = *facts_.palette;
+        const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
+            plain{.size = 21 * u, .weight = Weight::medium};
+        const double room = plot_.w - canvas.measure("penetration 000\u00A0µm", plain).w - 16 * u;
+        const std::string whose = of_motion(canvas, facts_, member_);
+        for (const std::string& heading : {"Contact close-up" + whose, "Contact" + whose, std::string("Contact")}) {
+            // The reading stands beside it.
+            if (canvas.measure(heading, bold).w > room) continue;
+            draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, heading);
+            break;
+        }
+        canvas.rectangle(plot_);
+        canvas.fill(mix(p.paper, p.grid, 0.35));
+        if (!motion().problem.cam) return;
+        // One mark tells no scale: two at least, however low the panel.
+        Ticks marks;
+        for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
+            marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
+        const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
+        for (double v : marks.values) {
+            const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
+            canvas.move_to({plot_.x - 6 * u, y});
+            canvas.line_to({plot_.x, y});
+            canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+            canvas.text({plot_.x - 12 * u, y + 6 * u}, fixed(v, marks.decimals), label);
+        }
+        const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
+        const std::string how = fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch);
+        TextStyle note{.size = 16 * u, .color = p.muted};
+        const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
+        const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
+        canvas.move_to({x1 - w, y - 4 * u});
+        canvas.line_to({x1 - w, y});
+        canvas.line_to({x1, y});
+        canvas.line_to({x1, y - 4 * u});
+        canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
+        const std::string length = quantity(bar, "m");
+        canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = Align::right});
+        const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
+        for (const std::string& words :
+             {how, fmt::format("heights in {}m", unit_.symbol), fmt::format("{}m", unit_.symbol)}) {
+            if (canvas.measure(words, note).w > left) continue;
+            canvas.text({plot_.x, y + 14 * u}, words, note);
+            break;
+        }
+    }
+
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        const sim::Pose& pose = facts_.pose(member_, frame);
+        if (!motion().problem.cam || !pose.nearest) return;
+        const sim::Nearest& near = *pose.nearest;
+        canvas.clip(plot_, [&] {
+            draw_cam(canvas);
+            draw_beam(canvas, pose);
+        });
+        draw_state(canvas, pose, near);
+    }
+
+  private:
+    const Motion& motion() const { return facts_.motion(member_); }
+    Vec2 at(double x, double y) const {
+        return {plot_.x + plot_.w * (x + half_width_) / (2 * half_width_),
+                plot_.bottom() - plot_.h * (y - shown_.low) / (shown_.high - shown_.low)};
+    }
+    double cam_height(double x) const {
+        const double r = motion().problem.cam->radius;
+        return std::sqrt(r * r - x * x) - r;
+    }
+
+    std::vector<Vec2> rim() const {
+        std::vector<Vec2> out;
+        for (int i = 0; i <= 80; ++i) {
+            const double x = half_width_ * (i / 40.0 - 1) * 1.02;
+            out.push_back(at(x, cam_height(x)));
+        }
+        return out;
+    }
+
+    void draw_cam(Canvas& canvas) const {
+        const Palette& p = *facts_.palette;
+        const std::vector<Vec2> edge = rim();
+        canvas.polyline(edge);
+        canvas.line_to({edge.back().x, plot_.bottom() + 4});
+        canvas.line_to({edge.front().x, plot_.bottom() + 4});
+        canvas.close();
+        canvas.fill(p.steel);
+        canvas.polyline(edge);
+        canvas.stroke({p.steel_edge, 2 * facts_.unit});
+    }
+
+    // The touching face beside the contact, from the true centre line: heights above the contact's tangent.
+    std::vector<Vec2> face(const sim::Pose& pose) const {
+        const sim::Nearest& near = *pose.nearest;
+        const Vec2 n = near.normal, t{n.y, -n.x};
+        const double offset = sim::contact_offset(motion().problem);
+        const std::vector<Vec2>& line = pose.centreline;
+        const double spacing = motion().problem.beam.length / static_cast<double>(line.size() - 1);
+        // Curvature of the centre line at the contact, by the three stations around it.
+        const double station = std::clamp(near.x / spacing, 1.0, static_cast<double>(line.size() - 2));
+        const auto i = static_cast<std::size_t>(std::lround(station));
+        const Vec2 bend = (line[i + 1] - line[i] * 2 + line[i - 1]) * (1 / (spacing * spacing));
+        const double curvature = dot(bend, n);
+        std::vector<Vec2> out;
+        // At an end of the beam the face stops there.
+        const double forward = dot(line[i + 1] - line[i - 1], t) >= 0 ? 1 : -1;
+        const double before = near.x, after = motion().problem.beam.length - near.x;
+        const double left = std::min(half_width_ * 1.02, forward > 0 ? before : after),
+                     right = std::min(half_width_ * 1.02, forward > 0 ? after : before);
+        for (int k = 0; k <= 60; ++k) {
+            const double x = -left + (left + right) * k / 60.0;
+            const double reach = 1 + offset * curvature;  // the face's curvature is the centre line's, offset
+            out.push_back({x, near.gap + 0.5 * curvature * x * x / reach});
+        }
+        return out;
+    }
+
+    void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
+        const Palette& p = *facts_.palette;
+        const double u = facts_.unit;
+        if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
+            const double x = plot_.x + 20 * u;
+            canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, 14 * u);
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, "beam",
+                        {.size = 17 * u, .color = p.motion, .weight = Weight::medium});
+            return;
+        }
+        const std::vector<Vec2> heights = face(pose);
+        std::vector<Vec2> edge;
+        for (Vec2 h : heights) edge.push_back(at(h.x, h.y));
+        canvas.polyline(edge);
+        canvas.line_to({edge.back().x, plot_.y - 4});
+        canvas.line_to({edge.front().x, plot_.y - 4});
+        canvas.close();
+        canvas.fill(p.motion.faded(0.30));
+        // The lens where both claim the room.
+        std::vector<Vec2> over, under;
+        for (Vec2 h : heights)
+            if (h.y < cam_height(h.x)) over.push_back(at(h.x, cam_height(h.x))), under.push_back(at(h.x, h.y));
+        if (over.size() > 1) {
+            over.insert(over.end(), under.rbegin(), under.rend());
+            canvas.polyline(over);
+            canvas.close();
+            canvas.fill(mix(p.paper, p.contact, 0.55));
+            canvas.polyline(rim());  // seen through
+            canvas.stroke({p.steel_edge, 2 * u});
+        }
+        canvas.polyline(edge);
+        canvas.stroke({p.motion, 2.4 * u});
+        const TextStyle name{.size = 17 * u, .color = p.motion, .weight = Weight::medium};
+        const double top = std::max(edge.front().y, plot_.y + 30 * u);
+        if (top - plot_.y > 24 * u)
+            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, "beam", name);
+        if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, "cam",
+                        {.size = 17 * u, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+        forces(canvas, *pose.nearest);
+    }
+
+    void forces(Canvas& canvas, const sim::Nearest& near) const {
+        if (!near.touching || !(near.force > 0) || !(facts_.force_scale > 0)) return;
+        const Palette& p = *facts_.palette;
+        const double u = facts_.unit, longest = 0.55 * plot_.h;
+        const Vec2 foot = at(0, near.gap / 2);
+        // One scale for both, from zero; what is too short for an arrow is told in numbers alone.
+        const auto arrow = [&](double force, Vec2 way) {
+            const double length = longest * std::min(1.0, force / facts_.force_scale);
+            if (length > 5 * u)
+                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, std::min(16 * u, 0.7 * length));
+        };
+        canvas.circle(foot, 3.5 * u);
+        canvas.fill(p.contact);
+        arrow(near.force, {0, -1});
+        arrow(std::abs(near.friction), {near.friction > 0 ? 1.0 : -1.0, 0});
+    }
+
+    void draw_state(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
+        const Palette& p = *facts_.palette;
+        const double u = facts_.unit;
+        const bool deep = near.gap < 0;
+        const double size = std::abs(near.gap);
+        const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
+                                   : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
+                                                 : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
+        told(canvas, {plot_.right(), box_.y + 26 * u}, deep ? "penetration" : "gap", amount, "00.0\u00A0mm",
+             {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+        // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
+        // it.
+        const Color ground = mix(p.paper, p.grid, 0.35);
+        const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
+        const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
+        const std::string count = counted(pose.t);
+        const double room = plot_.w - canvas.measure("beam", {.size = 17 * u}).w - 40 * u;
+        TextStyle style{.size = 17 * u, .color = p.ink, .align = Align::right, .halo = behind};
+        if (!count.empty() && canvas.measure(count, style).w < room)
+            canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
+        if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
+        const char* widest = "00.0\u00A0mN";
+        style.weight = Weight::medium;
+        if (canvas.measure("friction ", style).w + canvas.measure(widest, style).w > room) return;
+        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, "force", quantity(near.force, "N"), widest, style);
+        if (near.friction != 0)
+            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, "friction", quantity(std::abs(near.friction), "N"),
+                 widest, style);
+    }
+
+    // A word and a number that ends at `right`; the word stays where it is however long the number.
+    static void told(Canvas& canvas, Vec2 right, const char* word, const std::string& number, const char* widest,
+                     TextStyle style) {
+        style.align = Align::right;
+        canvas.text(right, number, style);
+        const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
+        canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
+    }
+
+    // "collision 2 · impact 3 of 5", from the first touch of a collision until a little after its last.
+    std::string counted(double t) const {
+        const std::vector<sim::Impact>& all = motion().impacts;
+        const auto after = std::ranges::upper_bound(all, t, {}, &sim::Impact::t_start);
+        if (after == all.begin()) return {};
+        const sim::Impact& last = *(after - 1);
+        int of = 0, number = 0;
+        double end = t;
+        for (const sim::Impact& i : all) {
+            if (i.collision != last.collision) continue;
+            ++of;
+            if (i.t_start <= last.t_start) ++number;
+            end = i.t_end.value_or(t);
+        }
+        if (t > end + motion().problem.contact.collision_gap) return {};
+        return fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of);
+    }
+
+    const FilmFacts& facts_;
+    int member_;
+    Box box_, plot_;
+    double depth_ = 0, half_width_ = 1;  // [m]
+    Range shown_;                        // heights [m]
+    Prefix unit_{"µ", 1e-6};             // of the heights: µm unless they are far from that
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<CloseUpPanel>(facts, slot);
+}
+
+}  // namespace beamcam::render

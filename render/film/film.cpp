@@ -1,0 +1,328 @@
+#include "render/film/film.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "render/draw/tiles.hpp"
+#include "render/film/mechanism_panel.hpp"
+#include "render/film/panel.hpp"
+#include "render/film/parameter_line.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+
+// ---- prepared once for a film ----------------------------------------------------------------
+
+struct Film::Prepared {
+    FilmFacts facts;
+    std::vector<std::unique_ptr<Panel>> panels;  // as places.panels
+    const MechanismPanel* mechanism = nullptr;   // the first
+    Image ground;                                // all that never changes
+    std::vector<Box> ground_texts;
+    std::string widest_speed;  // of all frames
+
+    explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
+        for (const PanelSlot& slot : facts.places.panels) {
+            panels.push_back(make_panel(facts, slot));
+            if (slot.spec.kind == PanelKind::mechanism && !mechanism)
+                mechanism = static_cast<const MechanismPanel*>(panels.back().get());
+        }
+        draw_ground();
+        widest_speed = widest_speed_text(facts.setup->speeds);
+        for (std::size_t i = 0; i < panels.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
+        facts.fonts.reset();
+        facts.sight = {};  // nobody asks any more
+    }
+
+    void draw_clock(Canvas& canvas, int frame) const;
+    void draw_moving(Canvas& canvas, int frame, Style style,
+                     const std::vector<std::unique_ptr<Panel::State>>& states) const;
+    std::vector<int> stages(int frame) const;
+    bool growing_apart = true;  // no two panels add to the same pixels
+
+  private:
+    void draw_ground();
+    void draw_header(Canvas& canvas) const;
+    void draw_color_bars(Canvas& canvas) const;
+};
+
+// What a thread keeps from one frame to the next. A frame is the kept layer (the ground, and what panels added until
+// then) with what moves on top, unclipped: the same pixels whichever was drawn before.
+struct Film::Tools {
+    explicit Tools(const Prepared& p)
+        : fonts(p.facts.cjk),
+          picture(p.ground.width, p.ground.height),
+          grown(picture.width, picture.height),
+          moved(grown),
+          changed(grown) {
+        ++p.facts.counts->font_sets;
+        for (const auto& panel : p.panels) states.push_back(panel->make_state());
+    }
+
+    // Brings the kept layer to a frame.
+    void keep(const Prepared& p, int wanted) {
+        std::vector<int> now = p.stages(wanted);
+        const bool anew = kept_frame < 0 || wanted < kept_frame || now != stages || !p.growing_apart;
+        kept_frame = -1;
+        if (anew) {
+            kept = p.ground;
+            grown.add_all();
+        }
+        Canvas canvas(kept, fonts);
+        canvas.halos = !p.facts.setup->view.transparent;
+        canvas.touched = &grown;
+        for (std::size_t i = 0; i < p.panels.size(); ++i)
+            p.panels[i]->grow(canvas, p.ground, wanted, anew, states[i].get());
+        stages = std::move(now);
+        kept_frame = wanted;
+    }
+
+    Fonts fonts;
+    std::vector<std::unique_ptr<Panel::State>> states;
+    Image kept;
+    int kept_frame = -1;      // < 0: none
+    std::vector<int> stages;  // of that frame
+    Image picture;
+    int frame = -1;  // that the picture shows; < 0: none
+    Stencils stencils;
+    Tiles grown;    // where `kept` changed since the picture was drawn
+    Tiles moved;    // where the picture may differ from `kept` as it was then
+    Tiles changed;  // where the picture may differ from the one before
+};
+
+// ---- the ground layer ------------------------------------------------------------------------
+
+void Film::Prepared::draw_ground() {
+    const FilmSetup& setup = *facts.setup;
+    ground = Image(setup.width, setup.height);
+    Canvas canvas(ground, *facts.fonts);
+    canvas.halos = !setup.view.transparent;
+    canvas.record = &ground_texts;
+    if (!setup.view.transparent) canvas.paint(facts.palette->paper);
+    draw_header(canvas);
+    for (const auto& panel : panels) panel->draw_ground(canvas);
+    draw_color_bars(canvas);
+}
+
+void Film::Prepared::draw_header(Canvas& canvas) const {
+    const double u = facts.unit;
+    const FilmSetup& setup = *facts.setup;
+    const Layout& places = facts.places;
+    if (const auto& b = places.title; b && !setup.title.empty()) {
+        const std::string title = escape(canvas.drawable(setup.title));
+        canvas.text({b->x, b->y + 38 * u}, title, fitted_title(canvas, title, *b, u, facts.palette->ink).style);
+    }
+    std::vector<const sim::Problem*> problems;
+    for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
+    const ParameterLine line = parameter_line(canvas, places, setup.title, common_pieces(problems));
+    for (const ParameterLine::Piece& piece : line.pieces)
+        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
+    if (const auto& b = places.note; b && !setup.accuracy_note.empty())
+        canvas.text({b->right(), b->y + 19 * u}, escape(setup.accuracy_note),
+                    {.size = 17 * u, .color = facts.palette->muted, .align = Align::right, .max_width = b->w});
+}
+
+void Film::Prepared::draw_color_bars(Canvas& canvas) const {
+    if (!facts.places.scales || !mechanism) return;
+    const double u = facts.unit;
+    const Palette& palette = *facts.palette;
+    const Box& b = *facts.places.scales;
+    const TextStyle small{.size = 16 * u, .color = palette.muted, .align = Align::centre};
+    const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks,
+                         std::array<double, 3> at) {
+        const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
+        for (int i = 0; i < static_cast<int>(strip.w); ++i) {
+            canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
+            canvas.fill(color((i + 0.5) / strip.w));
+        }
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, name, small);
+        for (std::size_t i = 0; i < 3; ++i) {
+            TextStyle style = small;
+            style.align = i == 0 ? Align::left : i == 1 ? Align::centre : Align::right;
+            canvas.text({strip.x + at[i] * strip.w, strip.bottom() + 19 * u}, marks[i], style);
+        }
+    };
+    double right = b.right();
+    if (facts.force_scale > 0) {
+        const std::string top = quantity(facts.force_scale, "N"), quarter = quantity(facts.force_scale / 4, "N");
+        if (facts.setup->view.trace == TraceColor::force) {
+            bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
+                {"0", quarter, top}, {0, 0.5, 1});
+        } else {
+            const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
+            bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
+                {"0", quantity(oldest / 2, "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
+        }
+        right -= 300 * u;
+    }
+    if (facts.moment_scale > 0) {
+        const std::string top = quantity(facts.moment_scale, "N\u2009m");
+        bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top},
+            {0, 0.5, 1});
+    }
+}
+
+// ---- what moves ------------------------------------------------------------------------------
+
+// "×5" of "deflection ×5", "1/50" of "1/50 speed".
+static std::string short_of(std::string words) {
+    for (const std::string_view dispensable : {"deflection ", " speed"})
+        if (const auto at = words.find(dispensable); at != std::string::npos) words.erase(at, dispensable.size());
+    return words;
+}
+
+// The clock, and beside it how the picture differs from what an eye would see.
+void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
+    if (!facts.places.clock) return;
+    const Box& b = *facts.places.clock;
+    const double u = facts.unit;
+    const FilmSetup& setup = *facts.setup;
+    const TextStyle big{.size = 46 * u, .color = facts.palette->ink, .weight = Weight::semibold};
+    const double last = setup.time(setup.frames() - 1);
+    const std::string text = clock_text(facts.time, facts.at(0, frame), last);
+    const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
+    if (widest > b.w) return;
+    canvas.text({b.x, b.y + 40 * u}, text, big);
+    struct Pill {
+        std::string words, widest;
+        Color color;
+    };
+    std::vector<Pill> pills;
+    if (facts.factor > 1 && mechanism) {
+        const std::string words = fmt::format("deflection ×{}", power_text(facts.factor));
+        pills.push_back({words, words, facts.palette->motion});
+    }
+    if (!setup.speeds.empty())
+        pills.push_back(
+            {speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed, facts.palette->contact});
+    const auto style_of = [&](const Pill& p) {
+        return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = Align::centre};
+    };
+    const auto width = [&](const Pill& p) {
+        const TextStyle style = style_of(p);
+        return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 34 * u;
+    };
+    const double first = b.x + widest + 36 * u, gap = 14 * u;
+    double all = first - gap;  // the same in all frames
+    for (const Pill& p : pills) all += gap + 38 * u + canvas.measure(p.widest, style_of(p)).w;
+    if (all > b.right())
+        for (Pill& p : pills) p.words = short_of(p.words), p.widest = short_of(p.widest);
+    double x = first;
+    for (const Pill& p : pills) {
+        const Box box{x, b.y + 6 * u, width(p), 36 * u};
+        x = box.right() + gap;
+        if (p.words.empty() || box.right() > b.right()) continue;
+        canvas.rounded(box, 18 * u);
+        canvas.fill(p.color.faded(0.14));
+        canvas.text({box.x + box.w / 2, b.y + 31 * u}, p.words, style_of(p));
+    }
+}
+
+// ---- the film --------------------------------------------------------------------------------
+
+Film::Film(FilmSetup setup) : Film(std::make_shared<const FilmSetup>(std::move(setup))) {}
+Film::Film(std::shared_ptr<const FilmSetup> setup) : Film(std::make_shared<const Prepared>(std::move(setup))) {}
+Film::Film(std::shared_ptr<const Prepared> prepared) : prepared_(std::move(prepared)) {}
+Film::~Film() = default;
+Film::Film(Film&&) noexcept = default;
+Film& Film::operator=(Film&&) noexcept = default;
+
+Film Film::another() const { return Film(prepared_); }
+int Film::frames() const { return prepared_->facts.frames(); }
+double Film::exaggeration() const { return prepared_->facts.factor; }
+bool Film::yields() const {
+    const FilmFacts& facts = prepared_->facts;
+    bool flexible = false;
+    for (int m = 0; m < facts.members(); ++m)
+        flexible = flexible || facts.motion(m).problem.beam.model != sim::ModelKind::rigid;
+    return flexible && facts.factor < facts.setup->view.exaggeration.value_or(1);
+}
+const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
+
+std::vector<int> Film::Prepared::stages(int frame) const {
+    std::vector<int> out;
+    for (const auto& panel : panels) out.push_back(panel->stage(frame));
+    return out;
+}
+
+bool Film::repeats(int frame) const {
+    if (frame < 1 || frame >= frames()) return false;
+    const FilmSetup& setup = *prepared_->facts.setup;
+    const auto now = static_cast<std::size_t>(frame), before = now - 1;
+    if (!setup.speeds.empty() && setup.speeds[now] != setup.speeds[before]) return false;
+    const auto shown = [](const Callout& words, int at) { return words.first <= at && at <= words.last; };
+    for (const Callout& words : setup.callouts)
+        if (shown(words, frame) != shown(words, frame - 1)) return false;
+    if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->plays(frame); })) return false;
+    const auto still = [&](const Motion& motion) { return motion.time(now) == motion.time(before); };
+    return still(setup) && std::ranges::all_of(setup.others, still);
+}
+
+void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
+                                 const std::vector<std::unique_ptr<Panel::State>>& states) const {
+    for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
+    draw_clock(canvas, frame);
+}
+
+// Made when first needed: the film that others are made from may never draw.
+Film::Tools& Film::tools_for(int frame) {
+    if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
+    if (!tools_) tools_ = std::make_unique<Tools>(*prepared_);
+    return *tools_;
+}
+
+const Image& Film::draw(int frame) {
+    Tools& t = tools_for(frame);
+    t.changed.clear();
+    if (t.frame == frame) return t.picture;
+    if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first, or the last one failed halfway
+    t.keep(*prepared_, frame);
+    t.changed.add(t.moved);
+    t.changed.add(t.grown);
+    copy(t.kept, t.picture, t.changed);
+    t.grown.clear();
+    t.moved.clear();
+    Canvas canvas(t.picture, t.fonts);
+    canvas.halos = !prepared_->facts.setup->view.transparent;
+    canvas.touched = &t.moved;
+    if (Stencils::exact()) canvas.stencils = &t.stencils;
+    prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
+    t.stencils.next_picture();
+    t.changed.add(t.moved);
+    t.frame = frame;
+    return t.picture;
+}
+
+const Tiles& Film::changed() const {
+    if (!tools_) throw std::logic_error("Film::changed: nothing is drawn yet");
+    return tools_->changed;
+}
+
+void Film::draw(int frame, Image& out) { out = draw(frame); }
+
+FrameGeometry Film::geometry(int frame) {
+    const Prepared& p = *prepared_;
+    Tools& t = tools_for(frame);
+    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts, {}};
+    t.keep(p, frame);
+    Image scratch = t.kept;
+    Canvas canvas(scratch, t.fonts);
+    canvas.halos = !p.facts.setup->view.transparent;
+    canvas.record = &out.texts;
+    p.draw_moving(canvas, frame, Style::flat, t.states);
+    if (p.mechanism) {
+        out.camera = p.mechanism->camera();
+        out.beam = p.mechanism->beam(frame);
+        out.words = p.mechanism->words();
+    }
+    return out;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,161 @@
+// A film: everything that a sequence of frames shares is prepared once, then any frame can be drawn in any order
+// with the same pixels. Nothing grows with the number of frames drawn; what a drawing thread keeps from one frame to
+// the next only saves time.
+//
+// A frame is a grid of panels (panel.hpp) that share one instant, on a ground that never changes. The mechanism is
+// drawn lit through OpenGL (lit.hpp) or flat with Cairo alone; titles, charts and labels are Cairo's in both. Drawing
+// never changes what was simulated and never simulates.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/draw/color.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/draw/image.hpp"
+#include "render/draw/tiles.hpp"
+#include "render/film/layout.hpp"
+#include "render/mechanism/exaggeration.hpp"
+#include "sim/observe/channels.hpp"
+#include "sim/observe/pose.hpp"
+#include "sim/problem/problem.hpp"
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::render {
+
+// lit: shaded, from the front; flat: a drawing; solid: bodies in perspective.
+enum class Style { lit, flat, solid };
+
+// Where the solid view is seen from. Over the film the camera swings once to either side and back.
+struct Orbit {
+    double yaw = 0.42;    // positive: from the right of the plane of motion [rad], within ±1.2
+    double pitch = 0.20;  // positive: from above [rad], within ±1.2
+    double swing = 0.16;  // of the yaw [rad], within ±1.2
+    bool operator==(const Orbit&) const = default;
+};
+
+// What colours the trace of the contact on the disc: the largest force so far, or how long ago the last touch was.
+enum class TraceColor { force, age };
+
+struct View {
+    Style style = Style::lit;
+    Theme theme = Theme::light;
+    std::optional<double> exaggeration;  // of deflection, >= 1; absent: a round factor that shows it
+    Orbit orbit = {};                    // of the solid view
+    TraceColor trace = TraceColor::force;
+    bool tip_path = false;     // all of the tip's path so far, not only its last second
+    bool transparent = false;  // no paper: the pictures have an alpha channel
+};
+
+// Poses kept elsewhere than in memory, read by several threads at once.
+class PoseStore {
+  public:
+    virtual ~PoseStore() = default;
+    virtual std::size_t size() const = 0;
+    virtual double time(std::size_t frame) const = 0;  // of its pose [s]
+    virtual sim::Pose pose(std::size_t frame) const = 0;
+};
+
+// One run of one mechanism as a film shows it.
+struct Motion {
+    sim::Problem problem;
+    std::string label;                        // plain text; told where several motions stand beside each other
+    std::vector<sim::Pose> poses;             // one a frame, true geometry, times not decreasing, at least one
+    std::shared_ptr<const PoseStore> stored;  // in place of `poses`
+    // The motion over the time that the film shows, in any order: what scales and camera are chosen by, so that they do
+    // not depend on which instants the frames happen to be of. Absent: the frames.
+    std::shared_ptr<const PoseStore> survey;
+    sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
+    sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
+    std::vector<sim::Impact> impacts;
+
+    std::size_t frames() const { return stored ? stored->size() : poses.size(); }
+    double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
+    sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
+    std::size_t surveyed() const { return survey ? survey->size() : frames(); }
+    sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
+};
+
+// Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.
+enum class Comparison { panels, ghosts };
+
+// Words at the contact while these frames are shown.
+struct Callout {
+    int first = 0, last = 0;  // frames
+    std::string text;         // plain
+};
+
+struct FilmSetup : Motion {
+    std::string title;                // plain text; cut with an ellipsis when too long
+    int width = 1920, height = 1080;  // [px], 1…16384
+    View view;
+    std::optional<LayoutNode> layout;  // absent: the standard arrangement
+    std::vector<Motion> others;        // to compare with, poses at the same instants
+    Comparison comparison = Comparison::panels;
+    double fps = 60;             // frames a second that it is shown at, > 0: what fades does so by the clock
+    std::vector<double> speeds;  // of time at each frame, 1: as it is; empty: always 1
+    bool slow_motion = false;    // the standard arrangement shows collisions one by one
+    std::vector<Callout> callouts;
+    std::string accuracy_note;  // plain text in the corner; may be empty
+};
+
+// The panels of the standard arrangement beside the mechanism, and what their charts need.
+std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion);
+// Channels that these panels read from Motion::chart, t first.
+std::vector<sim::Channel> chart_channels(const std::vector<PanelSpec>& panels);
+
+// What a frame shows, for tests and for programs that compose frames.
+struct FrameGeometry {
+    Layout layout;
+    Camera camera;
+    double factor = 1;  // of exaggeration
+    DrawnBeam beam;
+    std::vector<Box> texts;  // ink of every text [px]
+    std::vector<Box> words;  // of the first mechanism: which motion it is, the scale bar [px]
+};
+
+// What drawing has loaded and drawn so far, in all Films that share what is prepared.
+struct DrawingCounts {
+    std::atomic<long> font_sets = 0, gl_contexts = 0;
+    std::atomic<long> mechanisms_lit = 0;  // by OpenGL: not again while nothing of it moves
+    std::atomic<double> read_back = 0;     // from OpenGL [s]
+};
+
+// One Film a thread; `another` shares all that is prepared. Throws PictureError for an impossible size, factor or an
+// empty film; FontError and GlError (exit code 5) when fonts or the lit renderer are missing.
+class Film {
+  public:
+    explicit Film(FilmSetup setup);
+    explicit Film(std::shared_ptr<const FilmSetup> setup);
+    ~Film();
+    Film(Film&&) noexcept;
+    Film& operator=(Film&&) noexcept;
+
+    Film another() const;
+
+    int frames() const;
+    // The frame shows what the one before shows: time stands still.
+    bool repeats(int frame) const;
+    // 0 <= frame < frames(). The picture stays until the next is drawn. Only what moved since the one before is drawn
+    // anew, and every pixel is as if all were.
+    const Image& draw(int frame);
+    const Tiles& changed() const;       // where the last picture may differ from the one before; all of the first
+    void draw(int frame, Image& out);   // a copy; `out` is resized as needed
+    FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
+    double exaggeration() const;
+    bool yields() const;  // less than wanted, since the beam would enter the cam
+    const DrawingCounts& counts() const;
+
+  private:
+    struct Prepared;
+    struct Tools;
+    explicit Film(std::shared_ptr<const Prepared> prepared);
+    Tools& tools_for(int frame);
+    std::shared_ptr<const Prepared> prepared_;
+    std::unique_ptr<Tools> tools_;
+};
+
+}  // namespace beamcam::render

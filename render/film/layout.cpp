@@ -1,0 +1,360 @@
+#include "render/film/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kSmallest = 0.5;  // 16 design pixels of text are 8 px: the least that reads
+
+Box whole(const Box& b) {
+    const double x = std::round(b.x), y = std::round(b.y);
+    return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
+}
+
+// Stacks the panels into `area`, as many as keep a readable height, each at most so high [design px].
+void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area, double highest = 440) {
+    const double u = out.unit, gap = 14 * u;
+    const auto room = static_cast<std::size_t>(std::max(0.0, (area.h + gap) / (215 * u + gap)));
+    const std::size_t n = std::min(specs.size(), room);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double h = std::min(highest * u, (area.h - gap * static_cast<double>(n - 1)) / static_cast<double>(n));
+        out.panels.push_back({specs[i], {area.x, area.y + (h + gap) * static_cast<double>(i), area.w, h}});
+    }
+}
+
+// Side by side, as many as keep a readable width.
+void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
+    const double u = out.unit, gap = 30 * u;
+    const auto room = static_cast<std::size_t>(std::max(0.0, (area.w + gap) / (400 * u + gap)));
+    const std::size_t n = std::min(specs.size(), room);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double w = (area.w - gap * static_cast<double>(n - 1)) / static_cast<double>(n);
+        out.panels.push_back({specs[i], {area.x + (w + gap) * static_cast<double>(i), area.y, w, area.h}});
+    }
+}
+
+constexpr double kColumn = 540;  // width of panels beside the mechanism [design px]
+bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
+// How much wider the column may become where the mechanism does not need the room [px].
+double widening(double w, double u) { return std::clamp(w - 1600 * u, 0.0, 200 * u); }
+
+// What stands around the panels, and the room that is left for them.
+struct Frame {
+    Layout out;
+    double margin = 0, top = 0, bottom = 0, right = 0;
+    bool wide = true;
+};
+
+// `beside`: panels may stand beside the header, whose lines have to leave them their room.
+Frame frame(int width, int height, bool beside) {
+    Frame f;
+    Layout& out = f.out;
+    f.wide = width >= 1.4 * height;
+    out.unit =
+        std::max(kSmallest, f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
+    const double u = out.unit, w = width, h = height;
+    const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
+    f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
+
+    const bool has_title = w >= 320 * u && h >= 300 * u, has_parameters = w >= 560 * u && h >= 480 * u;
+    const bool has_clock = w >= 230 * u && h >= 190 * u, has_scales = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u;
+    if (has_title) {
+        out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
+        f.top += 54 * u;
+    }
+    if (has_parameters) {
+        const double column = beside && f.wide && has_column(w, h, u) ? kColumn * u + widening(w, u) + 40 * u : 0;
+        out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
+        f.top += 36 * u;
+    }
+    if (has_scales) {
+        out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
+        f.bottom -= 34 * u;
+    }
+    const bool apart = has_scales && !f.wide;  // beside the clock they would leave it too little
+    if (apart) {
+        out.scales = Box{w - margin - 600 * u, f.bottom - 56 * u, 600 * u, 56 * u};
+        f.bottom -= 64 * u;
+    }
+    if (has_clock) {
+        out.clock = Box{margin, f.bottom - 56 * u, w - 2 * margin, 56 * u};
+        f.bottom -= 56 * u;
+    }
+    if (has_scales && !apart) {
+        out.scales = Box{w - margin - 600 * u, out.clock->y, 600 * u, 56 * u};
+        out.clock->w = out.scales->x - 30 * u - out.clock->x;
+    }
+    if (has_title) f.top += 10 * u;
+    if (has_clock) f.bottom -= 10 * u;
+    return f;
+}
+
+void place_grid(Layout& out, const LayoutNode& node, const Box& box);
+
+// The children of a grid without those that would be too small to read, the last of them first: the others share
+// their room.
+std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, const Box& box) {
+    const bool rows = node.kind == LayoutNode::Kind::rows;
+    std::vector<LayoutNode> children = node.children;
+    for (;;) {
+        const double gap = (rows ? 14 : 30) * unit, n = static_cast<double>(children.size());
+        const double room = (rows ? box.h : box.w) - gap * (n - 1);
+        double shares = 0;
+        for (const LayoutNode& child : children) shares += child.share;
+        const auto narrow = std::find_if(children.rbegin(), children.rend(), [&](const LayoutNode& child) {
+            const double size = room * child.share / shares;
+            Layout alone;
+            alone.unit = unit;
+            place_grid(alone, child, {0, 0, rows ? box.w : size, rows ? size : box.h});
+            return alone.panels.empty();
+        });
+        if (narrow == children.rend() || children.size() == 1) return children;
+        children.erase(std::next(narrow).base());
+    }
+}
+
+void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
+    if (node.kind == LayoutNode::Kind::panel) {
+        const Vec2 least = smallest(node.panel.kind);
+        if (box.w >= least.x * out.unit && box.h >= least.y * out.unit) out.panels.push_back({node.panel, whole(box)});
+        return;
+    }
+    const bool rows = node.kind == LayoutNode::Kind::rows;
+    const std::vector<LayoutNode> children = those_that_fit(out.unit, node, box);
+    const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(children.size());
+    const double room = (rows ? box.h : box.w) - gap * (n - 1);
+    if (!(room > 0)) return;
+    double shares = 0, at = rows ? box.y : box.x;
+    for (const LayoutNode& child : children) shares += child.share;
+    for (const LayoutNode& child : children) {
+        const double size = room * child.share / shares;
+        place_grid(out, child, rows ? Box{box.x, at, box.w, size} : Box{at, box.y, size, box.h});
+        at += size + gap;
+    }
+}
+
+// ---- the standard arrangement ------------------------------------------------------------------
+
+// Equal cells for mechanisms beside and above each other.
+struct Cells {
+    int columns = 1, rows = 1;
+    double w = 0, h = 0;                               // whole pixels
+    static constexpr double kAcross = 30, kDown = 14;  // between them [design px]
+};
+
+Cells cells(const Box& box, int count, int columns, double u) {
+    Cells out{columns, (count + columns - 1) / columns};
+    out.w = std::floor((box.w - Cells::kAcross * u * (out.columns - 1)) / out.columns);
+    out.h = std::floor((box.h - Cells::kDown * u * (out.rows - 1)) / out.rows);
+    return out;
+}
+
+double scale_in(const Cells& c, const Sight& sight, double u) { return sight.camera({0, 0, c.w, c.h}, u).scale; }
+
+// As many as have room, in the rows and columns that give them the largest scale.
+Cells best_cells(const Box& box, int& count, const Sight& sight, double u) {
+    const Vec2 least = smallest(PanelKind::mechanism) * u;
+    for (; count > 1; --count) {
+        std::optional<Cells> best;
+        for (int columns = count; columns >= 1; --columns) {
+            const Cells one = cells(box, count, columns, u);
+            if (one.w < least.x || one.h < least.y) continue;
+            if (!best || scale_in(one, sight, u) > scale_in(*best, sight, u)) best = one;
+        }
+        if (best) return *best;
+    }
+    return cells(box, 1, 1, u);
+}
+
+void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sight) {
+    const double u = out.unit;
+    if (members == 1) {
+        out.panels.insert(out.panels.begin(), {{.kind = PanelKind::mechanism}, whole(box)});
+        return;
+    }
+    const Cells c = best_cells(box, members, sight, u);
+    std::vector<PanelSlot> slots;
+    for (int i = 0; i < members; ++i) {
+        const double x = box.x + (c.w + Cells::kAcross * u) * (i % c.columns),
+                     y = box.y + (c.h + Cells::kDown * u) * std::floor(static_cast<double>(i) / c.columns);
+        slots.push_back({{.kind = PanelKind::mechanism, .member = i},
+                         {std::round(x), std::round(y), std::max(1.0, c.w), std::max(1.0, c.h)}});
+    }
+    out.panels.insert(out.panels.begin(), slots.begin(), slots.end());
+}
+
+// What the mechanisms leave of their box at the scale that it gives them [px].
+Vec2 spare(const Box& box, int members, const Sight& sight, double u) {
+    const Cells c = best_cells(box, members, sight, u);
+    const Vec2 used = sight.room({0, 0, c.w, c.h}, u);
+    return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
+}
+
+// So many mechanisms need the width of a picture below their title, and keep this share of the scale that they would
+// have without charts.
+constexpr int kSeveral = 3;
+constexpr double kKept = 0.6;
+
+// Some of it stays, for words and arrows around the mechanism.
+double given(double spare, double most) { return std::min(0.6 * spare, most); }
+
+}  // namespace
+
+const PanelSlot* Layout::first(PanelKind kind) const {
+    const auto at = std::ranges::find_if(panels, [&](const PanelSlot& s) { return s.spec.kind == kind; });
+    return at == panels.end() ? nullptr : &*at;
+}
+
+Box plot_area(const Box& box, double u) {
+    return whole({box.x + 70 * u, box.y + 46 * u, box.w - 78 * u, box.h - 46 * u - 44 * u});
+}
+
+Vec2 smallest(PanelKind kind) {
+    switch (kind) {
+        case PanelKind::mechanism:
+            return {16, 16};
+        case PanelKind::strip:
+        case PanelKind::energy:
+            return {300, 150};
+        case PanelKind::phase:
+        case PanelKind::close_up:
+        case PanelKind::traces:
+            return {240, 170};
+    }
+    return {};
+}
+
+const char* name(PanelKind kind) {
+    switch (kind) {
+        case PanelKind::mechanism:
+            return "mechanism";
+        case PanelKind::strip:
+            return "strip";
+        case PanelKind::phase:
+            return "phase";
+        case PanelKind::energy:
+            return "energy";
+        case PanelKind::close_up:
+            return "close-up";
+        case PanelKind::traces:
+            return "traces";
+    }
+    return "";
+}
+
+std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
+                               const Sight& sight) {
+    const bool beside = members < kSeveral;
+    Frame f = frame(width, height, beside);
+    Layout& out = f.out;
+    const double u = out.unit, w = width, h = height;
+    Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
+    const double lower = std::min(0.62 * room.h, 3 * 330 * u);  // of a stack
+    switch (how) {
+        case Arrangement::alone:
+            break;
+        case Arrangement::column: {
+            if (!has_column(w, h, u)) return {};
+            Box left = room;
+            left.w -= kColumn * u + 40 * u;
+            const double column = kColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
+            // Beside the title, too, where height is what lacks.
+            const double top = f.wide && beside ? f.margin * 0.8 : f.top;
+            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);
+            room.w -= column + 40 * u;
+            if (f.wide && beside && out.title) out.title->w = room.right() - out.title->x;
+            break;
+        }
+        case Arrangement::row: {
+            if (w < 420 * u || room.h < 620 * u) return {};
+            Box above = room;
+            above.h -= 320 * u;
+            const double row = 300 * u + given(spare(above, members, sight, u).y, 140 * u);
+            spread(out, side, {room.x, room.bottom() - row, room.w, row});
+            room.h -= row + 20 * u;
+            break;
+        }
+        case Arrangement::stack: {
+            if (w < 420 * u || room.h < 620 * u) return {};
+            stack(out, side, {room.x, room.bottom() - lower, room.w, lower});
+            if (out.panels.empty()) return {};
+            // As high as their number asks for, and what the mechanisms leave.
+            const double n = static_cast<double>(out.panels.size());
+            double used = out.panels.back().box.bottom() - out.panels.front().box.y;
+            Box above = room;
+            above.h -= used + 20 * u;
+            used += given(spare(above, members, sight, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
+            const std::vector<PanelSpec> shown(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
+            out.panels.clear();
+            stack(out, shown, {room.x, room.bottom() - used, room.w, used});
+            room.h -= used + 20 * u;
+            break;
+        }
+    }
+    if (out.panels.empty() && how != Arrangement::alone) return {};
+    if (room.w < 8 || room.h < 8) room = {0, 0, w, h};
+    place_mechanisms(out, room, members, sight);
+    return std::move(f.out);
+}
+
+double scale_of(const Layout& layout, const Sight& sight) {
+    double least = 0;
+    for (const PanelSlot& slot : layout.panels) {
+        if (slot.spec.kind != PanelKind::mechanism) continue;
+        const double scale = sight.camera(slot.box, layout.unit).scale;
+        least = least > 0 ? std::min(least, scale) : scale;
+    }
+    return least;
+}
+
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const Sight& sight) {
+    using enum Arrangement;
+    const bool wide = width >= 1.4 * height, tall = height > 1.35 * width;
+    std::optional<Layout> best;
+    Layout without = *arranged(alone, width, height, side, members, sight);
+    const double least = members < kSeveral ? 0 : kKept * scale_of(without, sight);
+    for (Arrangement how : wide   ? std::vector{column, row}
+                           : tall ? std::vector{stack, column}
+                                  : std::vector{row, column}) {
+        std::optional<Layout> one = arranged(how, width, height, side, members, sight);
+        if (!one || scale_of(*one, sight) < least) continue;
+        if (!best || scale_of(*one, sight) > scale_of(*best, sight)) best = std::move(one);
+    }
+    return best ? *std::move(best) : without;
+}
+
+Layout layout(int width, int height, const LayoutNode& wanted) {
+    Frame f = frame(width, height, false);
+    LayoutNode grid = wanted;
+    // What stands side by side in a wide picture stands one below the other in a tall one.
+    if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {
+        grid.kind = LayoutNode::Kind::rows;
+        // Three panels above each other need more of the height than of the width.
+        for (LayoutNode& child : grid.children)
+            if (child.kind == LayoutNode::Kind::rows)
+                child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
+    }
+    place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
+    // A picture too small for its grid shows what it can: the mechanism.
+    if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});
+    return std::move(f.out);
+}
+
+std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
+    if (grid.kind == LayoutNode::Kind::panel) return {grid.panel};
+    std::vector<PanelSpec> out;
+    for (const LayoutNode& child : grid.children)
+        for (PanelSpec& spec : panels_of(child)) out.push_back(std::move(spec));
+    return out;
+}
+
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted) {
+    std::vector<PanelSpec> out = panels_of(wanted);
+    for (const PanelSlot& slot : layout(width, height, wanted).panels)
+        if (const auto shown = std::ranges::find(out, slot.spec); shown != out.end()) out.erase(shown);
+    return out;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,89 @@
+// Where things stand in a film's frame, for any size: wide, square, tall, odd, tiny.
+//
+// Type and spacing scale with the frame but never below half of their full-size value, where text stops being
+// readable; what then no longer fits is left out (panels first, then the lines of text) rather than overlapped.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/draw/geometry.hpp"
+#include "render/film/sight.hpp"
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::render {
+
+enum class PanelKind {
+    mechanism,
+    strip,     // channels against time
+    phase,     // hub speed against hub angle
+    energy,    // the ledger as stacked bands against time
+    close_up,  // the contact in micrometres
+    traces     // where the contact has been on the disc, and the tip in the plane
+};
+
+const char* name(PanelKind kind);  // as scenes write it
+
+struct PanelSpec {
+    PanelKind kind = PanelKind::mechanism;
+    std::vector<sim::Channel> channels = {};  // of a strip: at least one, all of one unit
+    std::optional<double> window = {};        // of a strip or the ledger: this much time [s]; absent: the whole film
+    bool by_collision = false;                // of a strip: the time of one collision after the other
+    int member = 0;                           // of the mechanism, the close-up, the ledger, the traces: which motion
+    bool operator==(const PanelSpec&) const = default;
+};
+
+// A grid: a panel, or rows or columns of smaller grids that divide the room by their shares.
+struct LayoutNode {
+    enum class Kind { panel, rows, columns };
+    Kind kind = Kind::panel;
+    double share = 1;  // > 0, relative to its neighbours'
+    PanelSpec panel = {};
+    std::vector<LayoutNode> children = {};
+};
+
+struct PanelSlot {
+    PanelSpec spec;
+    Box box;  // title, labels and all; whole pixels
+};
+
+struct Layout {
+    double unit = 1;           // [px] of one design pixel (1920×1080)
+    std::optional<Box> title;  // line boxes; text stands on `baseline(box)`
+    std::optional<Box> parameters;
+    std::optional<Box> clock;   // with the pills
+    std::optional<Box> scales;  // colour bars
+    std::optional<Box> note;    // accuracy
+    std::vector<PanelSlot> panels;
+
+    const PanelSlot* first(PanelKind kind) const;
+};
+
+// Where the side panels of the standard arrangement stand: one above the other at the right, side by side below, or
+// one above the other below.
+enum class Arrangement { alone, column, row, stack };
+
+// width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
+// with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable:
+// where that leaves the mechanisms the larger scale for their `sight`. Room that they do not need goes to the panels.
+// The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a
+// motion.
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {});
+// One of them; none where the picture is too small for it.
+std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
+                               const Sight& sight);
+// Of the smallest mechanism [px/m]; 0 without one.
+double scale_of(const Layout& layout, const Sight& sight);
+// The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
+// become rows.
+Layout layout(int width, int height, const LayoutNode& wanted);
+// The panels of a grid in reading order; and those which come out too small.
+std::vector<PanelSpec> panels_of(const LayoutNode& grid);
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted);
+
+// The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
+Box plot_area(const Box& box, double unit);
+// The smallest room that a kind of panel can use [design px].
+Vec2 smallest(PanelKind kind);
+
+}  // namespace beamcam::render

@@ -1,0 +1,233 @@
+#include "render/film/panel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/base/error.hpp"
+#include "render/film/mechanism_panel.hpp"
+#include "render/mechanism/exaggeration.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::Channel;
+using sim::ChannelKind;
+using sim::Pose;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Contact is an impulse, and nothing is pressed after it: the force is zero but for instants.
+bool has_force(const Motion& motion) {
+    if (!motion.problem.cam || motion.problem.contact.model != sim::ContactModel::restitution) return true;
+    const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
+    return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
+}
+
+std::vector<PanelSpec> standard(const FilmSetup& setup) {
+    const Motion* shown = &setup;  // one with a cam, if there is one
+    bool force = has_force(setup);
+    for (const Motion& other : setup.others) {
+        if (!shown->problem.cam) shown = &other;
+        force = force || has_force(other);
+    }
+    std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion);
+    const bool impulsive = shown->problem.contact.model == sim::ContactModel::restitution;
+    // What the film has no data for is no panel.
+    std::erase_if(specs, [&](const PanelSpec& s) {
+        if (s.kind != PanelKind::strip) return false;
+        const ChannelKind kind = s.channels.front().kind;
+        return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
+               (kind == ChannelKind::contact_force && (!force || (s.by_collision && impulsive)));
+    });
+    return specs;
+}
+
+}  // namespace
+
+std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion) {
+    const auto strip = [](ChannelKind kind) { return PanelSpec{.kind = PanelKind::strip, .channels = {{kind, 0}}}; };
+    if (!problem.cam) return {strip(ChannelKind::theta), strip(ChannelKind::tip_deflection)};
+    PanelSpec force = strip(ChannelKind::contact_force);
+    force.by_collision = slow_motion;
+    if (slow_motion) return {strip(ChannelKind::theta), force, {.kind = PanelKind::close_up}};
+    return {strip(ChannelKind::theta), strip(ChannelKind::contact_force), strip(ChannelKind::contact_x)};
+}
+
+std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
+    std::vector<Channel> out{{ChannelKind::t, 0}};
+    const auto add = [&](Channel c) {
+        if (std::ranges::find(out, c) == out.end()) out.push_back(c);
+    };
+    for (const PanelSpec& panel : panels) {
+        for (Channel c : panel.channels) add(c);
+        if (panel.kind == PanelKind::phase)
+            for (ChannelKind k : {ChannelKind::theta, ChannelKind::theta_dot}) add({k, 0});
+        if (panel.kind == PanelKind::energy)
+            for (ChannelKind k :
+                 {ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
+                  ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact,
+                  ChannelKind::loss_friction, ChannelKind::work_cam, ChannelKind::work_drive})
+                add({k, 0});
+    }
+    return out;
+}
+
+// ---- what panels share -------------------------------------------------------------------------
+
+FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
+    check();
+    palette = &render::palette(setup->view.theme);
+    cjk = needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
+    for (const Callout& c : setup->callouts) cjk = cjk || needs_cjk(c.text);
+    for (int m = 0; m < members(); ++m) {
+        cjk = cjk || needs_cjk(motion(m).label);
+        samples.push_back(contact_samples(motion(m).trace, motion(m).problem, motion(m).impacts));
+    }
+    fonts = std::make_unique<const Fonts>(cjk);
+    ++counts->font_sets;
+    choose_scales();
+    const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
+    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout);
+    if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
+    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight);
+    unit = places.unit;
+    std::vector<double> times;
+    for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
+    time = time_format(times);
+    span = {times.front(), times.back()};
+    if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
+        span.low = std::min(span.low, *std::ranges::min_element(*t));
+        span.high = std::max(span.high, *std::ranges::max_element(*t));
+    }
+    if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
+}
+
+const sim::Problem* FilmFacts::with(int member) const {
+    if (motion(member).problem.cam) return nullptr;
+    for (int m = 0; m < members(); ++m)
+        if (motion(m).problem.cam) return &motion(m).problem;
+    return nullptr;
+}
+
+void FilmFacts::check() const {
+    constexpr int kLargest = 16384;  // OSMesa's limit, and Cairo's is twice that
+    const FilmSetup& s = *setup;
+    if (s.width < 1 || s.height < 1 || s.width > kLargest || s.height > kLargest)
+        throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn; choose 1 to {} each way", s.width,
+                                       s.height, kLargest));
+    if (s.frames() == 0) throw PictureError("the film has no frames; give it a duration longer than half a frame");
+    if (s.view.exaggeration && !(*s.view.exaggeration >= 1 && std::isfinite(*s.view.exaggeration)))
+        throw PictureError(
+            fmt::format("deflection cannot be exaggerated by {}; choose 1 (true) or more", *s.view.exaggeration));
+    for (int m = 0; m < members(); ++m) {
+        const Motion& one = motion(m);
+        if (one.frames() != s.frames()) throw PictureError("motions that are compared need the same instants");
+        for (const Pose& pose : one.poses)
+            if (pose.centreline.size() < 2) throw PictureError("a pose needs at least two stations along the beam");
+    }
+}
+
+void FilmFacts::choose_scales() {
+    double moment = 0, force = 0;
+    factor = std::numeric_limits<double>::infinity();
+    for (int m = 0; m < members(); ++m) {
+        const Motion& one = motion(m);
+        const bool flexible = one.problem.beam.model != sim::ModelKind::rigid;
+        // A rigid beam beside flexible ones has nothing to exaggerate and does not hold them back.
+        if (flexible || members() == 1) {
+            factor = std::min(factor, film_factor(
+                                          one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
+                                          setup->view.exaggeration));
+            // The survey may have missed an instant at which the factor has to yield; what is drawn must not.
+            if (one.survey)
+                factor = clear_factor(
+                    one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, factor);
+        }
+        double largest = 0;
+        for (std::size_t k = 0; k < one.surveyed(); ++k) {
+            const Pose p = one.surveyed(k);
+            for (double value : p.moment) largest = std::max(largest, std::abs(value));
+            if (p.nearest) force = std::max(force, p.nearest->force);
+        }
+        // What bends the beam by less than a billionth of its length is rounding, not a moment to be coloured.
+        const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;
+        if (flexible && largest > negligible) moment = std::max(moment, largest);
+    }
+    if (!std::isfinite(factor)) factor = 1;
+    arrow_scale = force;
+    for (int m = 0; m < members(); ++m) {
+        for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
+        for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));
+    }
+    if (moment > 0) moment_scale = round_up_125(moment);
+    if (force > 0) force_scale = round_up_125(force);
+}
+
+const std::vector<double>* column(const sim::Table& table, Channel channel) {
+    for (std::size_t c = 0; c < table.channels.size(); ++c)
+        if (table.channels[c] == channel && c < table.values.size()) return &table.values[c];
+    return nullptr;
+}
+
+double value_at(const std::vector<double>& times, const std::vector<double>& values, double t) {
+    const auto after = std::ranges::upper_bound(times, t);
+    if (after == times.begin()) return kNan;
+    const auto i = static_cast<std::size_t>(after - times.begin()) - 1;
+    if (times[i] == t || i + 1 == times.size()) return times[i] == t ? values[i] : kNan;
+    const double share = (t - times[i]) / (times[i + 1] - times[i]);
+    return values[i] * (1 - share) + values[i + 1] * share;
+}
+
+std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member) {
+    return facts.members() > 1 ? ", " + escape(canvas.drawable(facts.motion(member).label)) : std::string();
+}
+
+void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup) {
+    const double u = facts.unit;
+    canvas.text({box.x, box.y + 26 * u}, markup,
+                {.size = 21 * u, .color = facts.palette->ink, .weight = Weight::semibold, .max_width = box.w});
+}
+
+void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,
+                   const std::function<void(std::size_t)>& path) {
+    constexpr int kShades = 12;
+    if (!(facts.force_scale > 0)) return;
+    std::array<std::vector<std::size_t>, kShades> shade;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i] > 0) {
+            const double share = std::sqrt(std::min(1.0, double(places[i]) / facts.force_scale));
+            shade[static_cast<std::size_t>(std::min(kShades - 1.0, std::floor(share * kShades)))].push_back(i);
+        }
+    for (int k = 0; k < kShades; ++k) {
+        if (shade[static_cast<std::size_t>(k)].empty()) continue;
+        for (std::size_t i : shade[static_cast<std::size_t>(k)]) path(i);
+        canvas.stroke({force_color(*facts.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
+    }
+}
+
+void Panel::grow(Canvas&, const Image&, int, bool, State*) const {}
+int Panel::stage(int) const { return 0; }
+
+std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    switch (slot.spec.kind) {
+        case PanelKind::mechanism:
+            return std::make_unique<MechanismPanel>(facts, slot);
+        case PanelKind::strip:
+            return make_strip_panel(facts, slot);
+        case PanelKind::phase:
+            return make_phase_panel(facts, slot);
+        case PanelKind::energy:
+            return make_energy_panel(facts, slot);
+        case PanelKind::close_up:
+            return make_close_up_panel(facts, slot);
+        case PanelKind::traces:
+            return make_traces_panel(facts, slot);
+    }
+    return nullptr;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,109 @@
+// A panel: a part of the frame with a box of its own, a ground that never changes, a layer that grows with time, and
+// what moves on top.
+//
+// Panels are made once for a film and shared by the threads that draw it; what a thread keeps between frames (a GL
+// context, a layer that grows) is its State, which may save time but never changes a pixel.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/draw/canvas.hpp"
+#include "render/film/film.hpp"
+#include "render/mechanism/trace.hpp"
+#include "render/plot/labels.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+
+// What all panels of a film share.
+struct FilmFacts {
+    explicit FilmFacts(std::shared_ptr<const FilmSetup> setup);
+
+    std::shared_ptr<const FilmSetup> setup;
+    const Palette* palette = nullptr;
+    bool cjk = false;
+    Layout places;
+    double unit = 1;  // [px] of one design pixel
+    TimeFormat time;
+    double factor = 1;                              // of exaggeration, the same for all motions
+    double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none
+    double arrow_scale = 0;                         // largest force of a frame [N]
+    double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
+    Sight sight;                                    // of all mechanisms
+    Range span;                                     // first and last instant of frames and charts [s]
+    std::vector<std::vector<TraceSample>> samples;  // of each motion
+    std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
+    std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
+
+    int frames() const { return static_cast<int>(setup->frames()); }
+    int members() const { return 1 + static_cast<int>(setup->others.size()); }
+    const Motion& motion(int member) const {
+        return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
+    }
+    sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
+    // A motion with a cam, to one without: their sections lie alike. Else null.
+    const sim::Problem* with(int member) const;
+    double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
+    // Of a motion among several: its own; else the palette's for motion.
+    Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+
+  private:
+    void check() const;
+    void choose_scales();
+};
+
+// The time after which a trace coloured by its age is half as strong [s].
+inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }
+
+class Panel {
+  public:
+    struct State {
+        virtual ~State() = default;
+    };
+    virtual ~Panel() = default;
+
+    virtual std::unique_ptr<State> make_state() const { return nullptr; }
+    virtual void draw_ground(Canvas& canvas) const = 0;
+
+    // What stays once it is there, under all that moves: added to `kept`, which is the ground with what this panel
+    // added for earlier frames of the same stage, or the `ground` alone when `anew`. `state` is one that this panel
+    // made.
+    virtual void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const;
+    // Frames of another stage keep nothing of each other.
+    virtual int stage(int frame) const;
+    // All that grows, nothing when nothing does [px].
+    virtual Box growing() const { return {}; }
+
+    // It moves from the frame before to this one even though time stands still.
+    virtual bool plays(int) const { return false; }
+
+    // What moves. `style` may be flatter than the view's.
+    virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
+};
+
+// The panel for a slot of the layout.
+std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot);
+
+// The makers, one a file.
+std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot);
+
+// ---- small things that panels share ------------------------------------------------------------
+
+// The column of a channel; null when the table has none.
+const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
+// Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
+double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
+// Of a panel of one motion among several: ", " and its label, as markup.
+std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member);
+void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup);
+// Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
+void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,
+                   const std::function<void(std::size_t)>& path);
+inline Vec2 down(double angle) { return {std::cos(angle), -std::sin(angle)}; }  // unit vector in pixels
+
+}  // namespace beamcam::render

@@ -1,0 +1,123 @@
+#include "render/film/parameter_line.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "render/plot/labels.hpp"
+
+namespace beamcam::render {
+namespace {
+
+// A row of text from `x` to `right`, on its baseline.
+struct Row {
+    double x = 0, right = 0, y = 0;
+};
+
+// As many of the pieces, in their order, as fit into the rows one after the other.
+std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces, const TextStyle& style, double gap,
+                         const std::vector<Row>& rows) {
+    std::vector<Vec2> out;
+    std::size_t row = 0;
+    double x = rows.front().x;
+    for (const std::string& piece : pieces) {
+        const double w = canvas.measure(piece, style).w;
+        while (row < rows.size() && x + w > rows[row].right)
+            if (++row < rows.size()) x = rows[row].x;
+        if (row == rows.size()) break;
+        out.push_back({x, rows[row].y});
+        x += w + gap;
+    }
+    return out;
+}
+
+}  // namespace
+
+TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
+
+FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
+    constexpr double kSmallest = 2.0 / 3;
+    FittedTitle out{.style = title_style(u, color)};
+    const double natural = canvas.measure(title, out.style).w;
+    if (natural > box.w) out.style.size *= std::max(kSmallest, 0.999 * box.w / natural);
+    out.style.max_width = box.w;
+    out.cut = kSmallest * natural > box.w;
+    return out;
+}
+
+ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::string& title,
+                             const std::vector<std::string>& pieces) {
+    ParameterLine out;
+    if (!places.parameters) {
+        out.without_room = pieces;
+        return out;
+    }
+    const double u = places.unit;
+    const Box& b = *places.parameters;
+    std::vector<Row> rows{{b.x, b.right(), b.y + 24 * u}};
+    const auto choose = [&](const std::vector<Row>& into) {
+        for (const auto& [size, gap] : {std::pair{21, 26}, {21, 16}, {19, 16}, {17, 14}}) {
+            const TextStyle style{.size = size * u};
+            const std::vector<Vec2> at = placed(canvas, pieces, style, gap * u, into);
+            if (at.size() <= out.pieces.size()) continue;
+            out.size = style.size;
+            out.pieces.clear();
+            for (std::size_t i = 0; i < at.size(); ++i) out.pieces.push_back({pieces[i], at[i]});
+        }
+    };
+    choose(rows);
+    if (out.pieces.size() < pieces.size() && places.title) {
+        const Row above{b.x, b.right(), places.title->y + 38 * u};
+        if (title.empty()) {  // two lines in their order
+            rows.insert(rows.begin(), above);
+        } else {
+            rows.push_back(above);
+            rows.back().x += canvas.measure(escape(canvas.drawable(title)), title_style(u)).w + 40 * u;
+        }
+        choose(rows);
+    }
+    out.without_room.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());
+    return out;
+}
+
+std::string plain(const std::string& markup) {
+    std::string out;
+    for (std::size_t i = 0; i < markup.size();) {
+        const std::string_view rest = std::string_view(markup).substr(i);
+        if (rest.starts_with("<")) {
+            if (rest.starts_with("<sup>")) out += '^';
+            i = std::min(markup.find('>', i), markup.size() - 1) + 1;
+        } else if (rest.starts_with("\u2009") || rest.starts_with("\u00A0")) {
+            out += ' ';
+            i += rest.starts_with("\u2009") ? 3 : 2;
+        } else {
+            out += markup[i++];
+        }
+    }
+    return out;
+}
+
+std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& grid, int members,
+                                      const std::string& title, const std::vector<const sim::Problem*>& problems) {
+    const Layout places =
+        grid ? layout(width, height, *grid) : layout(width, height, std::vector<PanelSpec>{}, members);
+    std::vector<std::string> out;
+    std::vector<std::string> missing = common_pieces(problems);
+    const bool titled = places.title && !title.empty();
+    if (!title.empty() && !titled) out.emplace_back("the title");
+    if (places.parameters || titled) {
+        const Fonts fonts(needs_cjk(title));
+        Image scratch(1, 1);
+        Canvas canvas(scratch, fonts);
+        if (titled && fitted_title(canvas, escape(canvas.drawable(title)), *places.title, places.unit).cut)
+            out.emplace_back("the end of the title");
+        missing = parameter_line(canvas, places, title, missing).without_room;
+    }
+    for (const std::string& piece : missing) out.push_back(plain(piece));
+    const bool colored = std::ranges::any_of(
+        problems, [](const sim::Problem* p) { return p->cam.has_value() || p->beam.model != sim::ModelKind::rigid; });
+    if (!places.scales && colored && places.first(PanelKind::mechanism)) out.emplace_back("colour scales");
+    return out;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,187 @@
+// The phase portrait: hub speed against hub angle, the path so far and the point of now.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/draw/growing.hpp"
+#include "render/draw/smooth_path.hpp"
+#include "render/film/panel.hpp"
+#include "render/plot/chart.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+// One direction of the axes.
+struct Axis {
+    AxisScale scale;
+    Ticks ticks;
+    Range shown;  // scaled
+    double share(double v) const { return ((v - scale.offset) / scale.scale - shown.low) / (shown.high - shown.low); }
+};
+
+Axis axis(double low, double high, const char* unit, int most) {
+    Axis a;
+    if (!(low <= high)) low = 0, high = 1;
+    if (high - low < 1e-9) low -= 0.05, high += 0.05;
+    a.scale = axis_scale(low, high, unit);
+    low = (low - a.scale.offset) / a.scale.scale, high = (high - a.scale.offset) / a.scale.scale;
+    a.shown = round_range(low, high, most);
+    const double step = ticks(low, high, most).step;
+    a.ticks = ticks(a.shown.low, a.shown.high, static_cast<int>(std::lround((a.shown.high - a.shown.low) / step)) + 1);
+    return a;
+}
+
+struct Layers final : Panel::State {
+    std::vector<GrowingLayer> layers;
+};
+
+class PhasePanel final : public Panel {
+  public:
+    PhasePanel(const FilmFacts& facts, const PanelSlot& slot)
+        : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit)) {
+        double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
+        for (int m = 0; m < facts.members(); ++m) {
+            const sim::Table& table = facts.motion(m).chart;
+            const auto *x = column(table, {ChannelKind::theta, 0}), *y = column(table, {ChannelKind::theta_dot, 0});
+            for (std::size_t i = 0; x && y && i < x->size(); ++i) {
+                x0 = std::min(x0, (*x)[i]), x1 = std::max(x1, (*x)[i]);
+                y0 = std::min(y0, (*y)[i]), y1 = std::max(y1, (*y)[i]);
+            }
+            for (int k = 0; k < facts.frames(); ++k) {
+                const sim::Pose p = facts.pose(m, k);
+                x0 = std::min(x0, p.theta), x1 = std::max(x1, p.theta);
+                y0 = std::min(y0, p.theta_dot), y1 = std::max(y1, p.theta_dot);
+            }
+        }
+        const double u = facts.unit;
+        x_ = axis(x0, x1, "rad", std::clamp(static_cast<int>(plot_.w / (85 * u)), 2, 6));
+        y_ = axis(y0, y1, "rad/s", std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 6));
+        for (int m = 0; m < facts.members(); ++m) paths_.push_back(path(m));
+    }
+
+    std::unique_ptr<State> make_state() const override {
+        auto state = std::make_unique<Layers>();
+        for (std::size_t i = 0; i < paths_.size(); ++i)
+            state->layers.emplace_back(static_cast<int>(plot_.w) + 16, static_cast<int>(plot_.h) + 16);
+        return state;
+    }
+
+    void draw_ground(Canvas& canvas) const override {
+        const double u = facts_.unit;
+        const Palette& p = *facts_.palette;
+        const std::string symbol = y_.scale.name("d" + math("θ") + "/d" + math("t"), "rad/s");
+        const std::string named = fmt::format("Hub speed {}", symbol);
+        const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
+        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
+        const TextStyle label{.size = 17 * u, .color = p.muted};
+        const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
+        for (double v : y_.ticks.values) {
+            const double at = std::round(to_pixels(0, v * y_.scale.scale + y_.scale.offset).y) + 0.5;
+            canvas.move_to({plot_.x, at});
+            canvas.line_to({plot_.right(), at});
+            canvas.stroke(grid);
+            TextStyle right = label;
+            right.align = Align::right;
+            canvas.text({plot_.x - 12 * u, at + 6 * u}, fixed(v, y_.ticks.decimals), right);
+        }
+        const std::string name = x_.scale.name(math("θ"), "rad");
+        const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
+        for (double v : x_.ticks.values) {
+            const double at = std::round(to_pixels(v * x_.scale.scale + x_.scale.offset, 0).x) + 0.5;
+            canvas.move_to({at, plot_.y});
+            canvas.line_to({at, plot_.bottom()});
+            canvas.stroke(grid);
+            TextStyle centre = label;
+            centre.align = Align::centre;
+            const std::string text = fixed(v, x_.ticks.decimals);
+            if (at + canvas.measure(text, label).w / 2 < room)
+                canvas.text({at, plot_.bottom() + 26.5 * u}, text, centre);
+        }
+        TextStyle end = label;
+        end.align = Align::right;
+        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 26.5 * u}, name, end);
+        for (std::size_t m = 0; m < paths_.size(); ++m) {
+            std::vector<Vec2> points = paths_[m].points;
+            for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
+            canvas.polyline(points);
+            canvas.stroke({mix(p.paper, color(m), 0.22), 1.0 * u});
+        }
+    }
+
+    Box growing() const override { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
+    void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override {
+        auto& layers = static_cast<Layers*>(state)->layers;
+        std::vector<Box> changed;
+        for (std::size_t m = 0; m < paths_.size(); ++m)
+            changed.push_back(layers[m].until(facts_.at(static_cast<int>(m), frame), paths_[m], kept.fonts(),
+                                              {color(m), 1.3 * facts_.unit}));
+        if (anew && !layers.empty()) changed = {layers.front().whole()};
+        const Box at = growing();
+        for (const Box& box : changed) lay_down(kept, ground, layers, box, at);
+    }
+    // The paths lie upon each other: where one grew, all are laid down again.
+    static void lay_down(Canvas& kept, const Image& ground, const std::vector<GrowingLayer>& layers, const Box& part,
+                         const Box& at) {
+        if (part.empty()) return;
+        kept.replace_part(ground, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
+        for (const GrowingLayer& layer : layers)
+            kept.image_part(layer.image(), static_cast<int>(at.x), static_cast<int>(at.y), part);
+    }
+
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        for (std::size_t m = 0; m < paths_.size(); ++m) {
+            const sim::Pose& pose = facts_.pose(static_cast<int>(m), frame);
+            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * facts_.unit);
+            canvas.fill_keeping_path(color(m));
+            canvas.stroke({facts_.palette->paper, 1.6 * facts_.unit});
+        }
+    }
+
+  private:
+    Color color(std::size_t member) const { return series_color(*facts_.palette, member); }
+    Vec2 to_pixels(double theta, double speed) const {
+        return {plot_.x + plot_.w * x_.share(theta), plot_.bottom() - plot_.h * y_.share(speed)};
+    }
+    GrowingPath path(int member) const {
+        const sim::Table& table = facts_.motion(member).chart;
+        const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),
+                   *y = column(table, {ChannelKind::theta_dot, 0});
+        if (!t || !x || !y) return {};
+        std::vector<Vec2> points;
+        for (std::size_t i = 0; i < t->size(); ++i)
+            points.push_back(to_pixels((*x)[i], (*y)[i]) - Vec2{plot_.x - 8, plot_.y - 8});
+        return smooth(thinned(*t, points, 0.7));
+    }
+    // The rows follow the motion, so that the curve between them is a spline.
+    static GrowingPath smooth(const GrowingPath& path) {
+        constexpr double kStep = 3;  // [px]
+        GrowingPath out;
+        for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+            const std::vector<Vec2> piece = smooth_piece(path.points, i, kStep);
+            const double from = path.times[i], to = path.times[i + 1];
+            for (std::size_t k = i == 0 ? 0 : 1; k < piece.size(); ++k) {
+                out.points.push_back(piece[k]);
+                out.times.push_back(from + (to - from) * double(k) / double(piece.size() - 1));
+            }
+        }
+        return out.points.empty() ? path : out;
+    }
+
+    const FilmFacts& facts_;
+    Box box_, plot_;
+    Axis x_, y_;
+    std::vector<GrowingPath> paths_;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<PhasePanel>(facts, slot);
+}
+
+}  // namespace beamcam::render

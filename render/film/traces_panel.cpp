@@ -1,0 +1,97 @@
+// Where the contact has been: around the disc, in the disc's own frame, a spoke for each place whose length and colour
+// say how hard it was ever touched; below, the same along the beam.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/film/panel.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kSpokes = 720, kPlaces = 400;
+
+struct Spokes final : Panel::State {
+    Spokes(const FilmFacts& facts, int member)
+        : trace(facts.samples[static_cast<std::size_t>(member)],
+                2 * kPi * (facts.motion(member).problem.cam ? facts.motion(member).problem.cam->radius : 1), kSpokes,
+                facts.motion(member).problem.beam.length, kPlaces) {}
+    Trace trace;
+};
+
+class TracesPanel final : public Panel {
+  public:
+    TracesPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
+        const double u = facts.unit;
+        const Box room{box_.x, box_.y + 40 * u, box_.w, box_.h - 40 * u - 74 * u};
+        radius_ = 0.5 * std::min(room.w, room.h) / 1.42;
+        centre_ = room.centre();
+        beam_ = {box_.x + 12 * u, box_.bottom() - 34 * u, box_.w - 24 * u, 8 * u};
+    }
+    std::unique_ptr<State> make_state() const override { return std::make_unique<Spokes>(facts_, member_); }
+
+    void draw_ground(Canvas& canvas) const override {
+        const double u = facts_.unit;
+        const Palette& p = *facts_.palette;
+        draw_heading(canvas, facts_, box_, "Contact trace on disc and beam" + of_motion(canvas, facts_, member_));
+        canvas.circle(centre_, radius_);
+        canvas.fill_keeping_path(mix(p.paper, p.steel, 0.5));
+        canvas.stroke({p.steel_edge, 1.6 * u});
+        // The mark of the disc, where the arc starts.
+        canvas.circle(centre_ + Vec2{radius_ - 14 * u, 0}, 4 * u);
+        canvas.fill(p.steel_edge);
+        canvas.rounded(beam_, 3 * u);
+        canvas.fill(mix(p.paper, p.motion, 0.35));
+        const TextStyle end{.size = 16 * u, .color = p.muted};
+        canvas.text({beam_.x, beam_.bottom() + 20 * u}, "root", end);
+        canvas.text({beam_.right(), beam_.bottom() + 20 * u}, "tip",
+                    {.size = 16 * u, .color = p.muted, .align = Align::right});
+    }
+
+    void draw(Canvas& canvas, int frame, Style, State* state) const override {
+        const double u = facts_.unit;
+        const Palette& p = *facts_.palette;
+        const sim::Pose& pose = facts_.pose(member_, frame);
+        Trace& trace = static_cast<Spokes*>(state)->trace;
+        trace.show_until(pose.t);
+        const auto share = [&](float force) { return std::sqrt(std::min(1.0, double(force) / facts_.force_scale)); };
+        const double width = std::max(1.2, 2 * kPi * radius_ / kSpokes * 1.3);
+        stroke_places(canvas, facts_, trace.rim(), width, [&](std::size_t i) {
+            const Vec2 way = down(2 * kPi * (static_cast<double>(i) + 0.5) / kSpokes);
+            canvas.move_to(centre_ + way * radius_);
+            canvas.line_to(centre_ + way * (radius_ * (1 + 0.06 + 0.32 * share(trace.rim()[i]))));
+        });
+        stroke_places(canvas, facts_, trace.beam(), std::max(1.2, beam_.w / kPlaces * 1.3), [&](std::size_t i) {
+            const double x = beam_.x + beam_.w * (static_cast<double>(i) + 0.5) / kPlaces;
+            canvas.move_to({x, beam_.y});
+            canvas.line_to({x, beam_.y - 4 * u - 22 * u * share(trace.beam()[i])});
+        });
+        if (!pose.nearest || !facts_.motion(member_).problem.cam) return;
+        const Vec2 now = down(pose.nearest->s / facts_.motion(member_).problem.cam->radius);
+        const Color color = pose.nearest->touching ? p.contact : p.muted;
+        canvas.circle(centre_ + now * (radius_ - 6 * u), 4.5 * u);
+        canvas.fill(color);
+        canvas.circle(
+            {beam_.x + beam_.w * pose.nearest->x / facts_.motion(member_).problem.beam.length, beam_.y + beam_.h / 2},
+            4.5 * u);
+        canvas.fill(color);
+    }
+
+  private:
+    const FilmFacts& facts_;
+    int member_;
+    Box box_, beam_;
+    Vec2 centre_;
+    double radius_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<TracesPanel>(facts, slot);
+}
+
+}  // namespace beamcam::render

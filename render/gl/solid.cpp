@@ -1,0 +1,173 @@
+#include "render/gl/solid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kRound = 160;  // sides of a disc; at a radius of 300 px the corners are 0.06 px off
+
+Vec3 operator*(Vec3 a, double k) { return {a.x * k, a.y * k, a.z * k}; }
+double dot3(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 normalized(Vec3 a) {
+    const double n = std::sqrt(dot3(a, a));
+    return n > 0 ? a * (1 / n) : Vec3{0, 0, 1};
+}
+
+class Mesh {
+  public:
+    explicit Mesh(std::vector<SolidVertex>& out) : out_(out) {}
+
+    void triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, Color color) {
+        vertex(a, na, color), vertex(b, nb, color), vertex(c, nc, color);
+    }
+    void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 na, Vec3 nb, Vec3 nc, Vec3 nd, Color color) {
+        triangle(a, b, c, na, nb, nc, color);
+        triangle(a, c, d, na, nc, nd, color);
+    }
+    // A colour at b and c that differs from that at a and d.
+    void shaded(const std::array<Vec3, 4>& at, const std::array<Vec3, 4>& n, Color first, Color last) {
+        const std::array<Color, 4> colors{first, last, last, first};
+        for (const std::size_t k : {0, 1, 2, 0, 2, 3}) vertex(at[k], n[k], colors[k]);
+    }
+    void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 n, Color color) { quad(a, b, c, d, n, n, n, n, color); }
+
+    // Along z between `back` and `front`, its edges broken by a chamfer; `bore`: a hole through it.
+    void disc(Vec2 middle, double radius, double back, double front, double chamfer, Color color, Vec2 hole = {},
+              double bore = 0, const std::vector<Color>& rim = {}, double mark = 0) {
+        const double inner = radius - chamfer;
+        for (int i = 0; i < kRound; ++i) {
+            const double a = 2 * kPi * i / kRound, b = 2 * kPi * (i + 1) / kRound;
+            const Vec2 u{std::cos(a), std::sin(a)}, v{std::cos(b), std::sin(b)};
+            const auto at = [&](Vec2 way, double r, double z) {
+                return Vec3{middle.x + way.x * r, middle.y + way.y * r, z};
+            };
+            const auto out = [](Vec2 way, double z) { return normalized({way.x, way.y, z}); };
+            Color side = color;
+            if (!rim.empty()) {
+                const double turns = ((a + b) / 2 - mark) / (2 * kPi);
+                const auto place =
+                    static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(rim.size()));
+                const Color& touched = rim[std::min(place, rim.size() - 1)];
+                if (touched.a > 0) side = touched;
+            }
+            quad(at(u, radius, back), at(v, radius, back), at(v, radius, front - chamfer),
+                 at(u, radius, front - chamfer), out(u, 0), out(v, 0), out(v, 0), out(u, 0), side);
+            quad(at(u, radius, front - chamfer), at(v, radius, front - chamfer), at(v, inner, front),
+                 at(u, inner, front), out(u, 1), out(v, 1), out(v, 1), out(u, 1), color);
+            const auto hole_at = [&](Vec2 way, double z) {
+                return Vec3{hole.x + way.x * bore, hole.y + way.y * bore, z};
+            };
+            const Vec3 n{0, 0, 1};
+            if (bore > 0) {
+                quad(at(u, inner, front), at(v, inner, front), hole_at(v, front), hole_at(u, front), n, color);
+                quad(hole_at(u, back), hole_at(v, back), hole_at(v, front), hole_at(u, front), out(u * -1, 0),
+                     out(v * -1, 0), out(v * -1, 0), out(u * -1, 0), mix(color, rgb(0), 0.25));
+            } else {
+                triangle(at(u, inner, front), at(v, inner, front), {middle.x, middle.y, front}, n, n, n, color);
+            }
+        }
+    }
+
+    // A bar between two edges, across the plane of motion.
+    void bar(const std::vector<Vec2>& face, const std::vector<Vec2>& back, const std::vector<Color>& colors,
+             double half) {
+        const std::size_t n = face.size();
+        for (std::size_t i = 0; i + 1 < n; ++i) {
+            const auto normal = [&](std::size_t k) {
+                const Vec2 across = face[k] - back[k];
+                return normalized({across.x, across.y, 0});
+            };
+            const Vec3 p = normal(i), q = normal(i + 1);
+            const auto at = [&](Vec2 v, double z) { return Vec3{v.x, v.y, z}; };
+            const Color first = colors[i], last = colors[i + 1];
+            const Vec3 front{0, 0, 1};
+            shaded({at(face[i], -half), at(face[i + 1], -half), at(face[i + 1], half), at(face[i], half)}, {p, q, q, p},
+                   first, last);
+            shaded({at(back[i], -half), at(back[i + 1], -half), at(back[i + 1], half), at(back[i], half)},
+                   {p * -1, q * -1, q * -1, p * -1}, first, last);
+            shaded({at(face[i], half), at(face[i + 1], half), at(back[i + 1], half), at(back[i], half)},
+                   {front, front, front, front}, first, last);
+        }
+        for (const std::size_t k : {std::size_t{0}, n - 1}) {
+            const Vec2 along = k == 0 ? face[0] - face[1] : face[k] - face[k - 1];
+            quad({face[k].x, face[k].y, -half}, {back[k].x, back[k].y, -half}, {back[k].x, back[k].y, half},
+                 {face[k].x, face[k].y, half}, normalized({along.x, along.y, 0}), colors[k]);
+        }
+    }
+
+    void box(double x0, double x1, double y0, double y1, double z0, double z1, Color c) {
+        quad({x0, y0, z1}, {x1, y0, z1}, {x1, y1, z1}, {x0, y1, z1}, {0, 0, 1}, c);
+        quad({x0, y1, z0}, {x1, y1, z0}, {x1, y1, z1}, {x0, y1, z1}, {0, 1, 0}, c);
+        quad({x0, y0, z0}, {x1, y0, z0}, {x1, y0, z1}, {x0, y0, z1}, {0, -1, 0}, c);
+        quad({x1, y0, z0}, {x1, y1, z0}, {x1, y1, z1}, {x1, y0, z1}, {1, 0, 0}, c);
+        quad({x0, y0, z0}, {x0, y1, z0}, {x0, y1, z1}, {x0, y0, z1}, {-1, 0, 0}, c);
+    }
+
+  private:
+    void vertex(Vec3 p, Vec3 n, Color c) {
+        out_.push_back({{float(p.x), float(p.y), float(p.z)},
+                        {float(n.x), float(n.y), float(n.z)},
+                        {float(c.r), float(c.g), float(c.b), float(c.a)}});
+    }
+    std::vector<SolidVertex>& out_;
+};
+
+}  // namespace
+
+Perspective Perspective::looking(Vec2 centre, double distance, double zoom, double yaw, double pitch) {
+    Perspective p{centre, distance, zoom, {}};
+    const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
+    p.axes = {Vec3{cy, 0, -sy}, Vec3{-sy * sp, cp, -cy * sp}, Vec3{sy * cp, sp, cy * cp}};
+    return p;
+}
+
+Vec2 Perspective::to_pixels(Vec3 p) const {
+    const double nearer = zoom * distance / (distance - dot3(axes[2], p));
+    return {centre.x + nearer * dot3(axes[0], p), centre.y - nearer * dot3(axes[1], p)};
+}
+
+SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, const Box& box, const Perspective& view,
+                       double wide, double unit, const std::vector<Color>& rim) {
+    SolidScene scene;
+    scene.view = view;
+    scene.shadow = palette.shadow;
+    const Vec2 middle = box.centre();
+    const auto up = [&](Vec2 p) { return Vec2{p.x - middle.x, middle.y - p.y}; };
+    std::vector<Vec2> face, back;
+    for (Vec2 p : shape.face) face.push_back(up(p));
+    for (Vec2 p : shape.back) back.push_back(up(p));
+    const double half = wide / 2;
+    scene.reach = 1.6 * std::max(box.w, box.h);
+    Mesh mesh(scene.triangles);
+    // The wall behind, for the shadow alone.
+    const double wall = -1.55 * wide, far = scene.reach;
+    mesh.quad({-far, -far, wall}, {far, -far, wall}, {far, far, wall}, {-far, far, wall}, {0, 0, 1}, {0, 0, 0, 0});
+    const Color metal = palette.steel;
+    const Vec2 hinge = up(shape.hinge);
+    // The bearing block, behind the beam, and the shaft through it.
+    const double foot = shape.hub + 30 * unit;
+    mesh.box(hinge.x - 0.8 * shape.hub, hinge.x + 0.8 * shape.hub, hinge.y - foot, hinge.y, -1.5 * wide, -0.75 * wide,
+             mix(metal, rgb(0), 0.12));
+    mesh.box(hinge.x - 1.5 * shape.hub, hinge.x + 1.5 * shape.hub, hinge.y - foot - 10 * unit, hinge.y - foot,
+             -1.5 * wide, 0.75 * wide, mix(metal, rgb(0), 0.3));
+    mesh.disc(hinge, 0.8 * shape.hub, -1.5 * wide, -0.7 * wide, 2 * unit, mix(metal, rgb(0), 0.12));
+    if (shape.disc) {
+        const DiscShape& d = *shape.disc;
+        const double thick = 0.62 * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
+        mesh.disc(up(d.centre), d.radius, -thick, thick, chamfer, metal, up(d.axis), d.bore, rim, d.angle);
+        mesh.disc(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
+        mesh.disc(up(d.centre), std::min(4 * unit, 0.06 * d.radius), thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
+        mesh.disc(up(d.axis), 0.8 * d.bore, -1.5 * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
+    }
+    mesh.bar(face, back, shape.colors, half);
+    mesh.disc(hinge, shape.hub, -0.7 * wide, 0.7 * wide, 3 * unit, mix(metal, rgb(0xFFFFFF), 0.15));
+    mesh.disc(hinge, shape.pin, 0.7 * wide, 0.7 * wide + 4 * unit, 1.5 * unit, palette.pin);
+    return scene;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,49 @@
+// The mechanism as solid bodies in perspective: meshes for the OpenGL renderer, and the same projection for what Cairo
+// writes on top.
+//
+// Lengths are pixels: x and y as in the picture with y turned up, z towards the viewer, the origin at the middle of
+// the panel. The plane z = 0 is the plane of motion.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/draw/color.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/mechanism/mechanism.hpp"
+
+namespace beamcam::render {
+
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+};
+
+// Looks at the origin from a distance, turned by yaw about the vertical (positive: from the right) and by pitch
+// (positive: from above).
+struct Perspective {
+    Vec2 centre;                    // of the picture [px]
+    double distance = 1, zoom = 1;  // [px]; picture pixels a pixel at the origin
+    std::array<Vec3, 3> axes{};     // right, up and towards the viewer
+
+    static Perspective looking(Vec2 centre, double distance, double zoom, double yaw, double pitch);
+    Vec2 to_pixels(Vec3 p) const;
+};
+
+struct SolidVertex {
+    std::array<float, 3> place{}, normal{};
+    std::array<float, 4> color{};  // alpha 0: a wall that shows shadows and nothing else
+};
+
+struct SolidScene {
+    Perspective view;
+    std::vector<SolidVertex> triangles;  // three each, outside counter-clockwise or not: both sides are lit
+    double reach = 1;                    // everything lies within this distance of the origin [px]
+    double shadow = 0.3;                 // opacity
+};
+
+// `wide`: of the beam across the plane of motion [px]. `rim`: a colour for places around the disc, counter-clockwise
+// from its mark, alpha 0 where there is none; may be empty.
+SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, const Box& box, const Perspective& view,
+                       double wide, double unit, const std::vector<Color>& rim);
+
+}  // namespace beamcam::render

@@ -1,0 +1,218 @@
+#include "render/mechanism/mechanism.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/area.hpp"
+
+namespace beamcam::render {
+namespace {
+
+DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const Camera& camera, double unit) {
+    const sim::Cam& cam = *problem.cam;
+    DiscShape disc;
+    disc.centre = camera.to_pixels(pose.disc_centre);
+    disc.axis = camera.to_pixels(pose.cam_centre);
+    disc.radius = cam.radius * camera.scale;
+    disc.angle = pose.cam_angle;
+    // The bore stays inside the disc: at C it has R − e of material around it.
+    const double marks = mark_unit(problem, camera, unit);
+    disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
+    disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
+    const Vec2 ray = sim::unit(pose.cam_angle);
+    const double out = disc.radius - std::min(24 * marks, 0.24 * disc.radius);
+    disc.mark = disc.centre + Vec2{ray.x, -ray.y} * out;
+    return disc;
+}
+
+// A line of this width inside a circle, or about it by half.
+Area ring(Vec2 centre, double outside, double width) {
+    Area area;
+    area.add_circle(centre, outside);
+    area.cut_circle(centre, outside - width);
+    return area;
+}
+
+// The filling ends under the middle of the lines, so that nothing of it shows at their edges.
+void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
+    const double rim = 2 * unit, bore = 1.6 * unit;
+    Area body, mark;
+    body.add_circle(disc.centre, disc.radius - rim / 2);
+    body.cut_circle(disc.axis, disc.bore);
+    mark.add_circle(disc.mark, disc.mark_radius);
+    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+        body.paint(picture, p.steel, touched);
+        ring(disc.centre, disc.radius, rim).paint(picture, p.steel_edge, touched);
+        ring(disc.axis, disc.bore + bore / 2, bore).paint(picture, p.steel_edge, touched);
+        mark.paint(picture, p.steel_edge, touched);
+    });
+}
+
+// Into how many parts the colour between two stations is divided: steps of two levels of 255 are no bands to the eye.
+int color_steps(const Color& a, const Color& b) {
+    const double most = std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+    return std::clamp(static_cast<int>(std::ceil(most * 255 / 2)), 1, 64);
+}
+
+// The section's two edges, root to tip.
+struct Edges {
+    std::vector<Vec2> face, back;  // [px]
+};
+
+// Moved inwards, the ends along the beam, by no more than half way to the next station.
+Edges inset(const MechanismShape& s, double by) {
+    Edges inner{s.face, s.back};
+    const std::size_t n = s.face.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 across = s.back[i] - s.face[i], in = across * (by / norm(across));
+        inner.face[i] = inner.face[i] + in;
+        inner.back[i] = inner.back[i] - in;
+    }
+    const auto shorten = [&](std::vector<Vec2>& edge, std::size_t end, std::size_t next) {
+        const Vec2 along = edge[next] - edge[end];
+        const double length = norm(along);
+        if (length > 0) edge[end] = edge[end] + along * std::min(by / length, 0.5);
+    };
+    for (std::vector<Vec2>* edge : {&inner.face, &inner.back}) {
+        shorten(*edge, 0, 1);
+        shorten(*edge, n - 1, n - 2);
+    }
+    return inner;
+}
+
+std::vector<Vec2> around(const Edges& edges) {
+    std::vector<Vec2> corners = edges.face;
+    corners.insert(corners.end(), edges.back.rbegin(), edges.back.rend());
+    return corners;
+}
+
+// The colours end hard, one beside the other, and under the middle of the outline, which lies inside the section: its
+// outer edge is the true one.
+void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
+    const Edges middle = inset(s, unit);
+    Area outline;
+    outline.add(around({s.face, s.back}));
+    outline.cut(around(inset(s, 2 * unit)));
+    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+        for (std::size_t i = 0; i + 1 < s.face.size(); ++i) {
+            const int steps = color_steps(s.colors[i], s.colors[i + 1]);
+            const auto at = [&](const std::vector<Vec2>& edge, int k) {
+                const double way = double(k) / steps;
+                return edge[i] * (1 - way) + edge[i + 1] * way;
+            };
+            for (int k = 0; k < steps; ++k)
+                paint_quadrilateral(
+                    {at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1), at(middle.back, k)}, picture,
+                    mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps), touched);
+        }
+        outline.paint(picture, p.steel_edge, touched);
+    });
+}
+
+void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
+    canvas.circle(s.hinge, s.hub - unit);
+    canvas.fill_keeping_path(mix(p.paper, p.steel, 0.45));
+    canvas.stroke({p.steel_edge, 2 * unit});
+    canvas.circle(s.hinge, s.pin);
+    canvas.fill(p.steel_edge);
+}
+
+}  // namespace
+
+double mark_unit(double beam_length, double unit) {
+    constexpr double kUsual = 640;   // of a beam at full size [px]
+    constexpr double kLeast = 0.25;  // a hub of 5 px
+    return std::clamp(beam_length / kUsual, std::min(kLeast, unit), unit);
+}
+
+double mark_unit(const sim::Problem& problem, const Camera& camera, double unit) {
+    return mark_unit(problem.beam.length * camera.scale, unit);
+}
+
+// Wide enough to cover the root's corners, within reason, and always short of the circle that the disc sweeps.
+double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
+    const double offset = problem.cam ? sim::contact_offset(problem) : problem.beam.depth / 2;
+    const double corner = 1.06 * std::max(offset, problem.beam.depth - offset) * camera.scale;
+    const double marks = mark_unit(problem, camera, unit);
+    double boss = std::clamp(corner, 19 * marks, 36 * marks);
+    if (problem.cam) {
+        const double free = norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity;
+        boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);
+    }
+    return std::max({problem.hub.radius * camera.scale, boss, 1.0});
+}
+
+double support_reach(double hub, double marks) { return hub + 44 * marks; }
+double support_half_width(double hub, double marks) { return 0.6 * (hub + 24 * marks) + 18 * marks; }
+
+// Its lines do not become finer than what can be seen.
+void draw_support(Canvas& canvas, Vec2 o, double hub, double u, const Palette& p) {
+    const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u, pen = std::max(u, 0.45), apart = std::max(11 * u, 4.0);
+    canvas.move_to(o);
+    canvas.line_to({o.x - half, o.y + foot});
+    canvas.line_to({o.x + half, o.y + foot});
+    canvas.close();
+    canvas.fill_keeping_path(mix(p.paper, p.steel, 0.35));
+    canvas.stroke({p.steel_edge, 2 * pen});
+    const double wide = support_half_width(hub, u);
+    const int lines = 1 + static_cast<int>((2 * wide - 10 * u) / apart);
+    for (int i = 0; i < lines; ++i) {
+        const double x = 10 * u + apart * i - wide;
+        canvas.move_to({o.x + x, o.y + foot});
+        canvas.line_to({o.x + x - 10 * u, o.y + foot + 12 * u});
+    }
+    canvas.stroke({p.muted, 1.5 * pen});
+    canvas.move_to({o.x - wide, o.y + foot});
+    canvas.line_to({o.x + wide, o.y + foot});
+    canvas.stroke({p.steel_edge, 2.4 * pen});
+}
+
+namespace {
+
+// Of a wide hub the root's corner, which stands off the radius that the centre line leaves along, would stay outside:
+// the section goes on inwards until both of its corners are in the hub.
+void continue_into_hub(MechanismShape& s) {
+    if (s.face.size() < 2) return;
+    const Vec2 along = s.face[0] - s.face[1], inwards = along * (1 / std::max(norm(along), 1e-300));
+    const double radius = s.hub - 1;
+    double by = 0;
+    for (Vec2 corner : {s.face[0], s.back[0]}) {
+        const Vec2 from = corner - s.hinge;
+        const double outside = dot(from, from) - radius * radius, middle = -dot(from, inwards);
+        if (outside <= 0) continue;
+        if (middle <= 0 || middle * middle < outside) return;  // it passes the hub by, or begins beyond its middle
+        by = std::max(by, middle - std::sqrt(middle * middle - outside));
+    }
+    if (by == 0) return;
+    s.face.insert(s.face.begin(), s.face[0] + inwards * by);
+    s.back.insert(s.back.begin(), s.back[0] + inwards * by);
+    s.colors.insert(s.colors.begin(), s.colors[0]);
+}
+
+}  // namespace
+
+MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
+                               const MechanismLook& look, const Palette& p) {
+    MechanismShape s;
+    const std::size_t n = beam.line.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        s.face.push_back(look.camera.to_pixels(beam.face(i)));
+        s.back.push_back(look.camera.to_pixels(beam.back(i)));
+        const bool colored = look.moment_scale > 0 && i < pose.moment.size();
+        s.colors.push_back(colored ? moment_color(p, pose.moment[i] / look.moment_scale) : moment_color(p, 0));
+    }
+    s.hinge = look.camera.to_pixels({0, 0});
+    s.hub = hub_radius(problem, look.camera, look.unit);
+    s.pin = std::min(7 * look.unit, 0.4 * s.hub);
+    if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
+    continue_into_hub(s);
+    return s;
+}
+
+void draw_flat(Canvas& canvas, const MechanismShape& shape, const MechanismLook& look, const Palette& p) {
+    if (shape.disc) draw_disc(canvas, *shape.disc, look.unit, p);
+    draw_beam(canvas, shape, look.unit, p);
+    draw_hub(canvas, shape, look.unit, p);
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,101 @@
+#include "render/mechanism/trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::render {
+namespace {
+
+const std::vector<double>* column(const sim::Table& table, sim::ChannelKind kind) {
+    for (std::size_t c = 0; c < table.channels.size(); ++c)
+        if (table.channels[c].kind == kind && c < table.values.size()) return &table.values[c];
+    return nullptr;
+}
+
+std::size_t place(double share, std::size_t places) {
+    const double at = std::floor(share * static_cast<double>(places));
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(places - 1)));
+}
+
+}  // namespace
+
+std::vector<TraceSample> contact_samples(const sim::Table& table) {
+    using Kind = sim::ChannelKind;
+    const auto *t = column(table, Kind::t), *x = column(table, Kind::contact_x), *s = column(table, Kind::contact_s),
+               *force = column(table, Kind::contact_force);
+    std::vector<TraceSample> out;
+    if (!t || !x || !s || !force) return out;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        if ((*force)[i] > 0 && !std::isnan((*x)[i]) && !std::isnan((*s)[i]))
+            out.push_back({(*t)[i], (*x)[i], (*s)[i], (*force)[i]});
+    std::ranges::stable_sort(out, {}, &TraceSample::t);
+    return out;
+}
+
+namespace {
+
+// Arc on the disc where a nearly straight beam touches at arc position x: its direction makes cos φ = (x + r)/|OB|
+// with the ray O→B. A slope of 1e-3 displaces it by a thousandth of the radius.
+double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
+    const sim::Cam& cam = *problem.cam;
+    const sim::Vec2 b = cam.centre + sim::unit(impact.cam_angle) * cam.eccentricity;
+    const double share = std::clamp((impact.x + problem.hub.radius) / norm(b), -1.0, 1.0);
+    const double to_disc = std::atan2(b.y, b.x);
+    const double side = std::remainder(problem.initial.angle - to_disc, 2 * std::numbers::pi) >= 0 ? 1 : -1;
+    const double normal = to_disc + side * std::acos(share) + side * std::numbers::pi / 2;
+    const double turns = (normal - impact.cam_angle) / (2 * std::numbers::pi);
+    return (turns - std::floor(turns)) * 2 * std::numbers::pi * cam.radius;
+}
+
+}  // namespace
+
+std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
+                                         std::span<const sim::Impact> impacts) {
+    std::vector<TraceSample> out = contact_samples(table);
+    if (!problem.cam) return out;
+    const auto* t = column(table, sim::ChannelKind::t);
+    if (!t || t->empty()) return out;
+    const double last = *std::ranges::max_element(*t);
+    const std::size_t known = out.size();
+    for (const sim::Impact& impact : impacts) {
+        if (!impact.t_end || !(impact.force_peak > 0) || *impact.t_end > last) continue;
+        const std::span sampled(out.data(), known);
+        const auto first = std::ranges::lower_bound(sampled, impact.t_start, {}, &TraceSample::t);
+        if (first != sampled.end() && first->t <= *impact.t_end) continue;
+        out.push_back({impact.t_start, impact.x, touched_arc(problem, impact), *impact.force_peak});
+    }
+    std::ranges::stable_sort(out, {}, &TraceSample::t);
+    return out;
+}
+
+Trace::Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
+             std::size_t beam_places)
+    : samples_(samples),
+      circumference_(circumference),
+      length_(length),
+      rim_(rim_places),
+      beam_(beam_places),
+      rim_times_(rim_places) {}
+
+void Trace::show_until(double t) {
+    const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
+    const auto until = static_cast<std::size_t>(after - samples_.begin());
+    if (until < shown_) {
+        std::ranges::fill(rim_, 0.0F);
+        std::ranges::fill(beam_, 0.0F);
+        shown_ = 0;
+    }
+    for (; shown_ < until; ++shown_) {
+        const TraceSample& sample = samples_[shown_];
+        const double turns = sample.s / circumference_;
+        const std::size_t rim_place = place(turns - std::floor(turns), rim_.size());
+        float& on_rim = rim_[rim_place];
+        rim_times_[rim_place] = sample.t;
+        float& on_beam = beam_[place(sample.x / length_, beam_.size())];
+        on_rim = std::max(on_rim, static_cast<float>(sample.force));
+        on_beam = std::max(on_beam, static_cast<float>(sample.force));
+    }
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,45 @@
+// Where the contact has been: the largest force so far at each place of the disc's rim and of the beam's face.
+//
+// Samples are sorted into places a pixel wide. Largest-so-far does not depend on the order of the samples, so a film
+// played in any order shows the same trace; playing on only adds the samples in between.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/observe/channels.hpp"
+#include "sim/problem/problem.hpp"
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::render {
+
+struct TraceSample {
+    double t = 0, x = 0, s = 0, force = 0;  // [s], on the beam [m], on the disc from its mark [m], [N]
+};
+// The rows of the table in contact (force > 0, places known), by time. Missing columns give no samples.
+std::vector<TraceSample> contact_samples(const sim::Table& table);
+// And one for each impact that is shorter than the table's spacing and fell between its rows: its place at touch, its
+// largest force.
+std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
+                                         std::span<const sim::Impact> impacts);
+
+class Trace {
+  public:
+    // `places` bins on the rim of the given circumference and on the beam of the given length, each >= 1.
+    Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
+          std::size_t beam_places);
+    void show_until(double t);                              // includes samples at t
+    const std::vector<float>& rim() const { return rim_; }  // 0: never touched
+    const std::vector<float>& beam() const { return beam_; }
+    const std::vector<double>& rim_times() const { return rim_times_; }  // of the last touch of each place [s]
+
+  private:
+    std::span<const TraceSample> samples_;
+    double circumference_, length_;
+    std::vector<float> rim_, beam_;
+    std::vector<double> rim_times_;
+    std::size_t shown_ = 0;
+};
+
+}  // namespace beamcam::render

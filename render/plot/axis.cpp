@@ -1,0 +1,160 @@
+#include "render/plot/axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/base/error.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr double kAir = 0.04;                   // beyond the data, of the range
+constexpr double kSameRelative = 1e-12;         // a range smaller than this part of its numbers is rounding, not data
+constexpr double kLargest = 4, kSmallest = -2;  // powers of ten within which numbers need no common factor
+constexpr double kOffsetFrom = 2e-4;            // a range smaller than this part of its numbers gets a common offset
+
+// 10ⁿ for |n| <= 300.
+double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }
+
+std::string power(int n) { return fmt::format("10^{{{}{}}}", n < 0 ? "−" : "", std::abs(n)); }
+
+int whole_log10(double value) { return static_cast<int>(std::floor(std::log10(value))); }
+
+// How many minor intervals divide a step of 1, 2 or 5.
+int minor_parts(double step) {
+    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    return std::lround(mantissa) == 2 ? 4 : 5;
+}
+
+}  // namespace
+
+void Extent::add(std::span<const double> values, Scale scale) {
+    for (const double v : values) {
+        if (!std::isfinite(v) || (scale == Scale::logarithmic && !(v > 0))) continue;
+        low = any ? std::min(low, v) : v;
+        high = any ? std::max(high, v) : v;
+        any = true;
+    }
+}
+
+AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::string& what)
+    : log_(axis.scale == Scale::logarithmic) {
+    const auto usable = [&](double v) { return std::isfinite(v) && (!log_ || v > 0); };
+    if ((axis.from && !usable(*axis.from)) || (axis.to && !usable(*axis.to)) ||
+        (axis.from && axis.to && *axis.from == *axis.to))
+        throw PictureError(fmt::format("{}: an axis from {} to {} is not possible", what,
+                                       axis.from ? fmt::format("{:g}", *axis.from) : "the data",
+                                       axis.to ? fmt::format("{:g}", *axis.to) : "the data"));
+    if (!data.any && !(axis.from && axis.to))
+        throw PictureError(fmt::format("{}: there is no {} value to show", what, log_ ? "positive" : "finite"));
+    double from = axis.from.value_or(data.low), to = axis.to.value_or(data.high);
+    if (axis.with_zero && !log_) {
+        if (!axis.from) from = std::min(from, 0.0);
+        if (!axis.to) to = std::max(to, 0.0);
+    }
+    // One limit beyond all data turns the axis round rather than leaving it empty.
+    reversed_ = axis.from && axis.to && from > to;
+    low_ = std::min(from, to);
+    high_ = std::max(from, to);
+    if (log_)
+        logarithmic(axis, most);
+    else
+        linear(axis, most);
+}
+
+void AxisMap::linear(const Axis& axis, int most) {
+    // Everything is done in numbers of ordinary size, so that no range overflows or vanishes.
+    double largest = std::max(std::abs(low_), std::abs(high_));
+    const int size = largest > 0 ? std::clamp(whole_log10(largest), -300, 300) : 0;
+    double unit = ten_to(size), a = low_ / unit, b = high_ / unit;
+    if (b - a <= kSameRelative * std::max(std::abs(a), std::abs(b)) || !(b > a)) {
+        const double half = a == 0 && b == 0 ? 1 : 0.1 * std::max(std::abs(a), std::abs(b));
+        a -= half, b += half;
+    } else {
+        const double air = axis.tight ? 0 : kAir * (b - a);
+        if (!axis.from && !(axis.with_zero && a == 0)) a -= air;
+        if (!axis.to && !(axis.with_zero && b == 0)) b += air;
+    }
+    low_ = std::clamp(a, -1.7e308 / unit, 1.7e308 / unit) * unit;
+    high_ = std::clamp(b, -1.7e308 / unit, 1.7e308 / unit) * unit;
+
+    // A common offset for a small range far from zero, a common factor for very large or small numbers.
+    double offset = 0;
+    if (b - a < kOffsetFrom * std::max(std::abs(a), std::abs(b))) {
+        const double step = render::ticks(a, b, most).step;
+        offset = std::clamp(std::round(0.5 * (a + b) / (10 * step)) * 10 * step, -1.7e308 / unit, 1.7e308 / unit);
+    }
+    // By logarithms: the number itself may be beyond the largest that exists.
+    const double order = std::log10(std::max(std::abs(a - offset), std::abs(b - offset))) + size;
+    int shift = 0;
+    if (order >= kLargest || order < kSmallest) shift = 3 * static_cast<int>(std::floor(order / 3));
+    unit_ = unit;
+    offset_ = offset;
+    scale_ = ten_to(size - shift);
+    scaled_low_ = (a - offset) * scale_;
+    scaled_high_ = (b - offset) * scale_;
+
+    if (!(std::isfinite(scaled_low_) && std::isfinite(scaled_high_) && scaled_high_ > scaled_low_))
+        throw PictureError(fmt::format("an axis from {:g} to {:g} cannot be divided", low_, high_));
+    // Numbers that are counted have ticks where they are.
+    const bool whole = axis.counts && shift == 0 && offset == 0 && scaled_high_ - scaled_low_ >= 1;
+    Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
+    if (whole && marks.step < 1) {
+        marks = {.step = 1, .decimals = 0, .values = {}};
+        const double lowest = std::ceil(scaled_low_);
+        for (int k = 0; lowest + k <= scaled_high_; ++k) marks.values.push_back(lowest + k);
+    }
+    const double range = scaled_high_ - scaled_low_;
+    const auto at = [&](double v) { return reversed_ ? (scaled_high_ - v) / range : (v - scaled_low_) / range; };
+    for (const double v : marks.values)
+        ticks_.push_back({std::clamp(at(v), 0.0, 1.0), axis.numbered ? fixed(v, marks.decimals) : "", true});
+    const double minor = whole ? std::max(1.0, std::round(marks.step / 5)) : marks.step / minor_parts(marks.step);
+    const double first = std::ceil(scaled_low_ / minor - 1e-9), last = std::floor(scaled_high_ / minor + 1e-9);
+    for (double k = first; k <= last && last - first < 400; ++k)
+        if (std::abs(std::remainder(k * minor, marks.step)) > 0.3 * minor) ticks_.push_back({at(k * minor), "", false});
+
+    if (shift) common_ = "×" + power(shift);
+    if (offset_ != 0) {
+        const int digits = std::max(0, whole_log10(std::abs(offset)) - whole_log10(marks.step / scale_)) + 1;
+        const std::string text = fmt::format("{:.{}g}", std::abs(offset) * unit, std::min(digits, 16));
+        common_ += fmt::format("{}{}{}", common_.empty() ? "" : " ", offset_ < 0 ? "−" : "+", text);
+    }
+}
+
+void AxisMap::logarithmic(const Axis& axis, int most) {
+    double a = std::log10(low_), b = std::log10(high_);
+    if (b - a < 1e-9) a -= 0.5, b += 0.5;
+    const double air = axis.tight ? 0 : kAir * (b - a);
+    if (!axis.from) a -= air;
+    if (!axis.to) b += air;
+    scaled_low_ = a;
+    scaled_high_ = b;
+    const auto at = [&](double v) { return reversed_ ? (b - v) / (b - a) : (v - a) / (b - a); };
+    const int first = static_cast<int>(std::ceil(a - 1e-9)), last = static_cast<int>(std::floor(b + 1e-9));
+    const int stride = std::max(1, (last - first + most) / std::max(1, most));
+    for (int n = first; n <= last; ++n) {
+        const bool labelled = n % stride == 0;
+        ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? power(n) : "", labelled});
+    }
+    // Within less than two decades 2 and 5 have numbers as well; over many decades minor ticks would be a blur.
+    const bool few = last - first < 1;
+    for (int n = first - 1; n <= last && last - first <= most; ++n)
+        for (int digit = 2; digit <= 9; ++digit) {
+            const double v = n + std::log10(digit);
+            if (v < a || v > b) continue;
+            const bool labelled = few && (digit == 2 || digit == 5 || last < first);
+            ticks_.push_back({at(v), labelled ? fmt::format("{}×{}", digit, power(n)) : "", labelled});
+        }
+}
+
+double AxisMap::place(double value) const {
+    if (log_ && !(value > 0)) return std::nan("");
+    const double v = log_ ? std::log10(value) : (value / unit_ - offset_) * scale_;
+    const double share = (v - scaled_low_) / (scaled_high_ - scaled_low_);
+    return reversed_ ? 1 - share : share;
+}
+
+}  // namespace beamcam::render::figure

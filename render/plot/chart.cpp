@@ -1,0 +1,364 @@
+#include "render/plot/chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::render {
+namespace {
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAhead = 0.25;  // share of a moving window that shows what is to come
+}  // namespace
+
+std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
+                           const std::function<Vec2(double, double)>& to_pixels) {
+    std::vector<Vec2> out;
+    const std::size_t n = std::min(t.size(), v.size());
+    for (std::size_t i = 0; i < n;) {
+        if (std::isnan(v[i])) {
+            out.push_back({kNan, kNan});
+            for (; i < n && std::isnan(v[i]); ++i) {
+            }
+            continue;
+        }
+        const double column = std::floor(to_pixels(t[i], v[i]).x);
+        std::size_t low = i, high = i, last = i, end = i;
+        for (; end < n && !std::isnan(v[end]) && std::floor(to_pixels(t[end], v[end]).x) == column; ++end) {
+            if (v[end] < v[low]) low = end;
+            if (v[end] > v[high]) high = end;
+            last = end;
+        }
+        std::size_t keep[] = {i, std::min(low, high), std::max(low, high), last};
+        std::size_t previous = n;
+        for (std::size_t k : keep)
+            if (k != previous) out.push_back(to_pixels(t[k], v[k])), previous = k;
+        i = end;
+    }
+    return out;
+}
+
+// ---- the value axis ----------------------------------------------------------------------------
+
+AxisScale axis_scale(double low, double high, const std::string& unit) {
+    AxisScale out;
+    const double span = high - low, most = std::max(std::abs(low), std::abs(high));
+    if (!(span > 0) || !std::isfinite(span)) return out;
+    // Values that agree in their first four digits are told from a round number among them.
+    if (span < 1e-4 * most) {
+        const double digit = std::pow(10.0, std::ceil(std::log10(span)) + 1);
+        out.offset = std::round((low + high) / 2 / digit) * digit;
+    }
+    const double largest = out.offset != 0 ? std::max(std::abs(low - out.offset), std::abs(high - out.offset)) : most;
+    if (!unit.empty() && unit != "rad" && unit != "rad/s") {
+        out.scale = prefix_for(largest).factor;
+    } else if (largest < 1e-2 || largest >= 1e5) {
+        out.scale = std::pow(10.0, 3 * std::floor(std::log10(largest * 1.0000001) / 3));
+    }
+    return out;
+}
+
+std::string AxisScale::name(const std::string& symbol, const std::string& unit) const {
+    std::string text = symbol;
+    if (offset != 0) {
+        const std::string value = fmt::format("{} {:.6g}", offset > 0 ? "−" : "+", std::abs(offset));
+        text = unit.empty() ? fmt::format("{} {}", symbol, value) : fmt::format("({} {}\u2009{})", symbol, value, unit);
+    }
+    // A unit that is a quotient itself stands in brackets: dθ/dt / (rad/s).
+    const bool quotient = unit.find('/') != std::string::npos;
+    const auto over = [&](const std::string& all) {
+        return quotient ? fmt::format("{} / ({})", text, all) : fmt::format("{} / {}", text, all);
+    };
+    if (scale == 1) return unit.empty() ? text : over(unit);
+    if (!unit.empty() && unit != "rad" && unit != "rad/s") return over(prefix_for(scale).symbol + unit);
+    const std::string power = fmt::format("10<sup>{}{}</sup>", scale < 1 ? "−" : "",
+                                          static_cast<int>(std::lround(std::abs(std::log10(scale)))));
+    return over(power + (unit.empty() ? "" : "\u2009" + unit));
+}
+
+Chart::Chart(ChartContent content, Box box, Box plot, double unit)
+    : c_(std::move(content)), box_(box), plot_(plot), unit_(unit) {
+    scale_ = axis_scale(c_.value.low, c_.value.high, c_.unit);
+    const double low = (c_.value.low - scale_.offset) / scale_.scale,
+                 high = (c_.value.high - scale_.offset) / scale_.scale;
+    // Round ends first, then a mark at every multiple of the same step: the outermost lines carry labels.
+    const int marks = std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5);
+    const double step = ticks(low, high, marks).step;
+    shown_ = round_range(low, high, marks);
+    value_ticks_ = ticks(shown_.low, shown_.high, static_cast<int>(std::lround((shown_.high - shown_.low) / step)) + 1);
+    digits_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 6);
+}
+
+double Chart::y(double v) const {
+    const double scaled = (v - scale_.offset) / scale_.scale;
+    return plot_.bottom() - plot_.h * (scaled - shown_.low) / (shown_.high - shown_.low);
+}
+
+// ---- the time axis -----------------------------------------------------------------------------
+
+struct Chart::View {
+    double from = 0, to = 1;  // at the plot's sides [s]
+    double now = 0;           // [s]
+    double x(const Box& plot, double t) const { return plot.x + plot.w * (t - from) / (to - from); }
+};
+
+Chart::View Chart::whole() const { return {c_.time.low, c_.time.high, c_.time.high}; }
+Chart::View Chart::around(double t) const { return {t - (1 - kAhead) * *c_.window, t + kAhead * *c_.window, t}; }
+
+Vec2 Chart::to_pixels(double t, double v) const { return {whole().x(plot_, t), y(v)}; }
+Box Chart::past_box() const { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
+int Chart::cursor_column(const View& view, double t) const { return static_cast<int>(std::lround(view.x(plot_, t))); }
+// Half of the widest stroke or dot, and a column of its edge.
+int Chart::past_column(double t) const {
+    return cursor_column(whole(), t) - static_cast<int>(std::ceil(3 * unit_)) - 1;
+}
+
+void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) const {
+    const double u = unit_, axis = plot_.bottom() + 0.5;
+    const Ticks marks =
+        ticks(view.from / c_.time_unit, view.to / c_.time_unit, std::clamp(static_cast<int>(plot_.w / (75 * u)), 2, 7));
+    const Box unit = canvas.measure(c_.time_label, {.size = 17 * u});
+    for (double at : marks.values) {
+        if (windowed() && at < c_.time.low / c_.time_unit - 1e-9) continue;  // nothing was before the film
+        double x = view.x(plot_, at * c_.time_unit);
+        if (!windowed()) x = std::round(x) + 0.5;
+        canvas.move_to({x, axis});
+        canvas.line_to({x, axis + 6 * u});
+        canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+        const std::string text = fixed(at, marks.decimals);
+        const double half = canvas.measure(text, {.size = 17 * u}).w / 2;
+        if (x + half < plot_.right() + 8 * u - unit.w - 10 * u &&  // the axis' name stands at the end of this line
+            (!windowed() || x - half > plot_.x - 20 * u))
+            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = Align::centre});
+    }
+    canvas.text({plot_.right() + 8 * u, axis + 26 * u}, c_.time_label,
+                {.size = 17 * u, .color = p.muted, .align = Align::right});
+}
+
+void Chart::draw_value_axis(Canvas& canvas, const Palette& p) const {
+    const double u = unit_;
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const std::string symbol = scale_.name(c_.symbol, c_.unit);
+    // The readings stand beside it.
+    const bool fits = canvas.measure(c_.words + symbol, heading).w + reading_width(canvas, true) <= plot_.w;
+    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + symbol : symbol, heading);
+    const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
+    for (double v : value_ticks_.values) {
+        const double at = std::round(y(v * scale_.scale + scale_.offset)) + 0.5;
+        canvas.move_to({plot_.x, at});
+        canvas.line_to({plot_.right(), at});
+        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
+        canvas.text({plot_.x - 12 * u, at + 6 * u}, fixed(v, value_ticks_.decimals), label);
+    }
+}
+
+// ---- curves ------------------------------------------------------------------------------------
+
+namespace {
+
+void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Color color) {
+    std::size_t i = 0;
+    while (i < curve.size()) {
+        if (std::isnan(curve[i].x)) {
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        canvas.move_to({curve[i].x, base});
+        for (; end < curve.size() && !std::isnan(curve[end].x); ++end) canvas.line_to(curve[end]);
+        canvas.line_to({curve[end - 1].x, base});
+        canvas.close();
+        i = end;
+    }
+    canvas.fill(color);
+}
+
+// The curve over these times, from the last row before them on. What is to come goes on to the first row after them;
+// what is past ends at their end.
+std::vector<Vec2> points_within(const std::vector<double>& t, const std::vector<double>& v, Range times, bool past,
+                                const std::function<Vec2(double, double)>& to_pixels) {
+    auto first = std::ranges::lower_bound(t, times.low), last = std::ranges::upper_bound(t, times.high);
+    const bool between = first != last || (first != t.begin() && last != t.end());
+    if (first != t.begin()) --first;
+    const auto at = static_cast<std::size_t>(first - t.begin());
+    auto count = static_cast<std::size_t>(last - first);
+    const bool more = last != t.end() && between;
+    if (more && !past) ++count;
+    std::vector<Vec2> points = decimate(std::span(t).subspan(at, count), std::span(v).subspan(at, count), to_pixels);
+    if (more && past && count > 0) {
+        const std::size_t i = at + count - 1;
+        const double share = (times.high - t[i]) / (t[i + 1] - t[i]), end = v[i] * (1 - share) + v[i + 1] * share;
+        if (share > 0 && !std::isnan(end)) points.push_back(to_pixels(times.high, end));
+    }
+    return points;
+}
+
+}  // namespace
+
+void Chart::draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const {
+    for (const Band& band : c_.bands) {
+        const auto place = [&](double at, double v) { return Vec2{view.x(plot_, at), y(v)} + shift; };
+        std::vector<Vec2> edge = points_within(c_.band_times, band.high, rows, past, place),
+                          low = points_within(c_.band_times, band.low, rows, past, place);
+        if (edge.size() < 2 || low.size() < 2) continue;
+        edge.insert(edge.end(), low.rbegin(), low.rend());
+        canvas.polyline(edge);
+        canvas.close();
+        canvas.fill(past ? band.color : band.color.faded(0.28));
+    }
+}
+
+void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const {
+    draw_bands(canvas, view, rows, past, shift);
+    bool first_curve = true;
+    for (const Curve& curve : c_.curves) {
+        const std::vector<Vec2> points = points_within(curve.t, curve.v, rows, past, [&](double t, double v) {
+            return Vec2{view.x(plot_, t), y(v)} + shift;
+        });
+        if (c_.filled && first_curve)
+            fill_under(canvas, points, plot_.bottom() + shift.y,
+                       past ? curve.color.faded(0.20) : curve.faint.faded(0.35));
+        first_curve = false;
+        std::vector<double> dash = curve.dash;
+        for (double& d : dash) d *= unit_;
+        canvas.polyline(points);
+        canvas.stroke(
+            {past ? curve.color : curve.faint, (past ? 2.2 : 2) * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
+    }
+    for (const ChartDot& d : c_.dots) {
+        if (d.t < rows.low || d.t > rows.high) continue;
+        canvas.circle(Vec2{view.x(plot_, d.t), y(d.value)} + shift, (past ? 2.6 : 2.2) * unit_);
+        canvas.fill(past ? d.color : d.faint);
+    }
+    if (!past) return;
+    for (const ChartMark& mark : c_.marks) {
+        if (mark.t < rows.low || mark.t > rows.high) continue;
+        const Vec2 at = Vec2{view.x(plot_, mark.t), plot_.bottom()} + shift;
+        // Lanes share what three ticks need.
+        const double tall = mark.lanes == 1 ? 10 * unit_ : std::min(8.0, 30.0 / mark.lanes) * unit_;
+        const double foot = at.y - 1 - tall * mark.lane;
+        canvas.move_to({at.x, foot});
+        canvas.line_to({at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)});
+        canvas.stroke({mark.color, 1.8 * unit_, {}, Cap::butt});
+    }
+}
+
+void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
+    const double axis = plot_.bottom() + 0.5;
+    draw_value_axis(canvas, p);
+    if (!windowed()) {
+        draw_time_axis(canvas, p, whole());
+        draw_curves(canvas, whole(), c_.time, false, {});
+    }
+    canvas.move_to({plot_.x, axis});
+    canvas.line_to({plot_.right(), axis});
+    canvas.stroke({p.muted, std::max(1.0, 1.3 * unit_), {}, Cap::butt});
+}
+
+Image Chart::past(const Fonts& fonts) const {
+    if (windowed()) return {};
+    const Box box = past_box();
+    Image image(static_cast<int>(box.w), static_cast<int>(box.h));
+    Canvas canvas(image, fonts);
+    draw_curves(canvas, whole(), c_.time, true, {-box.x, -box.y});
+    return image;
+}
+
+void Chart::draw_past(Canvas& canvas) const {
+    canvas.clip(past_box(), [&] { draw_curves(canvas, whole(), c_.time, true, {}); });
+}
+
+namespace {
+constexpr double kBetweenReadings = 18;
+TextStyle reading_style(double u, Color color) {
+    return {.size = 21 * u, .color = color, .weight = Weight::medium, .align = Align::right};
+}
+}  // namespace
+
+std::string Chart::told(double value) const {
+    if (!c_.reading_unit.empty()) return quantity(value, c_.reading_unit.c_str());
+    return fixed((value - scale_.offset) / scale_.scale, digits_);
+}
+
+double Chart::widest_reading(Canvas& canvas, const TextStyle& style) const {
+    if (!c_.reading_unit.empty()) return canvas.measure("00.0\u00A0m" + c_.reading_unit, style).w;
+    return std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
+                    canvas.measure(fixed(shown_.low, digits_), style).w);
+}
+
+// Room for the widest value keeps the readings from dancing.
+double Chart::reading_width(Canvas& canvas, bool named) const {
+    const TextStyle style = reading_style(unit_, {});
+    const double widest = widest_reading(canvas, style);
+    double all = 0;
+    for (const Curve& curve : c_.curves) {
+        all += widest + kBetweenReadings * unit_;
+        if (named && !curve.label.empty()) all += canvas.measure(curve.label + "\u2002", style).w;
+    }
+    return all;
+}
+
+// At the right end of the heading's line, the last curve's outermost; without their names where those have no room.
+void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Reading> readings) const {
+    const double u = unit_;
+    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
+    const double room = plot_.w - canvas.measure(scale_.name(c_.symbol, c_.unit), heading).w;
+    const bool named = reading_width(canvas, true) <= room;
+    if (!named && readings.size() > 1 && reading_width(canvas, false) > room) return;
+    double right = plot_.right() + 8 * u;
+    for (std::size_t i = readings.size(); i-- > 0;) {
+        const double v = readings[i].value;
+        const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
+        const TextStyle style = reading_style(u, readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
+        const double widest = widest_reading(canvas, style);
+        if (!std::isnan(v)) canvas.text({right, box_.y + 26 * u}, told(v), style);
+        right -= widest;
+        if (std::isnan(v) && !label.empty()) {  // a name that nothing follows would look forgotten
+            TextStyle none = style;
+            none.align = Align::left;
+            canvas.text({right, box_.y + 26 * u}, "–", none);
+        }
+        if (!label.empty()) {
+            canvas.text({right, box_.y + 26 * u}, label + "\u2002", style);
+            right -= canvas.measure(label + "\u2002", style).w;
+        }
+        right -= kBetweenReadings * u;
+    }
+}
+
+void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<const Reading> readings) const {
+    const double u = unit_;
+    const View view = windowed() ? around(t) : whole();
+    // Past and future meet at the cursor: each is drawn within its own part of the plot.
+    const double cut = cursor_column(view, t) + 1, box = plot_.y - 8;
+    double from = plot_.x;
+    if (windowed()) {
+        draw_time_axis(canvas, p, view);
+        canvas.clip({cut, box, plot_.right() - cut, plot_.h + 9}, [&] {
+            draw_curves(canvas, view, {view.from, view.to}, false, {});
+        });
+    } else {
+        from = std::max(past_column(t), static_cast<int>(past_box().x));
+    }
+    // Columns before the first are drawn along: the curve comes from there.
+    const double column = (view.to - view.from) / plot_.w, before = 4 * unit_ + 4;
+    const Range rows{std::max(view.from, view.from + (from - plot_.x - before) * column), std::min(t, view.to)};
+    canvas.clip({from, box, cut - from, windowed() ? plot_.h + 9 : plot_.h + 16},
+                [&] { draw_curves(canvas, view, rows, true, {}); });
+    const double x = cut - 0.5;
+    canvas.move_to({x, plot_.y - 6 * u});
+    canvas.line_to({x, plot_.bottom()});
+    canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const double at = y(readings[i].value);
+        // An instant between the curves' rows may lie beyond their range: its number is told, a dot would lie.
+        if (!(at > plot_.y - 8 * u && at < plot_.bottom() + 8 * u)) continue;
+        canvas.circle({x, std::clamp(at, plot_.y - 4 * u, plot_.bottom() + 4 * u)}, 5.5 * u);
+        canvas.fill_keeping_path(i < c_.curves.size() ? c_.curves[i].color : p.contact);
+        canvas.stroke({p.paper, 1.6 * u});
+    }
+    draw_readings(canvas, p, readings);
+}
+
+}  // namespace beamcam::render

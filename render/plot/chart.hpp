@@ -1,0 +1,124 @@
+// A strip chart: axes, faint curves of what is to come, the curves so far, a cursor. Over the whole film's time, or
+// over a window of time that moves with the instant.
+//
+// Curves are reduced to what the pixels can show (first, least, most, last of each column), so drawing costs the
+// same for any number of rows. Over the whole film, what lies before the cursor is a kept layer shown up to a few
+// columns before the cursor's, and those columns are drawn from the rows until the instant: no row after it is ever
+// drawn as past, and any frame in any order gives the same pixels.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/draw/canvas.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+
+// Points in pixels of v(t); NaN rows break the line. `to_pixels` must increase with t.
+std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
+                           const std::function<Vec2(double, double)>& to_pixels);
+
+// How values are written along an axis: (value − offset)/scale with so many decimals. Small, large and nearly equal
+// values all get short labels; the heading says what was done to them.
+struct AxisScale {
+    double offset = 0, scale = 1;
+    std::string name(const std::string& symbol, const std::string& unit) const;  // markup: "θ − 0.785 / 10⁻⁶ rad"
+};
+// For values from low to high [SI units]. `unit` "" or "rad" gets powers of ten, others get SI prefixes.
+AxisScale axis_scale(double low, double high, const std::string& unit);
+
+struct Curve {
+    std::vector<double> t, v;  // [s], SI units; may be empty
+    Color color, faint;
+    std::string label = {};  // markup; told beside the reading
+    std::vector<double> dash = {};
+};
+struct ChartDot {
+    double t = 0, value = 0;
+    Color color, faint;  // faint: still to come
+};
+// The instant of an impact: a tick at the time axis, in one of the lanes above each other.
+struct ChartMark {
+    double t = 0;  // [s]
+    Color color;
+    int lane = 0, lanes = 1;
+};
+// Areas between two curves of the same instants, one upon the other.
+struct Band {
+    std::vector<double> low, high;
+    Color color;
+    std::string label;
+};
+
+struct ChartContent {
+    std::string words;             // before the symbol, left out where there is no room: "Hub angle "
+    std::string symbol;            // markup: θ; may be empty
+    std::string unit;              // "rad", "N", "" for none
+    Range value;                   // to be shown; the axis is widened to round ends
+    Range time;                    // of the film [s]
+    std::optional<double> window;  // [s]
+    double time_unit = 1;          // [s]
+    // The readings are told in this unit by themselves, as labels beside the mechanism tell them; empty: in the axis's.
+    std::string reading_unit = {};
+    std::string time_label;  // markup, "t / s"
+    std::vector<Curve> curves;
+    std::vector<double> band_times;  // [s]
+    std::vector<Band> bands;
+    bool filled = false;  // area under the first curve down to zero
+    std::vector<ChartDot> dots;
+    std::vector<ChartMark> marks;
+};
+
+// The value of one curve where the cursor stands; NaN: none.
+struct Reading {
+    double value = 0;
+};
+
+class Chart {
+  public:
+    Chart(ChartContent content, Box box, Box plot, double unit);
+
+    Vec2 to_pixels(double t, double v) const;                        // of the whole film's axes
+    void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
+    // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
+    // window.
+    Image past(const Fonts& fonts) const;
+    Box past_box() const;
+    void draw_past(Canvas& canvas) const;  // the same drawn directly
+    // The first column that is not past yet at t: what lies after t may reach into it by the width of its stroke.
+    int past_column(double t) const;
+    // What moves: the curves' last columns until t, with a window all of them.
+    void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
+    Range time() const { return c_.time; }
+    bool windowed() const { return c_.window.has_value(); }
+
+  private:
+    struct View;  // the time axis as it stands at an instant
+    View whole() const;
+    View around(double t) const;
+    void draw_time_axis(Canvas& canvas, const Palette& palette, const View& view) const;
+    void draw_value_axis(Canvas& canvas, const Palette& palette) const;
+    int cursor_column(const View& view, double t) const;
+    std::string told(double value) const;                                 // as a reading
+    double widest_reading(Canvas& canvas, const TextStyle& style) const;  // [px]
+    // Rows between two instants, drawn as past or as still to come.
+    void draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
+    void draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
+    void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
+    double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
+    double y(double v) const;
+    ChartContent c_;
+    Box box_, plot_;
+    double unit_;
+    AxisScale scale_;
+    Ticks value_ticks_;  // scaled
+    Range shown_;        // scaled
+    int digits_ = 0;     // decimals of the reading
+};
+
+}  // namespace beamcam::render

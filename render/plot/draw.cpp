@@ -1,0 +1,245 @@
+// A figure on its page: panels above each other or side by side, with their plots aligned.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "render/base/error.hpp"
+#include "render/plot/figure.hpp"
+#include "render/plot/panel.hpp"
+#include "render/plot/text.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr double kWide = 125;                      // [mm]: from here on two panels stand side by side
+constexpr double kNarrowest = 20, kWidest = 2000;  // [mm]
+constexpr double kEdge = 1.5;                      // free at the page's edge [pt]
+
+struct Grid {
+    std::size_t rows = 1, columns = 1;
+};
+
+Grid grid_of(const Figure& figure, double width) {
+    const std::size_t n = std::max<std::size_t>(1, figure.panels.size());
+    if (figure.stack || width < kWide || n == 1) return {n, 1};
+    const std::size_t columns = n == 4 ? 2 : std::min<std::size_t>(n, 3);
+    return {(n + columns - 1) / columns, columns};
+}
+
+class Layout {
+  public:
+    Layout(const Figure& figure, const Page& page, Sheet& sheet)
+        : figure_(figure), page_(page), sheet_(sheet), grid_(grid_of(figure, page.width)) {}
+
+    void draw() {
+        if (figure_.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure_.name));
+        make_drawings();
+        // Margins depend on the numbers at the ticks, those on the plots' sizes: twice settles it; a legend that
+        // finds no room inside a plot asks for one more.
+        for (int round = 0; round < 4; ++round) {
+            measure();
+            bool settled = round > 0;
+            for (std::size_t i = 0; i < drawings_.size(); ++i)
+                if (drawings_[i] && !drawings_[i]->place(plot(i))) settled = false;
+            if (settled) break;
+        }
+        for (std::size_t i = 0; i < drawings_.size(); ++i) {
+            if (drawings_[i])
+                drawings_[i]->draw();
+            else
+                draw_shapes(figure_.panels[i], page_.style, sheet_, cell(i));
+        }
+    }
+
+  private:
+    bool lowest(std::size_t i) const { return !figure_.share_x || grid_.columns > 1 || i + 1 == figure_.panels.size(); }
+
+    void make_drawings() {
+        const Box one = cell(0);
+        for (std::size_t i = 0; i < figure_.panels.size(); ++i) {
+            const Panel& panel = figure_.panels[i];
+            const std::string what = fmt::format("figure {}{}", figure_.name,
+                                                 figure_.panels.size() > 1 ? fmt::format(", panel {}", i + 1) : "");
+            drawings_.push_back(panel.shapes.empty()
+                                    ? std::make_unique<PanelDrawing>(panel, page_.style, sheet_, 0.8 * one.w,
+                                                                     0.75 * cell(i).h, lowest(i), what)
+                                    : nullptr);
+        }
+    }
+
+    Box cell(std::size_t i) const {
+        const Box page = Box{0, 0, points(page_.width), points(page_.height)}.inset(kEdge);
+        const double between = 2.2 * page_.style.gap;
+        const auto columns = static_cast<double>(grid_.columns);
+        const double w = (page.w - between * 2 * (columns - 1)) / columns;
+        const std::size_t row = i / grid_.columns, column = i % grid_.columns;
+        double above = 0, all = 0, mine = 1;
+        for (std::size_t r = 0; r < grid_.rows; ++r) {
+            const double share = grid_.columns > 1 ? 1 : figure_.panels[std::min(r, figure_.panels.size() - 1)].share;
+            if (r < row) above += share;
+            if (r == row) mine = share;
+            all += share;
+        }
+        // Rows share what the inner margins leave, so that plots, not cells, have the shares.
+        const auto rows = static_cast<double>(grid_.rows);
+        double fixed = between * (rows - 1), before = between * static_cast<double>(row);
+        for (std::size_t r = 0; r < margins_.size(); ++r) {
+            const double m = margins_[r].top + margins_[r].bottom;
+            fixed += m;
+            if (r < row) before += m;
+        }
+        const double own = row < margins_.size() ? margins_[row].top + margins_[row].bottom : 0;
+        const double shared = std::max(page.h - fixed, 1.0);
+        return {page.x + static_cast<double>(column) * (w + 2 * between), page.y + before + shared * above / all, w,
+                shared * mine / all + own};
+    }
+
+    void measure() {
+        std::vector<Margins> rows(grid_.rows);
+        double left = 0, right = 0;
+        for (std::size_t i = 0; i < drawings_.size(); ++i) {
+            if (!drawings_[i]) continue;
+            const Margins m = drawings_[i]->margins();
+            Margins& row = rows[i / grid_.columns];
+            row.top = std::max(row.top, m.top);
+            row.bottom = std::max(row.bottom, m.bottom);
+            left = std::max(left, m.left);
+            right = std::max(right, m.right);
+        }
+        margins_ = rows;
+        left_ = left;
+        right_ = right;
+    }
+
+    Box plot(std::size_t i) const {
+        const Box c = cell(i);
+        const Margins& row = margins_[i / grid_.columns];
+        const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
+        const double least = 2 * page_.style.letters;
+        if (p.w < least || p.h < least)
+            throw PictureError(
+                fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
+                            "its labels; make it wider",
+                            figure_.name, page_.width, page_.height));
+        return p;
+    }
+
+    const Figure& figure_;
+    const Page& page_;
+    Sheet& sheet_;
+    Grid grid_;
+    std::vector<Margins> margins_;
+    double left_ = 0, right_ = 0;
+    std::vector<std::unique_ptr<PanelDrawing>> drawings_;
+};
+
+void append(std::string& out, double value) {
+    if (!std::isfinite(value)) return;
+    char buffer[32];
+    out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17).ptr);
+}
+
+// A CSV cell; quotes where commas or quotes demand them.
+std::string cell_text(const std::string& markup) {
+    std::string plain = to_plain(markup);
+    if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
+    std::string out = "\"";
+    for (const char c : plain) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + '"';
+}
+
+void add_panel(std::string& out, const Panel& panel, const std::string& name) {
+    const auto rows = [&](const std::string& series, const Axis& y, const std::vector<double>& xs,
+                          const std::vector<double>& ys, const std::vector<double>& values) {
+        const std::string head = fmt::format("{},{},{},", name, series, cell_text(panel.x.label));
+        const std::string middle = fmt::format(",{},", cell_text(y.label));
+        for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i) {
+            out += head;
+            append(out, xs[i]);
+            out += middle;
+            append(out, ys[i]);
+            out += ',';
+            if (i < values.size()) append(out, values[i]);
+            out += '\n';
+        }
+    };
+    int number = 0;
+    for (const Series& s : panel.series) {
+        ++number;
+        rows(s.label.empty() ? fmt::format("curve {}", number) : cell_text(s.label),
+             s.right && panel.right ? *panel.right : panel.y, s.x, s.y, s.value);
+    }
+    for (const Band& b : panel.bands) {
+        rows(cell_text(b.label) + " (low)", panel.y, b.x, b.low, {});
+        rows(cell_text(b.label) + " (high)", panel.y, b.x, b.high, {});
+    }
+    for (const Mark& m : panel.marks)
+        rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x},
+             {m.y}, {});
+    for (const Span& s : panel.spans)
+        rows(s.label.empty() ? "stretch" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
+    for (const Inset& inset : panel.insets) add_panel(out, inset.panel.front(), name + " inset");
+    for (const Shape& s : panel.shapes) {
+        if (s.kind == Shape::Kind::label) continue;
+        const bool round = s.kind == Shape::Kind::circle || s.kind == Shape::Kind::disc;
+        std::vector<double> xs, ys;
+        for (const Vec2 p : s.points) xs.push_back(p.x), ys.push_back(p.y);
+        if (round) xs.push_back(s.centre.x), ys.push_back(s.centre.y);
+        if (!xs.empty() && s.radius_points == 0)
+            rows(round ? "circle (radius in the last column)" : "shape", panel.y, xs, ys,
+                 round ? std::vector<double>{s.radius} : std::vector<double>{});
+    }
+}
+
+}  // namespace
+
+Page page_of(const Figure& figure, const Column& column, std::optional<double> width) {
+    Page page;
+    page.style = style_of(column);
+    page.width = width.value_or(column.width);
+    if (!(page.width >= kNarrowest && page.width <= kWidest))
+        throw PictureError(fmt::format("a figure {:g} mm wide cannot be drawn; its width is {:g} … {:g} mm", page.width,
+                                       kNarrowest, kWidest));
+    const Grid grid = grid_of(figure, page.width);
+    // Wide figures are flatter; panels side by side each have a part of the width.
+    const double wide = page.width / static_cast<double>(grid.columns);
+    const double flat = std::min(1.0, std::sqrt(90 / std::max(wide, 1.0)));
+    double aspect = figure.aspect;
+    if (grid.columns > 1) aspect *= static_cast<double>(grid.rows) / static_cast<double>(figure.panels.size()) * 1.1;
+    page.height = column.height > 0 && !width ? column.height : wide * aspect * (column.height > 0 ? 1 : flat);
+    return page;
+}
+
+void draw(const Figure& figure, const Page& page, Sheet& sheet) { Layout(figure, page, sheet).draw(); }
+
+std::string data_csv(const Figure& figure) {
+    std::string out = "panel,series,x_quantity,x,y_quantity,y,value\n";
+    int number = 0;
+    for (const Panel& panel : figure.panels) {
+        ++number;
+        add_panel(out, panel, !panel.letter.empty() ? panel.letter : std::to_string(number));
+    }
+    return out;
+}
+
+bool needs_chinese(const Figure& figure) {
+    const auto of_panel = [](const auto& self, const Panel& p) -> bool {
+        std::string all = p.title + p.x.label + p.y.label;
+        if (p.right) all += p.right->label;
+        if (p.color_bar) all += p.color_bar->label;
+        for (const Series& s : p.series) all += s.label;
+        for (const Band& b : p.bands) all += b.label;
+        for (const Mark& m : p.marks) all += m.label;
+        for (const Shape& s : p.shapes) all += s.markup;
+        if (needs_cjk(all)) return true;
+        return std::any_of(p.insets.begin(), p.insets.end(),
+                           [&](const Inset& i) { return self(self, i.panel.front()); });
+    };
+    return std::any_of(figure.panels.begin(), figure.panels.end(),
+                       [&](const Panel& p) { return of_panel(of_panel, p); });
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,139 @@
+// A figure as a value: panels of curves, bands, marks and shapes in the data's own numbers, with labels as markup
+// (text.hpp). Nothing here draws or computes; `draw` puts it on a Sheet.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/draw/color.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/plot/axis.hpp"
+#include "render/plot/sheet.hpp"
+#include "render/plot/style.hpp"
+
+namespace beamcam::render::figure {
+
+struct Series {
+    std::string label = {};  // markup; empty: not explained
+    std::vector<double> x, y;
+    int look = 0;                // colour, dash and marker, see `look`
+    bool line = true;            // through the points; NaN breaks it
+    bool every_point = false;    // a marker at each point
+    bool some_markers = false;   // a few markers along a line, to tell it in grey print
+    bool solid = false;          // no dash although the look has one
+    bool faded = false;          // lighter and thinner: not to be relied on
+    bool right = false;          // belongs to the right axis
+    double weight = 1;           // of the line
+    std::optional<Color> color;  // instead of the look's
+    std::vector<double> value;   // colours the curve by the panel's colour bar; same length as x
+};
+
+struct Band {  // between two curves
+    std::string label = {};
+    std::vector<double> x, low, high;
+    int look = 0;
+};
+struct Span {  // a stretch of x, over the whole height
+    double from = 0, to = 0;
+    std::string label = {};
+    Color color = rgb(0xEDEDED);
+};
+struct Rule {  // a thin line across the panel
+    double at = 0;
+    bool vertical = false;
+    std::string label = {};
+};
+struct Mark {  // a point with its value
+    double x = 0, y = 0;
+    std::string label = {};
+    int look = 0;
+    bool hollow = false;
+    bool right = false;
+};
+
+struct ColorBar {
+    std::string label = {};
+    Scale scale = Scale::linear;
+    std::optional<double> from = {}, to = {};
+    bool hidden = false;  // its colours hold, but the panel around an inset shows it
+};
+
+// Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.
+struct Shape {
+    enum class Kind { line, area, circle, disc, arc, arrow, turn, label };
+    Kind kind = Kind::line;
+    std::vector<Vec2> points = {};  // line, area; arrow and turn: from, to; label: where
+    Vec2 centre = {};               // circle, disc, arc, turn
+    double radius = 0;              // [data]
+    double radius_points = 0;       // instead: on paper [pt]
+    double from = 0, to = 0;        // arc, turn: counter-clockwise [rad]; a turn has an arrow head at `to`
+    Color color = {};
+    double width = 0;               // of the line [pt]; 0: the style's
+    std::vector<double> dash = {};  // in widths
+    std::string markup = {};        // label
+    Vec2 shift = {};                // of the label, in sizes of its letters, y up
+    Across across = Across::centre;
+    Up up = Up::middle;
+    bool small = false;  // label
+};
+
+enum class Legend { direct, box, none };  // labels at the curves where they have room, else a box; a box; nothing
+
+struct Panel;
+struct Inset {
+    std::vector<Panel> panel;            // one; a vector because a panel may hold insets
+    double width = 0.42, height = 0.42;  // of the parent's plot
+    // What of the parent is shown enlarged: a frame there, and lines to the inset.
+    struct Source {
+        double x_from = 0, x_to = 0, y_from = 0, y_to = 0;
+    };
+    std::optional<Source> source = {};
+};
+
+struct Panel {
+    std::string letter;  // "a": "(a)" stands in the upper left corner
+    std::string title;   // markup, beside the letter
+    Axis x{.tight = true}, y = {};
+    std::optional<Axis> right;
+    std::vector<Series> series;
+    std::vector<Band> bands;
+    std::vector<Span> spans;
+    std::vector<Rule> rules;
+    std::vector<Mark> marks;
+    std::optional<ColorBar> color_bar;
+    std::vector<Inset> insets;
+    std::vector<Shape> shapes;  // not empty: no axes
+    Legend legend = Legend::direct;
+    double share = 1;  // of the height, among stacked panels
+    std::string name;  // for the data and messages: "theta"
+};
+
+struct Figure {
+    std::string name;   // "free-fall"
+    std::string title;  // plain words, for the file's properties
+    std::vector<Panel> panels;
+    bool stack = false;    // panels above each other however wide the page; else side by side where there is room
+    bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
+    double aspect = 0.66;  // height by width of one column
+    std::string caption;   // markup
+    std::string accuracy;  // markup: how far the numbers can be trusted; ends the caption
+};
+
+struct Page {
+    double width = 90, height = 60;  // [mm]
+    Style style;
+};
+// The page for a figure in a column, or of another width [mm].
+Page page_of(const Figure& figure, const Column& column, std::optional<double> width = {});
+
+// Throws PictureError when a panel has nothing to show, FontError for missing glyphs.
+void draw(const Figure& figure, const Page& page, Sheet& sheet);
+
+// The plotted numbers: panel, series, names and values, a line a point; 17 significant digits; empty where undefined.
+std::string data_csv(const Figure& figure);
+
+// True when some text of the figure needs the Chinese face.
+bool needs_chinese(const Figure& figure);
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,157 @@
+#include "render/plot/labels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/canvas.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+std::string equation(const char* symbol, const std::string& value) { return math(symbol) + "\u2009=\u2009" + value; }
+
+std::string contact_piece(const sim::Problem& problem) {
+    if (problem.contact.model == sim::ContactModel::restitution)
+        return "impulses, " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+    const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
+                                            fmt::format("\u00A0N\u2009m<sup>−{:.3g}</sup>", problem.contact.exponent));
+    if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
+    return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+}
+
+struct FrictionPiece {
+    std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
+    std::string operator()(const sim::CoulombFriction& f) const {
+        return equation("μ", fmt::format("{:.3g}", f.coefficient));
+    }
+    std::string operator()(const sim::StickSlipFriction& f) const {
+        std::string text = equation("μ", fmt::format("{:.3g}", f.coefficient));
+        if (f.static_coefficient.value_or(f.coefficient) != f.coefficient)
+            text += ", " + math("μ") + "<sub>s</sub>\u2009=\u2009" + fmt::format("{:.3g}", *f.static_coefficient);
+        return text + ", stick–slip";
+    }
+};
+
+// What turns the hub; empty: nothing does.
+struct DrivePiece {
+    std::string operator()(const sim::FreeDrive&) const { return {}; }
+    std::string operator()(const sim::ConstantTorque& d) const { return "torque " + quantity(d.value, "N\u2009m"); }
+    std::string operator()(const sim::HarmonicTorque& d) const {
+        return fmt::format("torque ±{}, {}", quantity(std::abs(d.amplitude), "N\u2009m"), quantity(d.frequency, "Hz"));
+    }
+    std::string operator()(const sim::TorqueTable&) const { return "torque by table"; }
+    std::string operator()(const sim::ConstantSpeed& d) const {
+        return d.speed == 0 ? "hub held" : "hub at " + quantity(d.speed, "rad/s");
+    }
+    std::string operator()(const sim::SpinUp& d) const {
+        return fmt::format("hub to {} in {}", quantity(d.speed, "rad/s"), quantity(d.duration, "s"));
+    }
+    std::string operator()(const sim::AngleTable&) const { return "hub by table"; }
+};
+
+}  // namespace
+
+std::string power_text(double value, int digits) {
+    if (value == 0) return "0";
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
+    const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
+    const std::string power = fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
+    return mantissa == "1" ? power : mantissa + "·" + power;
+}
+
+std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
+    std::vector<std::string> out;
+    out.push_back(equation("L", quantity(problem.beam.length, "m")));
+    if (problem.cam) {
+        out.push_back(equation("R", quantity(problem.cam->radius, "m")));
+        out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));
+    }
+    if (problem.beam.model == sim::ModelKind::rigid)
+        out.push_back("rigid beam");
+    else
+        out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
+                                  problem.beam.modes == 1 ? "" : "s"));
+    if (std::string drive = std::visit(DrivePiece{}, problem.hub.drive); !drive.empty())
+        out.push_back(std::move(drive));
+    if (problem.gravity == 0) out.emplace_back("no gravity");
+    if (problem.cam) {
+        out.push_back(contact_piece(problem));
+        out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));
+        if (const double offset = sim::contact_offset(problem); offset > 0)
+            out.push_back("face offset " + quantity(offset, "m"));
+    }
+    return out;
+}
+
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems) {
+    std::vector<std::string> out = parameter_pieces(*problems.front());
+    for (const sim::Problem* other : problems) {
+        const std::vector<std::string> its = parameter_pieces(*other);
+        std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
+    }
+    return out;
+}
+
+std::string speed_text(double speed) {
+    if (speed == 0) return "frozen";
+    if (std::abs(speed - 1) < 0.05) return {};
+    if (speed > 1) return fmt::format("{:.2g}× speed", speed);
+    double slower = 1 / speed;
+    // Told exactly where it is a whole number, else to the next round one.
+    const double whole = std::round(slower);
+    slower = std::abs(slower - whole) <= 1e-6 * slower ? whole : slower < 2 ? 1.5 : round_down_125(slower);
+    return slower == 1.5 ? "2/3 speed" : fmt::format("1/{:.7g} speed", slower);
+}
+
+std::string widest_speed_text(const std::vector<double>& speeds) {
+    std::string widest;
+    for (double speed : speeds)
+        if (std::string text = speed_text(speed); text.size() > widest.size()) widest = std::move(text);
+    return widest;
+}
+
+TimeFormat time_format(const std::vector<double>& times) {
+    TimeFormat out;
+    const double span = std::max(std::abs(times.front()), std::abs(times.back()));
+    if (span > 0 && span < 0.1) {
+        const Prefix p = prefix_for(span);
+        static constexpr struct { const char *prefix, *symbol; } kUnits[] = {{"m", "ms"}, {"µ", "µs"}, {"n", "ns"}};
+        for (const auto& u : kUnits)
+            if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
+    }
+    if (times.back() == times.front()) {
+        // A still says its instant as it was asked for, to a millionth of the unit.
+        const double t = times.front() / out.unit;
+        for (out.decimals = 1; out.decimals < 6; ++out.decimals) {
+            const double scaled = t * std::pow(10.0, out.decimals);
+            if (std::abs(scaled - std::round(scaled)) < 1e-6) break;
+        }
+        return out;
+    }
+    // A step that only few frames have, such as the one into a freeze, does not count.
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < times.size(); ++i)
+        if (times[i] > times[i - 1]) steps.push_back(times[i] - times[i - 1]);
+    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 50);
+    std::ranges::nth_element(steps, steps.begin() + rare);
+    const double step = steps[static_cast<std::size_t>(rare)];
+    // One digit beyond the smallest step, so that each frame's reading differs; 9 is a nanosecond.
+    out.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(step / out.unit))), 1, 9);
+    return out;
+}
+
+std::string clock_text(const TimeFormat& format, double t, double last) {
+    const std::string number = fixed(t / format.unit, format.decimals);
+    const std::string longest = fixed(last / format.unit, format.decimals);
+    // Faint zeros keep the room of the digits that come later: neither a hole nor a step.
+    std::string room;
+    if (number.size() < longest.size())
+        room = fmt::format("<span alpha='22%'>{}</span>", std::string(longest.size() - number.size(), '0'));
+    return math("t") + "\u2009=\u2009" + room + number + "\u00A0" + format.symbol;
+}
+
+}  // namespace beamcam::render

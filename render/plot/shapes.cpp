@@ -1,0 +1,81 @@
+// Panels of shapes: schematics.
+#include <cmath>
+#include <numbers>
+
+#include "render/base/error.hpp"
+#include "render/plot/panel.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+// The plane's box that holds every shape, and labels by their points.
+Bounds bounds_of(const std::vector<Shape>& shapes) {
+    Bounds all;
+    for (const Shape& s : shapes) {
+        for (const Vec2 p : s.points) all.add(p);
+        if (s.kind == Shape::Kind::circle || s.kind == Shape::Kind::disc) all.add(s.centre, s.radius);
+        if (s.kind == Shape::Kind::arc || s.kind == Shape::Kind::turn)
+            for (int k = 0; k <= 24; ++k) all.add(s.centre + s.radius * sim::unit(s.from + (s.to - s.from) * k / 24));
+    }
+    return all;
+}
+
+void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
+    const double width = s.width > 0 ? s.width : style.frame;
+    std::vector<double> dash;
+    for (const double d : s.dash) dash.push_back(d * width);
+    const Pen pen{s.color, width, dash, Cap::butt};
+    const double radius = s.radius_points > 0 ? s.radius_points : s.radius * camera.scale;
+    std::vector<Vec2> points;
+    for (const Vec2 p : s.points) points.push_back(camera.to_pixels(p));
+    const Vec2 centre = camera.to_pixels(s.centre);
+    const double head = 5.5 * style.letters / 8;
+    switch (s.kind) {
+        case Shape::Kind::line:
+            sheet.polyline(points);
+            return sheet.stroke(pen);
+        case Shape::Kind::area:
+            sheet.polyline(points);
+            sheet.close();
+            return sheet.fill(s.color);
+        case Shape::Kind::circle:
+            sheet.circle(centre, radius);
+            return sheet.stroke(pen);
+        case Shape::Kind::disc:
+            sheet.circle(centre, radius);
+            return sheet.fill(s.color);
+        case Shape::Kind::arc:
+            sheet.arc(centre, radius, s.from, s.to);
+            return sheet.stroke(pen);
+        case Shape::Kind::turn: {
+            // The head is a short arrow along the last of the arc, which ends before it.
+            const double back = std::copysign(std::min(0.8 * head / radius, std::abs(s.to - s.from)), s.to - s.from);
+            sheet.arc(centre, radius, s.from, s.to - back);
+            sheet.stroke(pen);
+            const auto on = [&](double angle) { return centre + radius * Vec2{std::cos(angle), -std::sin(angle)}; };
+            const Vec2 tip = on(s.to), neck = on(s.to - 1.25 * back);
+            const Vec2 u = (tip - neck) * (1 / norm(tip - neck));
+            return sheet.arrow(tip - u * head, tip, pen, head);
+        }
+        case Shape::Kind::arrow:
+            return sheet.arrow(points.at(0), points.at(1), pen, head);
+        case Shape::Kind::label: {
+            const double size = s.small ? style.numbers : style.letters;
+            const Lettering l{.size = size, .color = s.color, .across = s.across, .up = s.up};
+            sheet.text(points.at(0) + Vec2{s.shift.x * size, -s.shift.y * size}, s.markup, l);
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box& box) {
+    const Bounds world = bounds_of(panel.shapes);
+    if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
+        throw PictureError("the schematic has no extent: its lengths are zero or not finite");
+    const Camera camera = fit(world, box.inset(1.2 * style.letters));
+    for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,330 @@
+#include "render/plot/sheet.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <pango/pangocairo.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/base/error.hpp"
+#include "render/draw/cairo_status.hpp"
+#include "render/draw/font_handles.hpp"
+#include "render/plot/text.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+// Sub- and superscripts: size, and shift of the baseline, by the size of the text they belong to.
+constexpr double kScriptSize = 0.72, kRaise = 0.36, kLower = 0.17;
+// Liberation Serif looks smaller than Liberation Sans; this brings the x-heights together.
+constexpr double kSymbolSize = 1.12;
+constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistake, and 1 GB
+
+cairo_status_t collect(void* out, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+std::string xml(std::string_view text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+}  // namespace
+
+struct Sheet::Handles {
+    std::string stream;  // of PDF and SVG; outlives the surface
+    Image image;
+    cairo_surface_t* surface = nullptr;
+    // Writes what is left of a document.
+    void finish() {
+        cairo_surface_finish(surface);
+        require_success(cairo_surface_status(surface));
+    }
+    ~Handles() { cairo_surface_destroy(surface); }
+};
+
+struct Sheet::Set {
+    struct Piece {
+        Run run;
+        double x = 0, y = 0, size = 0, advance = 0;  // of the baseline's start
+    };
+    std::vector<Piece> pieces;
+    double width = 0, ascent = 0, descent = 0, smallest = 1e9;
+};
+
+namespace {
+
+void describe(cairo_surface_t* pdf, const Document& d) {
+    const auto say = [&](cairo_pdf_metadata_t key, const std::string& text) {
+        if (!text.empty()) cairo_pdf_surface_set_metadata(pdf, key, text.c_str());
+    };
+    say(CAIRO_PDF_METADATA_TITLE, d.title);
+    say(CAIRO_PDF_METADATA_SUBJECT, d.subject);
+    say(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
+    say(CAIRO_PDF_METADATA_CREATOR, d.creator);
+    const std::string when = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(d.created)));
+    say(CAIRO_PDF_METADATA_CREATE_DATE, when);
+    say(CAIRO_PDF_METADATA_MOD_DATE, when);
+}
+
+}  // namespace
+
+Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document)
+    : medium_(medium), size_(size), document_(document), fonts_(fonts), handles_(std::make_unique<Handles>()) {
+    Handles& h = *handles_;
+    const double scale = size.dpi / kPointsPerInch;
+    double unit = 1;  // device units of a point
+    if (!(size.width > 0 && size.height > 0 && std::max(size.width, size.height) * scale <= kLargestSide))
+        throw PictureError(
+            fmt::format("a figure of {:.4g} × {:.4g} mm at {:g} dpi cannot be drawn; its sides must be "
+                        "positive and at most {:g} pixels",
+                        size.width / points(1), size.height / points(1), size.dpi, kLargestSide));
+    if (medium == Medium::png) {
+        // At least a pixel, and never less than the page.
+        h.image = Image(static_cast<int>(std::ceil(size.width * scale - 1e-6)),
+                        static_cast<int>(std::ceil(size.height * scale - 1e-6)));
+        h.surface =
+            cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
+                                                CAIRO_FORMAT_ARGB32, h.image.width, h.image.height, 4 * h.image.width);
+        unit = scale;
+    } else if (medium == Medium::pdf) {
+        h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, size.width, size.height);
+        describe(h.surface, document);
+    } else {
+        unit = kMillimetresPerInch / kPointsPerInch;
+        h.surface = cairo_svg_surface_create_for_stream(collect, &h.stream, size.width * unit, size.height * unit);
+        cairo_svg_surface_set_document_unit(h.surface, CAIRO_SVG_UNIT_MM);
+    }
+    begin(cairo_create(h.surface));
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm cannot be drawn: {}", size.width / points(1),
+                                       size.height / points(1), cairo_status_to_string(cairo_status(cr_))));
+    cairo_scale(cr_, unit, unit);
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+    use(rgb(0xFFFFFF));
+    cairo_paint(cr_);
+}
+Sheet::~Sheet() noexcept(false) { end(); }
+
+// A quarter of a pixel, or of the 1/600 inch of a good printer.
+double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? size_.dpi : 600)); }
+
+void Sheet::arc(Vec2 c, double radius, double from, double to) {
+    cairo_new_sub_path(cr_);
+    Brush::arc(c, radius, from, to);
+}
+
+void Sheet::curve(std::span<const Vec2> points, const Pen& pen) {
+    // To fill pixels, Cairo carries every edge of a path along from row to row: a long one goes in pieces, whose round
+    // ends are the joins. A file keeps the path as it is.
+    constexpr std::size_t kLong = 10'000, kPiece = 128;  // points
+    if (medium_ != Medium::png || points.size() <= kLong || !pen.dash.empty()) {
+        polyline(points);
+        return stroke(pen);
+    }
+    Pen part = pen;
+    part.cap = Cap::round;
+    for (std::size_t from = 0; from + 1 < points.size(); from += kPiece - 1) {
+        polyline(points.subspan(from, std::min(kPiece, points.size() - from)));
+        stroke(part);
+    }
+}
+
+void Sheet::gradient(const Box& box, std::span<const Color> colors) {
+    cairo_pattern_t* pattern = cairo_pattern_create_linear(0, box.bottom(), 0, box.y);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        cairo_pattern_add_color_stop_rgb(pattern, static_cast<double>(i) / static_cast<double>(colors.size() - 1),
+                                         colors[i].r, colors[i].g, colors[i].b);
+    cairo_set_source(cr_, pattern);
+    rectangle(box);
+    cairo_fill(cr_);
+    cairo_pattern_destroy(pattern);
+}
+
+void Sheet::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
+    const Vec2 way = to - from;
+    const double length = norm(way);
+    if (!(length > 0)) return;
+    const Vec2 u = way * (1 / length), v = sim::perp(u);
+    const double tip = std::min(head, length);
+    if (length > tip) {
+        move_to(from);
+        line_to(to - u * (0.8 * tip));
+        stroke({pen.color, pen.width, pen.dash, Cap::butt});
+    }
+    move_to(to);
+    line_to(to - u * tip + v * (0.36 * tip));
+    line_to(to - u * (0.78 * tip));
+    line_to(to - u * tip - v * (0.36 * tip));
+    close();
+    fill(pen.color);
+}
+
+void Sheet::clip(const Box& b) {
+    cairo_save(cr_);
+    rectangle(b);
+    cairo_clip(cr_);
+}
+void Sheet::unclip() { cairo_restore(cr_); }
+
+// ---- letters -------------------------------------------------------------------------------------
+
+namespace {
+
+// Puts one run into the layout; its advance [pt].
+double lay(PangoLayout* layout, const Run& run, double size, bool bold) {
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(
+        font, run.symbol ? "Liberation Serif,Droid Sans Fallback" : "Liberation Sans,Droid Sans Fallback");
+    pango_font_description_set_style(font, run.symbol ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
+    pango_font_description_set_weight(font, bold || run.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_font_description_set_absolute_size(font, (run.symbol ? kSymbolSize : 1) * size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_attributes(layout, nullptr);
+    pango_layout_set_width(layout, -1);
+    pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_NONE);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    pango_layout_set_text(layout, run.text.c_str(), static_cast<int>(run.text.size()));
+    if (pango_layout_get_unknown_glyphs_count(layout) > 0) throw FontError(missing_glyphs(run.text));
+    PangoRectangle logical;
+    pango_layout_get_extents(layout, nullptr, &logical);
+    return static_cast<double>(logical.width) / PANGO_SCALE;
+}
+
+}  // namespace
+
+Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) {
+    Set label;
+    PangoLayout* layout = fonts_.handles().layout;
+    label.ascent = cap_height(l.size);
+    const Run* before = nullptr;
+    double base_end = 0;  // where the scripts of the last base begin
+    std::vector<Run> runs = parse_markup(markup);
+    for (const Run& run : runs) {
+        Set::Piece piece;
+        piece.run = run;
+        piece.size = run.script ? std::max(kSmallestLetter, kScriptSize * l.size) : l.size;
+        piece.advance = lay(layout, run, piece.size, l.bold);
+        if (run.script > 0) piece.y = -kRaise * l.size;
+        if (run.script < 0) piece.y = kLower * l.size;
+        // A superscript leans away from an italic; sub and super of one base stand above each other.
+        const bool stacked = before && before->script * run.script < 0;
+        piece.x = stacked ? base_end : label.width;
+        if (before && before->symbol && before->script == 0 && run.script >= 0 && !run.symbol)
+            piece.x += (run.script > 0 ? 0.08 : 0.03) * l.size;
+        if (run.script == 0 || !before || before->script == 0)
+            base_end = run.script == 0 ? piece.x + piece.advance : piece.x;
+        label.width = std::max(label.width, piece.x + piece.advance);
+        label.smallest = std::min(label.smallest, piece.size);
+        label.ascent = std::max(label.ascent, -piece.y + (run.script ? cap_height(piece.size) : 0));
+        if (run.dots) label.ascent = std::max(label.ascent, 0.98 * l.size);
+        if (run.script < 0) label.descent = std::max(label.descent, piece.y + 0.12 * piece.size);
+        label.pieces.push_back(std::move(piece));
+        before = &run;
+    }
+    return label;
+}
+
+void Sheet::show(const Set& label) {
+    PangoLayout* layout = fonts_.handles().layout;
+    double x0 = 0, y0 = 0;
+    cairo_get_current_point(cr_, &x0, &y0);
+    for (const Set::Piece& piece : label.pieces) {
+        lay(layout, piece.run, piece.size, false);
+        const double baseline = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
+        cairo_move_to(cr_, x0 + piece.x, y0 + piece.y - baseline);
+        pango_cairo_show_layout(cr_, layout);
+        cairo_new_path(cr_);
+        // Dots stand above the middle of the slanted letter.
+        for (int k = 0; k < piece.run.dots; ++k) {
+            const double across = (k - 0.5 * (piece.run.dots - 1)) * 0.22 * piece.size;
+            circle({x0 + piece.x + 0.58 * piece.advance + across, y0 + piece.y - 0.90 * piece.size},
+                   0.065 * piece.size);
+            cairo_fill(cr_);
+        }
+    }
+}
+
+Box Sheet::measure(std::string_view markup, const Lettering& l) {
+    const Set label = set(markup, l);
+    return {0, -label.ascent, label.width, label.ascent + label.descent};
+}
+
+Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
+    Set label = set(markup, l);
+    for (Set::Piece& piece : label.pieces) piece.run.bold = piece.run.bold || l.bold;
+    double dx = 0, dy = 0;
+    if (l.across == Across::centre) dx = -label.width / 2;
+    if (l.across == Across::right) dx = -label.width;
+    if (l.up == Up::top) dy = label.ascent;
+    if (l.up == Up::middle) dy = cap_height(l.size) / 2;
+    if (l.up == Up::bottom) dy = -label.descent;
+    cairo_save(cr_);
+    cairo_translate(cr_, at.x, at.y);
+    cairo_rotate(cr_, -l.turned);
+    use(l.color);
+    cairo_move_to(cr_, dx, dy);
+    show(label);
+    cairo_restore(cr_);
+
+    // The corners turned, and the box around them.
+    Bounds around;
+    for (const double x : {dx, dx + label.width})
+        for (const double y : {dy - label.ascent, dy + label.descent})
+            around.add({at.x + x * std::cos(l.turned) + y * std::sin(l.turned),
+                        at.y - x * std::sin(l.turned) + y * std::cos(l.turned)});
+    const Box box{around.x0, around.y0, around.x1 - around.x0, around.y1 - around.y0};
+    if (!label.pieces.empty()) written.push_back({box, label.smallest, std::string(markup)});
+    return box;
+}
+
+// ---- the end -------------------------------------------------------------------------------------
+
+Image Sheet::image() {
+    end();
+    handles_->finish();
+    return std::move(handles_->image);
+}
+
+std::string Sheet::bytes() {
+    cairo_show_page(cr_);
+    end();
+    handles_->finish();
+    std::string file = std::move(handles_->stream);
+    if (medium_ != Medium::svg) return file;
+    // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.
+    if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
+        const std::size_t number = id + 14;
+        file.erase(number, file.find('"', number) - number);
+    }
+    // Cairo says nothing about an SVG's content; it goes behind the opening tag.
+    const std::size_t tag = file.find("<svg"), end = file.find('>', tag);
+    if (end == std::string::npos) return file;
+    file.insert(end + 1, fmt::format("\n<title>{}</title>\n<desc>{}</desc>\n<metadata>\n<creator>{}</creator>\n"
+                                     "<scene>{}</scene>\n</metadata>",
+                                     xml(document_.title), xml(document_.subject), xml(document_.creator),
+                                     xml(document_.scene)));
+    return file;
+}
+
+}  // namespace beamcam::render::figure

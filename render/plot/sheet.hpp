@@ -1,0 +1,102 @@
+// A sheet of paper to draw on: PNG, PDF or SVG behind one set of strokes, fills and labels.
+//
+// Units are points (1/72 inch) of the printed figure, y down, whatever the medium: a line of 0.8 pt and a letter of
+// 8 pt are that on paper. PDF text is embedded TrueType, SVG is measured in millimetres and carries its glyphs as
+// outlines. The same calls give the same bytes.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/draw/canvas.hpp"
+#include "render/draw/color.hpp"
+#include "render/draw/fonts.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/draw/image.hpp"
+
+namespace beamcam::render::figure {
+
+inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
+inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
+
+enum class Medium { png, pdf, svg };
+
+// What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
+struct Document {
+    std::string title, subject;
+    std::string scene;         // JSON
+    std::string creator;       // "beamcam 0.1.0"
+    std::int64_t created = 0;  // [s] since 1970, UTC: part of the bytes, so never the clock
+};
+
+struct SheetSize {
+    double width = 255, height = 170;  // [pt]
+    double dpi = 300;                  // of PNG
+};
+
+enum class Across { left, centre, right };
+enum class Up { baseline, top, middle, bottom };  // what of the text stands at the point; ink of digits and capitals
+struct Lettering {
+    double size = 8;  // [pt]
+    Color color = {};
+    Across across = Across::left;
+    Up up = Up::baseline;
+    bool bold = false;
+    double turned = 0;  // counter-clockwise [rad]
+};
+
+// No letter of a figure is smaller, sub- and superscripts included.
+inline constexpr double kSmallestLetter = 6;  // [pt]
+
+class Sheet : public Brush {
+  public:
+    // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
+    Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document = {});
+    ~Sheet() noexcept(false);
+
+    const SheetSize& size() const { return size_; }
+    double grain() const;  // the smallest distance that shows [pt]
+
+    void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
+    void gradient(const Box& box, std::span<const Color> bottom_to_top);
+    void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
+    // A line through any number of points; NaN breaks it.
+    void curve(std::span<const Vec2> points, const Pen& pen);
+    void clip(const Box& box);  // until `unclip`
+    void unclip();
+
+    // The box that the text takes, turned text included.
+    Box text(Vec2 at, std::string_view markup, const Lettering& lettering);
+    // At (0, 0), not turned.
+    Box measure(std::string_view markup, const Lettering& lettering);
+    double cap_height(double size) const { return 0.716 * size; }  // of Liberation Sans, as of Arial
+
+    // What was written: for tests.
+    struct Written {
+        Box box;
+        double smallest = 0;  // letter [pt]
+        std::string markup;
+    };
+    std::vector<Written> written;
+
+    // Ends the drawing. PNG gives the picture, PDF and SVG the file's bytes.
+    Image image();
+    std::string bytes();
+
+  private:
+    struct Handles;
+    struct Set;  // a label in its runs
+    Set set(std::string_view markup, const Lettering& lettering);
+    void show(const Set& label);
+
+    Medium medium_;
+    SheetSize size_;
+    Document document_;
+    const Fonts& fonts_;
+    std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace beamcam::render::figure

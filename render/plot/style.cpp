@@ -1,0 +1,78 @@
+#include "render/plot/style.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace beamcam::render::figure {
+namespace {
+
+// Author guidelines: IEEE 3.5 and 7.16 in; Elsevier 90, 140, 190 mm; Nature 89 and 183 mm; APS 3⅜ and 7 in (86, 178
+// mm).
+constexpr std::array kColumns{Column{"ieee", 88.9, 8, 1.0, 0, "IEEE, one column"},
+                              Column{"ieee-double", 181.9, 8, 1.0, 0, "IEEE, both columns"},
+                              Column{"elsevier", 90, 8, 1.0, 0, "Elsevier, one column"},
+                              Column{"elsevier-1.5", 140, 8, 1.0, 0, "Elsevier, one and a half"},
+                              Column{"elsevier-double", 190, 8, 1.0, 0, "Elsevier, both columns"},
+                              Column{"nature", 89, 7, 0.9, 0, "Nature, one column"},
+                              Column{"nature-double", 183, 7, 0.9, 0, "Nature, both columns"},
+                              Column{"aps", 86, 8, 1.0, 0, "APS, one column"},
+                              Column{"aps-double", 178, 8, 1.0, 0, "APS, both columns"},
+                              Column{"slide", 254, 18, 2.2, 142.875, "a 16:9 slide of 10 in"}};
+
+// Colours of Okabe & Ito, "Color universal design" (2008), in an order in which neighbours differ in lightness too.
+const std::array<Look, 8> kLooks{{{rgb(0x0072B2), {}, Marker::circle},
+                                  {rgb(0xD55E00), {5, 2}, Marker::square},
+                                  {rgb(0x009E73), {1.2, 1.8}, Marker::triangle},
+                                  {rgb(0xCC79A7), {6, 1.8, 1.2, 1.8}, Marker::diamond},
+                                  {rgb(0xE69F00), {9, 2.5}, Marker::down},
+                                  {rgb(0x56B4E9), {6, 1.8, 1.2, 1.8, 1.2, 1.8}, Marker::cross},
+                                  {rgb(0x000000), {2.5, 1.5}, Marker::circle},
+                                  {rgb(0x777777), {4, 1.5, 4, 3.5}, Marker::square}}};
+
+// viridis from 1 down to 0, in tenths.
+constexpr std::array kMap{rgb(0xfde725), rgb(0xbddf26), rgb(0x7ad151), rgb(0x44bf70), rgb(0x22a884), rgb(0x21918c),
+                          rgb(0x2a788e), rgb(0x355f8d), rgb(0x414487), rgb(0x482475), rgb(0x440154)};
+constexpr double kPalest = 0.12;  // of the map, left out
+
+}  // namespace
+
+std::span<const Column> columns() { return kColumns; }
+
+const Column* column_named(std::string_view name) {
+    const auto it = std::find_if(kColumns.begin(), kColumns.end(), [&](const Column& c) { return name == c.name; });
+    return it == kColumns.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> column_names() {
+    std::vector<std::string> names;
+    for (const Column& column : kColumns) names.emplace_back(column.name);
+    return names;
+}
+
+Style style_of(const Column& column) {
+    Style s;
+    const double k = column.letters / 8;
+    s.letters = column.letters;
+    s.numbers = std::max(6.5, 0.94 * column.letters);
+    s.line = column.line;
+    s.frame = 0.6 * k;
+    s.tick = 3 * k;
+    s.minor_tick = 1.7 * k;
+    s.gap = 3 * k;
+    s.marker = 1.9 * k;
+    return s;
+}
+
+const Look& look(int k) { return kLooks[static_cast<std::size_t>(k) % kLooks.size()]; }
+
+Color pale(Color color, double share) { return mix(color, rgb(0xFFFFFF), share); }
+
+Color map_color(double share) {
+    const double whole = kPalest + (1 - kPalest) * std::clamp(share, 0.0, 1.0);
+    const double at = whole * (kMap.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), kMap.size() - 2);
+    return mix(kMap[i], kMap[i + 1], at - static_cast<double>(i));
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,54 @@
+// How figures look: widths of the journals' columns, sizes of type and lines, the lines' colours and dashes, the
+// colour map.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/draw/color.hpp"
+
+namespace beamcam::render::figure {
+
+// A column of a journal, or a slide.
+struct Column {
+    const char* name;
+    double width;       // [mm]
+    double letters;     // size of text [pt]
+    double line;        // width of curves [pt]
+    double height = 0;  // [mm]; 0: what suits the figure
+    const char* whose = "";
+};
+std::span<const Column> columns();
+const Column* column_named(std::string_view name);  // nullptr: none
+std::vector<std::string> column_names();
+
+// Sizes that follow from the column [pt].
+struct Style {
+    double letters = 8;    // axis titles, legends, notes
+    double numbers = 7.5;  // at the ticks
+    double line = 1.0;     // curves
+    double frame = 0.6;    // axes
+    double tick = 3, minor_tick = 1.7;
+    double gap = 3;       // between neighbours
+    double marker = 2.0;  // radius
+};
+Style style_of(const Column& column);
+
+// The k-th line of a plot: colour of Okabe & Ito (2008), told apart in grey by dash and marker as well.
+enum class Marker { circle, square, triangle, diamond, down, cross };
+struct Look {
+    Color color;
+    std::vector<double> dash;  // in widths of the line; empty: solid
+    Marker marker = Marker::circle;
+};
+const Look& look(int k);  // repeats after eight
+
+Color pale(Color color, double share = 0.62);  // towards white, opaque: print knows no transparency
+
+// Perceptually uniform, dark at 1: viridis (Smith & van der Walt 2015, CC0) from its bright end, the palest left out,
+// which white paper would swallow. 0…1; beyond: the end's colour.
+Color map_color(double share);
+
+}  // namespace beamcam::render::figure

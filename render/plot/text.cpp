@@ -1,0 +1,252 @@
+#include "render/plot/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace beamcam::render::figure {
+namespace {
+
+using Pair = std::pair<std::string_view, std::string_view>;
+
+// Greek of mechanics, and signs, as LaTeX writes them in mathematics.
+constexpr std::array kLatexMath{
+    Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},  Pair{"γ", "\\gamma"},  Pair{"δ", "\\delta"},   Pair{"ε", "\\epsilon"},
+    Pair{"ζ", "\\zeta"},    Pair{"η", "\\eta"},   Pair{"θ", "\\theta"},  Pair{"κ", "\\kappa"},   Pair{"λ", "\\lambda"},
+    Pair{"μ", "\\mu"},      Pair{"ν", "\\nu"},    Pair{"ξ", "\\xi"},     Pair{"π", "\\pi"},      Pair{"ρ", "\\rho"},
+    Pair{"σ", "\\sigma"},   Pair{"τ", "\\tau"},   Pair{"φ", "\\varphi"}, Pair{"χ", "\\chi"},     Pair{"ψ", "\\psi"},
+    Pair{"ω", "\\omega"},   Pair{"Θ", "\\Theta"}, Pair{"Δ", "\\Delta"},  Pair{"Σ", "\\Sigma"},   Pair{"Ω", "\\Omega"},
+    Pair{"×", "\\times "},  Pair{"·", "\\cdot "}, Pair{"−", "-"},        Pair{"≥", "\\ge "},     Pair{"≤", "\\le "},
+    Pair{"≈", "\\approx "}, Pair{"√", "\\surd "}, Pair{"∞", "\\infty "}, Pair{"°", "^{\\circ}"}, Pair{"±", "\\pm "},
+    Pair{"′", "'"},         Pair{"→", "\\to "},   Pair{"²", "^{2}"},     Pair{"³", "^{3}"}};
+constexpr std::array kLatexText{Pair{"–", "--"},
+                                Pair{"—", "---"},
+                                Pair{"\u00A0", "~"},
+                                Pair{"\u2009", "\\,"},
+                                Pair{"“", "``"},
+                                Pair{"”", "''"},
+                                Pair{"%", "\\%"},
+                                Pair{"&", "\\&"},
+                                Pair{"#", "\\#"},
+                                Pair{"_", "\\_"},
+                                Pair{"{", "\\{"},
+                                Pair{"}", "\\}"},
+                                Pair{"$", "\\$"},
+                                Pair{"~", "\\textasciitilde{}"},
+                                Pair{"^", "\\textasciicircum{}"},
+                                Pair{"\\", "\\textbackslash{}"},
+                                Pair{"…", "\\dots{}"},
+                                Pair{"µ", "\\textmu{}"}};
+
+std::size_t sequence_length(char lead) {
+    const auto byte = static_cast<unsigned char>(lead);
+    return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+}
+
+std::string_view next_character(std::string_view text, std::size_t at) {
+    return text.substr(at, sequence_length(text[at]));
+}
+
+// ASCII and Greek letters; in mathematics they are set in italics.
+bool is_letter(std::string_view c) {
+    if (c.size() == 1) return (c[0] >= 'a' && c[0] <= 'z') || (c[0] >= 'A' && c[0] <= 'Z');
+    if (c.size() != 2) return false;
+    const unsigned code = (static_cast<unsigned char>(c[0]) & 31u) << 6 | (static_cast<unsigned char>(c[1]) & 63u);
+    return code >= 0x391 && code <= 0x3C9;
+}
+
+class Parser {
+  public:
+    explicit Parser(std::string_view text) : text_(text) {}
+
+    std::vector<Run> all() {
+        sequence({}, false);
+        if (math_) fail("a $ is never closed");
+        return std::move(runs_);
+    }
+
+  private:
+    [[noreturn]] void fail(const char* what) const {
+        throw std::invalid_argument(fmt::format("label \"{}\": {}", text_, what));
+    }
+
+    bool take(std::string_view word) {
+        if (!text_.substr(at_).starts_with(word)) return false;
+        at_ += word.size();
+        return true;
+    }
+
+    void put(std::string_view c, Run style) {
+        if (math_ && !upright_ && is_letter(c)) style.symbol = true;
+        if (math_ && c == "-") c = "−";
+        if (!runs_.empty() && style.dots == 0 && runs_.back().dots == 0) {
+            Run last = runs_.back();
+            last.text.clear();
+            if (last == style) {
+                runs_.back().text += c;
+                return;
+            }
+        }
+        style.text = c;
+        runs_.push_back(std::move(style));
+    }
+
+    // Until the end, or the brace that closes a group.
+    void sequence(const Run& style, bool in_braces) {
+        while (at_ < text_.size()) {
+            if (in_braces && take("}")) return;
+            item(style);
+        }
+        if (in_braces) fail("a brace is never closed");
+    }
+
+    void group(const Run& style) {
+        if (take("{")) return sequence(style, true);
+        if (at_ >= text_.size()) fail("nothing follows a sub- or superscript");
+        one(style);
+    }
+
+    void one(const Run& style) {
+        const std::string_view c = next_character(text_, at_);
+        at_ += c.size();
+        put(c, style);
+    }
+
+    void item(const Run& style) {
+        Run changed = style;
+        const bool script_here = math_ || (at_ + 1 < text_.size() && text_[at_ + 1] == '{');
+        if (take("$")) {
+            math_ = !math_;
+        } else if (script_here && take("_")) {
+            changed.script = -1;
+            group(changed);
+        } else if (script_here && take("^")) {
+            changed.script = 1;
+            group(changed);
+        } else if (take("\\dot{")) {
+            changed.dots = 1;
+            sequence(changed, true);
+        } else if (take("\\ddot{")) {
+            changed.dots = 2;
+            sequence(changed, true);
+        } else if (take("\\r{")) {
+            const bool before = std::exchange(upright_, true);
+            sequence(changed, true);
+            upright_ = before;
+        } else if (take("\\b{")) {
+            changed.bold = true;
+            sequence(changed, true);
+        } else {
+            if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+            one(style);
+        }
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    bool math_ = false, upright_ = false;
+    std::vector<Run> runs_;
+};
+
+template <std::size_t N>
+const std::string_view* find(const std::array<Pair, N>& table, std::string_view c) {
+    const auto it = std::find_if(table.begin(), table.end(), [&](const Pair& p) { return p.first == c; });
+    return it == table.end() ? nullptr : &it->second;
+}
+
+std::string latex_math(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view c = next_character(text, at);
+        at += c.size();
+        if (const std::string_view* known = find(kLatexMath, c)) {
+            out += *known;
+            // A command ends at the next letter.
+            const bool command = known->size() > 1 && known->front() == '\\' && known->back() != ' ';
+            if (command && at < text.size()) out += ' ';
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::string latex_text(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view c = next_character(text, at);
+        at += c.size();
+        if (const std::string_view* known = find(kLatexText, c))
+            out += *known;
+        else if (const std::string_view* sign = find(kLatexMath, c))
+            out += fmt::format("${}$", *sign);
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string latex_run(const Run& run) {
+    std::string body = run.symbol ? latex_math(run.text) : latex_text(run.text);
+    if (run.script == 0) {
+        if (!run.symbol) return run.bold ? fmt::format("\\textbf{{{}}}", body) : body;
+        if (run.dots) body = fmt::format("\\{}{{{}}}", run.dots == 1 ? "dot" : "ddot", body);
+        return fmt::format("${}$", body);
+    }
+    if (!run.symbol) body = fmt::format("\\mathrm{{{}}}", latex_math(run.text));
+    return fmt::format("${}{{{}}}$", run.script < 0 ? "_" : "^", body);
+}
+
+std::string superscript(std::string_view text) {
+    static constexpr std::array kRaised{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
+                                        Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
+                                        Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view c = next_character(text, at);
+        at += c.size();
+        const std::string_view* known = find(kRaised, c);
+        if (!known) return fmt::format("^{}", text);
+        out += *known;
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<Run> parse_markup(std::string_view markup) { return Parser(markup).all(); }
+
+std::string to_latex(std::string_view markup) {
+    std::string out;
+    for (const Run& run : parse_markup(markup)) {
+        const std::string piece = latex_run(run);
+        // One formula, not two: "$x$$_{c}$" would open a display.
+        if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
+            out.pop_back();
+            out += piece.substr(1);
+        } else {
+            out += piece;
+        }
+    }
+    return out;
+}
+
+std::string to_plain(std::string_view markup) {
+    std::string out;
+    for (const Run& run : parse_markup(markup)) {
+        if (run.script > 0)
+            out += superscript(run.text);
+        else if (run.script < 0)
+            out += "_" + run.text;
+        else
+            out += run.text;
+        for (int i = 0; i < (run.dots == 1 ? 1 : 0); ++i) out += "\u0307";
+        if (run.dots == 2) out += "\u0308";
+    }
+    return out;
+}
+
+}  // namespace beamcam::render::figure

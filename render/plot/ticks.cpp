@@ -1,0 +1,85 @@
+#include "render/plot/ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+// Powers of ten are exact up to 1e22; below 1 the quotient is the nearest double.
+double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }
+constexpr double kSlack = 1e-9;  // relative: forgives the rounding of computed bounds
+
+double times_ten_to(double mantissa, int n) { return n >= 0 ? mantissa * ten_to(n) : mantissa / ten_to(-n); }
+
+}  // namespace
+
+double round_down_125(double value) {
+    const int n = static_cast<int>(std::floor(std::log10(value))) + 1;
+    for (int k = n; k > n - 4; --k)
+        for (double m : {5.0, 2.0, 1.0})
+            if (times_ten_to(m, k) <= value * (1 + kSlack)) return times_ten_to(m, k);
+    return value;
+}
+
+double round_up_125(double value) {
+    const int n = static_cast<int>(std::floor(std::log10(value))) - 1;
+    for (int k = n; k < n + 4; ++k)
+        for (double m : {1.0, 2.0, 5.0})
+            if (times_ten_to(m, k) >= value * (1 - kSlack)) return times_ten_to(m, k);
+    return value;
+}
+
+Ticks ticks(double low, double high, int most) {
+    Ticks out;
+    out.step = round_up_125((high - low) / most);
+    for (;;) {
+        const double first = std::ceil(low / out.step - kSlack), last = std::floor(high / out.step + kSlack);
+        if (last - first + 1 <= most) {
+            for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * out.step + 0.0);
+            break;
+        }
+        out.step = round_up_125(out.step * 1.5);
+    }
+    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(out.step) + kSlack)));
+    return out;
+}
+
+Range round_range(double low, double high, int most) {
+    const double step = ticks(low, high, most).step;
+    return {std::floor(low / step + kSlack) * step, std::ceil(high / step - kSlack) * step};
+}
+
+std::string fixed(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+    const bool zero = text.find_first_of("123456789") == std::string::npos;
+    return (value < 0 && !zero ? "−" : "") + text;
+}
+
+Prefix prefix_for(double largest) {
+    static constexpr std::array<Prefix, 9> kPrefixes{{{"G", 1e9},
+                                                      {"M", 1e6},
+                                                      {"k", 1e3},
+                                                      {"", 1},
+                                                      {"m", 1e-3},
+                                                      {"µ", 1e-6},
+                                                      {"n", 1e-9},
+                                                      {"p", 1e-12},
+                                                      {"f", 1e-15}}};
+    if (!(largest > 0)) return {"", 1};
+    for (Prefix p : kPrefixes)
+        if (largest >= p.factor * (1 - kSlack)) return p;
+    return kPrefixes.back();
+}
+
+std::string quantity(double value, const char* unit, int digits) {
+    const Prefix p = prefix_for(std::abs(value));
+    std::string number = fmt::format("{:.{}g}", std::abs(value) / p.factor, digits);
+    if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", std::abs(value) / p.factor);
+    return (value < 0 ? "−" : "") + number + "\u00A0" + p.symbol + unit;
+}
+
+}  // namespace beamcam::render

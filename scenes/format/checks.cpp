@@ -1,0 +1,223 @@
+#include "scenes/format/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "output/film/video_format.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/scene/files.hpp"
+#include "scenes/scene/film_times.hpp"
+
+namespace beamcam::scenes {
+
+// ---- physics -----------------------------------------------------------------------------------
+
+namespace {
+
+// Where a key path stands: its value, or else the key of its nearest ancestor in the file.
+Place place_of(const Node& root, std::string_view path, bool& exact) {
+    const Node* node = &root;
+    Place place = root.place;
+    exact = true;
+    while (!path.empty()) {
+        const std::size_t dot = std::min(path.find('.'), path.size());
+        const std::string_view key = path.substr(0, dot);
+        path.remove_prefix(std::min(dot + 1, path.size()));
+        if (const Member* member = node->find(key)) {
+            place = path.empty() ? member->value.place : member->key_place;
+            node = &member->value;
+            continue;
+        }
+        std::size_t index = 0;
+        const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+        if (node->kind != Node::Kind::array || error != std::errc{} || end != key.data() + key.size() ||
+            index >= node->items.size()) {
+            exact = false;
+            break;
+        }
+        node = &node->items[index];
+        place = node->place;
+    }
+    return place;
+}
+
+}  // namespace
+
+void judge_physics(ObjectReader& r, const sim::Problem& problem) {
+    const bool partial = r.findings().any();
+    for (const sim::Finding& finding : sim::validate(problem)) {
+        bool exact = false;
+        const Place place = place_of(*r.node(), finding.path, exact);
+        // With unread values replaced by defaults, only what the user wrote himself can be judged.
+        if (partial && (!exact || !finding.fatal || r.findings().failed(finding.path))) continue;
+        const bool named = finding.message.starts_with(finding.path);
+        r.findings().add(
+            {place, named ? finding.message : fmt::format("{}: {}", finding.path, finding.message), finding.fatal});
+    }
+}
+
+// ---- pictures ----------------------------------------------------------------------------------
+
+void warn_of_unused_camera(ObjectReader& r, const render::View& view) {
+    if (r.has("camera") && view.style != render::Style::solid)
+        r.findings().warning(
+            r.place("camera").place,
+            fmt::format("{} moves in the solid view alone; \"style\": \"solid\" shows that", r.path("camera")));
+}
+
+void judge_picture(ObjectReader& r, Picture& picture) {
+    if (const double memory = memory_of(picture); memory >= kMuchMemory)  // told before it is drawn
+        r.findings().warning(r.node()->place,
+                             fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
+                                         r.what(), picture.size.width, picture.size.height, memory / 1e9));
+    if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
+        r.findings().warning(
+            r.node()->place,
+            fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
+                        r.path("comparison")));
+    for (std::size_t i = 0; i < picture.compare.size(); ++i)
+        if (std::string& label = picture.compare[i].label; label.empty()) label = std::to_string(i + 1);
+    judge_layout(r, picture);
+}
+
+// ---- films -------------------------------------------------------------------------------------
+
+std::string problem_with_span(const FrameSpan& span, double end_time) {
+    const double to = span.to.value_or(end_time), fps = span.fps.value();
+    if (!span.real_time()) {
+        if (to > span.from) return {};  // how many frames, only the motion tells
+        return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,
+                           span.from);
+    }
+    const double first = std::round(span.from * fps), last = std::round(to * fps);
+    if (!(last > first))
+        return fmt::format(
+            "no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
+            to > span.from ? "let \"to\" be later, or raise \"fps\"" : "\"to\" must be later than \"from\"");
+    if (last - first > kMostFrames)
+        return fmt::format(
+            "{:.0f} frames are more than the {:.0f} that one output can have; use \"from\" and \"to\", or fewer frames "
+            "a second",
+            last - first, kMostFrames);
+    return {};
+}
+
+void judge_span(ObjectReader& r, const FrameSpan& span) {
+    const Findings& findings = r.findings();
+    if (findings.failed(r.path("from")) || findings.failed(r.path("to")) || findings.failed("time")) return;
+    const double end = span.to.value_or(r.context().scene.end_time);
+    if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
+        return r.fail(*r.node(), "to", fmt::format("{}: {}", r.what(), problem));
+    for (std::size_t i = 0; i < span.events.size() && !findings.failed(r.path("events")); ++i)
+        if (const Instant& at = span.events[i].at;  // a warning, so that films can be shortened
+            at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
+            r.findings().warning(
+                r.node()->place,
+                fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: it is not shown",
+                            r.path(fmt::format("events.{}.at", i)), at.t, span.from, end));
+}
+
+void take_usual_codec(ObjectReader& r, VideoOutput& video) {
+    name_after_scene(r, video.file, ".mp4");
+    video.encoding.codec =
+        output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(output::Codec::h264);
+}
+
+namespace {
+
+// What the codec, the container and the picture ask of each other.
+void judge_format(ObjectReader& r, const VideoOutput& video) {
+    const std::string ending = std::filesystem::path(video.file).extension().string();
+    const output::Codec codec = video.encoding.codec;
+    const auto refuse = [&](const char* key, const std::string& problem) {
+        if (!problem.empty()) r.fail(r.place(key), key, fmt::format("{}: {}", r.path(key), problem));
+    };
+    if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
+        return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
+                      fmt::format("{}: {}", r.what(), problem));
+    refuse("size", output::size_problem(codec, video.size.width, video.size.height));
+    refuse("fps", output::rate_problem(codec, video.span.fps.value()));
+    if (r.has("preset") && codec != output::Codec::h264)
+        refuse("preset", fmt::format("{} has no presets, H.264 alone has; remove it", title(codec)));
+    const auto quality = output::quality_scale(codec);
+    if (r.has("crf") && !quality)
+        refuse("crf", fmt::format("{} has no crf, it keeps what its format can; remove it", title(codec)));
+    else if (quality && video.encoding.crf.value_or(0) > quality->worst)
+        r.fail(r.place("crf"), "crf",
+               fmt::format("{} = {} is outside 0 … {} of {}", r.path("crf"), *video.encoding.crf, quality->worst,
+                           title(codec)));
+}
+
+}  // namespace
+
+void judge_video(ObjectReader& r, VideoOutput& video) {
+    constexpr FrameRate kGifRate{25, 1};  // what a GIF has by default
+    if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
+    if (!video.encoding.crf)
+        if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
+    judge_span(r, video.span);
+    judge_format(r, video);
+}
+
+// ---- figures, tables, files --------------------------------------------------------------------
+
+void judge_figure(ObjectReader& r, FigureOutput& figure) {
+    if (figure.file.empty()) figure.file = figure.figure + ".pdf";
+    if (!r.has("figure") || r.findings().any()) return;  // judged when the physics is known
+    if (const auto refusal = refusal_of(*recipe_named(figure.figure), r.context().scene))
+        r.fail(r.place("figure"), "figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
+}
+
+void judge_table(ObjectReader& r, TrajectoryOutput& table) {
+    constexpr double kMostRows = 20'000'000;  // 160 MB a channel
+    name_after_scene(r, table.file, ".csv");
+    const double rows = table.rate * r.context().scene.end_time;
+    if (r.has("rate") && rows > kMostRows)
+        r.fail(r.place("rate"), "rate",
+               fmt::format("{} = {} would make {:.3g} rows, more than {:.3g}; lower it", r.path("rate"),
+                           shown(r.place("rate")), rows, kMostRows));
+}
+
+void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {
+    if (file.empty()) file = r.context().scene.name + ending;
+}
+
+namespace {
+
+// Two outputs must not write one file.
+void refuse_shared_files(ObjectReader& r, const Node& list, const std::vector<Output>& outputs) {
+    const auto nameless = [](const Output& output) { return file_of(output).empty(); };  // it could not be read
+    if (std::ranges::any_of(outputs, nameless)) return;
+    FileClaims claims;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        for (const std::string& file : written_by(outputs[i])) claims.add(file, i);
+    for (const auto& [later, earlier] : claims.clashes()) {
+        const Node& object = list.items[later.owner];
+        const Member* file = object.find("file");
+        r.fail(file ? file->value : object, fmt::format("outputs.{}.file", later.owner),
+               fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
+                           later.owner, in_quotes(later.file), earlier.owner, in_quotes(earlier.file)));
+    }
+}
+
+}  // namespace
+
+void judge_outputs(ObjectReader& r, Scene& scene) {
+    const Member* list = r.node()->find("outputs");
+    if (!list || list->value.items.size() != scene.outputs.size()) return;
+    const Source& source = r.context().source;
+    Locator locator(source.text);
+    for (const Node& object : list->value.items) {
+        std::string& place = scene.output_places.emplace_back(source.name);
+        if (object.place.source != 0) continue;
+        const LineColumn at = locator.at(object.place.offset);
+        place += fmt::format(":{}:{}", at.line, at.column);
+    }
+    refuse_shared_files(r, list->value, scene.outputs);
+}
+
+}  // namespace beamcam::scenes

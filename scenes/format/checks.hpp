@@ -1,0 +1,33 @@
+// What the keys of a scene ask of each other, beyond the range of each: judged by the reader after it has read them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/format/object_reader.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+
+// More than eight motions neither colours nor eyes tell apart.
+inline constexpr std::size_t kMostCompared = 8;
+
+Form layout_form(std::optional<render::LayoutNode>& layout);
+
+void judge_physics(ObjectReader& r, const sim::Problem& problem);
+void warn_of_unused_camera(ObjectReader& r, const render::View& view);
+void judge_picture(ObjectReader& r, Picture& picture);
+void judge_layout(ObjectReader& r, const Picture& picture);
+void judge_span(ObjectReader& r, const FrameSpan& span);
+void take_usual_codec(ObjectReader& r, VideoOutput& video);
+void judge_video(ObjectReader& r, VideoOutput& video);
+void judge_figure(ObjectReader& r, FigureOutput& figure);
+void judge_table(ObjectReader& r, TrajectoryOutput& table);
+void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
+void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
+
+// Why a span has no frames, or too many; empty when it is fine.
+std::string problem_with_span(const FrameSpan& span, double end_time);
+
+}  // namespace beamcam::scenes

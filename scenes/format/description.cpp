@@ -1,0 +1,204 @@
+#include "scenes/format/description.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "scenes/format/keys.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using sim::Length, sim::Range, sim::Unit;
+
+Node parsed(const std::string& json) { return parse(json).root; }
+
+Node bounded(const Range& range) {
+    Node number = object_node();
+    add(number, "type", text_node("number"));
+    if (std::isfinite(range.least))
+        add(number, range.without_least ? "exclusiveMinimum" : "minimum", number_node(range.least));
+    if (std::isfinite(range.most))
+        add(number, range.without_most ? "exclusiveMaximum" : "maximum", number_node(range.most));
+    return number;
+}
+
+Node any_of(std::vector<Node> choices) {
+    if (choices.size() == 1) return std::move(choices.front());
+    Node out = object_node();
+    add(out, "anyOf", array_node(std::move(choices)));
+    return out;
+}
+
+Node with_text(const Unit& unit) {
+    return parsed(same(unit.dimension, sim::dimension::kNone) ? R"({"$ref": "#/$defs/percentage"})"
+                                                              : R"({"$ref": "#/$defs/withUnit"})");
+}
+
+std::string symbol(const Unit& unit) {
+    const std::string text = unit.symbol();
+    return text == "1" ? "" : text;
+}
+
+class Describer final : public SceneVisitor {
+  public:
+    explicit Describer(std::string meaning) { common_.meaning = std::move(meaning); }
+
+    // The shapes that the object may have, each with the keys that all have.
+    std::vector<Shape> take() {
+        if (shapes_.empty()) return {std::move(common_)};
+        for (Shape& shape : shapes_) {
+            shape.keys.insert(shape.keys.end(), common_.keys.begin(), common_.keys.end());
+            shape.exclusive.insert(shape.exclusive.end(), common_.exclusive.begin(), common_.exclusive.end());
+        }
+        return std::move(shapes_);
+    }
+
+    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) override {
+        DescribedKey& d = number_key(key, unit, range, meaning, nullptr);
+        d.value = number_node(value);
+    }
+    void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char* meaning,
+                const char* word) override {
+        DescribedKey& d = number_key(key, unit, range, meaning, word);
+        if (value) d.value = number_node(*value);
+        if (!value && word) d.value = text_node(word);
+    }
+    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
+                 const Length& length, const char* meaning) override {
+        const bool fixed = length.least == length.most;
+        DescribedKey& d = add_key(key,
+                                  length.or_one_number ? "number or numbers"
+                                  : fixed              ? fmt::format("{} numbers", length.least)
+                                                       : "numbers",
+                                  meaning);
+        d.unit = symbol(unit);
+        d.range = range;
+        Node item = any_of({bounded(range), with_text(unit)}), list = parsed(R"({"type": "array"})");
+        if (length.least > 0) add(list, "minItems", integer_node(static_cast<long>(length.least)));
+        if (fixed) add(list, "maxItems", integer_node(static_cast<long>(length.most)));
+        add(list, "items", item);
+        d.schema = length.or_one_number ? any_of({bounded(range), with_text(unit), std::move(list)}) : std::move(list);
+        if (values.empty()) return;
+        d.value = array_node();
+        for (const double value : values) d.value->items.push_back(number_node(value));
+    }
+    void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override {
+        DescribedKey& d = add_key(key, "whole number", meaning);
+        d.range = sim::between(least, most);
+        d.schema = parsed(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", least, most));
+        if (value) d.value = integer_node(*value);
+    }
+    void truth(const Key& key, bool& value, const char* meaning) override {
+        DescribedKey& d = add_key(key, "true or false", meaning);
+        d.schema = parsed(R"({"type": "boolean"})");
+        d.value = truth_node(value);
+    }
+    void text(const Key& key, std::string& value, const char* meaning) override {
+        DescribedKey& d = add_key(key, "text", meaning);
+        d.schema = parsed(R"({"type": "string"})");
+        d.value = text_node(value);
+    }
+    void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
+              const char* meaning) override {
+        DescribedKey& d = add_key(key, "word", meaning);
+        d.words = words;
+        d.schema = object_node();
+        Node all = array_node();
+        for (const std::string& each : words) all.items.push_back(text_node(each));
+        add(d.schema, "enum", std::move(all));
+        if (!key.derived) d.value = text_node(words[chosen]);
+    }
+    void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override {
+        Describer inside(meaning);
+        fields(inside);
+        DescribedKey& d = add_key(key, present ? "object or null" : "object", meaning);
+        d.shapes = inside.take();
+        d.nullable = present;
+    }
+    void alternatives(const std::vector<sim::Alternative>& all) override {
+        for (const sim::Alternative& each : all) {
+            Describer inside(each.meaning);
+            each.fields(inside);
+            Shape shape = std::move(inside.take().front());
+            for (const auto& [tag, word] : each.tags) shape.tags.emplace_back(tag, word);
+            shapes_.push_back(std::move(shape));
+        }
+    }
+    void form(const Key& key, const Form& form, const char* meaning) override {
+        DescribedKey& d = add_key(key, form.type, meaning);
+        d.schema = parsed(form.schema);
+        if (!key.derived) d.value = form.write();
+    }
+    void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override {
+        const std::optional<Node> value = form.write();
+        Describer inside(meaning);
+        fields(inside);
+        DescribedKey& d = add_key(key, form.type, meaning);
+        d.shapes = inside.take();
+        d.schema = parsed(form.schema);
+        d.value = value;
+    }
+    void list(const Key& key, const List& list, const char* meaning) override {
+        DescribedKey described;
+        if (!list.nested) {
+            Describer item(meaning);
+            list.item(item, list.size);
+            described.shapes = item.take();
+        }
+        DescribedKey& d = add_key(key, fmt::format("list of {}", list.of), meaning);
+        d.shapes = std::move(described.shapes);
+        d.list = true;
+        d.nested = list.nested ? list.nested : "";
+        if (list.form) d.item_schema = parsed(list.form->schema);
+        d.schema = parsed(R"({"type": "array"})");
+        if (list.least > 0) {
+            add(d.schema, "minItems", integer_node(static_cast<long>(list.least)));
+            add(d.schema, "maxItems", integer_node(static_cast<long>(list.most)));
+        }
+    }
+    void restrict(const char* schema) override { common_.restrictions.push_back(parsed(schema)); }
+    void exclude(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
+
+  private:
+    DescribedKey& add_key(const Key& key, std::string type, const char* meaning) {
+        DescribedKey& d = common_.keys.emplace_back();
+        d.name = key.name;
+        d.type = std::move(type);
+        d.meaning = meaning;
+        if (key.example) d.example = key.example;
+        return d;
+    }
+    DescribedKey& number_key(const Key& key, const Unit& unit, const Range& range, const char* meaning,
+                             const char* word) {
+        DescribedKey& d = add_key(key, word ? fmt::format("number or \"{}\"", word) : "number", meaning);
+        d.unit = symbol(unit);
+        d.range = range;
+        std::vector<Node> choices{bounded(range)};
+        if (word) choices.push_back(parsed(fmt::format(R"({{"const": "{}"}})", word)));
+        if (!unit.plain) choices.push_back(with_text(unit));
+        d.schema = any_of(std::move(choices));
+        return d;
+    }
+
+    Shape common_;
+    std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+const Shape& scene_format() {
+    static const Shape kFormat = [] {
+        Scene scene;
+        Describer describer(
+            "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to make of it. Plain "
+            "numbers are SI; a text may carry a unit. Every key has a default: {} is a whole scene. Keys that begin "
+            "with x- are ignored.");
+        visit(describer, scene);
+        return std::move(describer.take().front());
+    }();
+    return kFormat;
+}
+
+}  // namespace beamcam::scenes

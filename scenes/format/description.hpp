@@ -1,0 +1,58 @@
+// The format of scenes as data: every key with its kind, unit, range, default and meaning, as a visitor finds them. The
+// JSON Schema, the reference and `beamcam keys` are made from it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/format/tree.hpp"
+#include "sim/problem/keys.hpp"
+
+namespace beamcam::scenes {
+
+struct DescribedKey;
+
+// An object with these keys. Tags are keys with a fixed word.
+struct Shape {
+    std::vector<std::pair<std::string, std::string>> tags;
+    std::string meaning;
+    std::vector<DescribedKey> keys;
+    std::vector<std::pair<std::string, std::string>> exclusive;  // keys of which one may be given
+    std::vector<Node> restrictions;                              // more of the schema of the object
+};
+
+struct DescribedKey {
+    std::string name, type, unit, meaning;
+    sim::Range range;
+    std::vector<std::string> words;  // that the value may be
+    std::optional<Node> value;       // the default; nothing: none, or other keys decide it
+    std::string example;             // of a key that must be given
+    Node schema;                     // of the value, without what is said above
+    std::vector<Shape> shapes;       // of an object, or of the objects in a list
+    bool list = false, nullable = false;
+    std::optional<Node> item_schema;  // of a list's items that are no objects
+    std::string nested;               // the items of the list have the shapes of what contains it, by that name
+
+    bool required() const { return !example.empty(); }
+};
+
+// The scene itself: one shape without tags.
+const Shape& scene_format();
+
+std::string one_line(const Node& node);  // as JSON
+std::string schema_text();               // the JSON Schema
+std::string reference_text();            // Markdown, scenes/FORMAT.md
+
+// A key by its path, "hub.drive.amplitude"; of a list's items, "outputs[].size".
+struct KeyRow {
+    std::string path;
+    std::string when;  // which tags the object must have, "type=torque"
+    const DescribedKey* key;
+};
+std::vector<KeyRow> key_rows();
+std::string range_text(const DescribedKey& key);    // "> 0", "1 … 2"; empty: any
+std::string default_text(const DescribedKey& key);  // JSON; empty: none
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,263 @@
+#include "scenes/format/forms.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <numeric>
+
+#include "output/film/video.hpp"
+#include "scenes/format/object_reader.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/scene/files.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
+constexpr int kSmallestSide = 16, kLargestSide = 16384;
+constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
+
+// The whole text as a number; nothing where it is none.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+std::string schema_of_file(const std::vector<const char*>& endings, bool numbered) {
+    std::string kinds;
+    for (const char* ending : endings) kinds += (kinds.empty() ? "" : "|") + std::string(ending + 1);
+    static constexpr const char* kInside = R"(^(?!/)(?!.*(^|/)\\.\\.(/|$))(?!(.*/)?\\.[^/]*$))";
+    return fmt::format(R"({{"type": "string", "minLength": 1, "maxLength": 4096, "pattern": "{}{}\\.({})$"}})", kInside,
+                       numbered ? R"([^#\\u0000-\\u001f\\u007f]*#{1,9}[^/#\\u0000-\\u001f\\u007f]*)"
+                                : R"([^#\\u0000-\\u001f\\u007f]+)",
+                       kinds);
+}
+
+std::string problem_with_name(const std::string& name, const std::vector<const char*>& endings, bool numbered) {
+    if (std::string problem = problem_with_file(name); !problem.empty()) return problem;
+    const std::string ending = std::filesystem::path(name).extension().string();
+    if (std::ranges::find(endings, ending) == endings.end())
+        return fmt::format("its name must end in {}", fmt::join(endings, " or "));
+    if (numbered) return problem_with_numbering(name);
+    return name.find('#') == std::string::npos ? "" : "'#' numbers the files of \"frames\"; choose another name";
+}
+
+Form file_form(std::string& file, const std::vector<const char*>& endings, bool numbered) {
+    const auto read = [&file, endings, numbered](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::string)
+            return r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), shown(node)));
+        if (std::string problem = problem_with_name(node.text, endings, numbered); !problem.empty())
+            return r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), problem));
+        file = node.text;
+    };
+    const auto write = [&file]() -> std::optional<Node> {
+        return file.empty() ? std::nullopt : std::optional(text_node(file));
+    };
+    return {"file name", schema_of_file(endings, numbered), read, write};
+}
+
+}  // namespace
+
+Form file_form(std::string& file, std::initializer_list<const char*> endings) {
+    return file_form(file, std::vector(endings), false);
+}
+Form numbered_file_form(std::string& file) { return file_form(file, {".png"}, true); }
+
+// ---- size and frame rate -----------------------------------------------------------------------
+
+std::optional<Size> parse_size(std::string_view text) {
+    const std::size_t x = text.find('x');
+    if (x == std::string_view::npos) return std::nullopt;
+    const auto width = number_in<int>(text.substr(0, x)), height = number_in<int>(text.substr(x + 1));
+    const bool fits =
+        width && height && std::min(*width, *height) >= kSmallestSide && std::max(*width, *height) <= kLargestSide;
+    return fits ? std::optional(Size{*width, *height}) : std::nullopt;
+}
+
+Form size_form(Size& size) {
+    const auto read = [&size](ObjectReader& r, const Node& node, const std::string& key) {
+        if (const auto parsed = node.kind == Node::Kind::string ? parse_size(node.text) : std::nullopt) {
+            size = *parsed;
+            return;
+        }
+        if (node.kind != Node::Kind::array || node.items.size() != 2)
+            return r.fail(node, key,
+                          fmt::format("{} must be [width, height] or \"WIDTHxHEIGHT\" in pixels, {} to {} each, not {}",
+                                      r.path(key), kSmallestSide, kLargestSide, shown(node)));
+        Size given;
+        const bool fine = r.whole_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
+                          r.whole_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
+        if (fine) size = given;
+    };
+    return {
+        "[width, height] or \"1280x720\"",
+        fmt::format(
+            R"-({{"anyOf": [{{"type": "array", "items": {{"type": "integer", "minimum": {}, "maximum": {}}}, )-"
+            R"-("minItems": 2, "maxItems": 2}}, {{"type": "string", "pattern": "^[0-9]{{2,5}}x[0-9]{{2,5}}$"}}]}})-",
+            kSmallestSide, kLargestSide),
+        read, [&size] {
+            return array_node({integer_node(size.width), integer_node(size.height)});
+        }};
+}
+
+std::optional<FrameRate> parse_frame_rate(std::string_view text) {
+    FrameRate rate;
+    if (const std::size_t slash = text.find('/'); slash != std::string_view::npos) {
+        const auto over = number_in<int>(text.substr(0, slash)), under = number_in<int>(text.substr(slash + 1));
+        if (!over || !under) return std::nullopt;
+        rate = {*over, *under};
+    } else {
+        const auto value = number_in<double>(text);
+        if (!value || !(*value >= kSlowestFrameRate && *value <= kFastestFrameRate)) return std::nullopt;
+        const output::FrameRate meant = output::frame_rate(*value);  // 29.97 means 30000/1001
+        rate = {meant.rate, meant.base};
+    }
+    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < kSlowestFrameRate ||
+        rate.value() > kFastestFrameRate)
+        return std::nullopt;
+    const int divisor = std::gcd(rate.numerator, rate.denominator);
+    return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
+}
+
+Form frame_rate_form(FrameRate& rate) {
+    const auto read = [&rate](ObjectReader& r, const Node& node, const std::string& key) {
+        const bool readable = node.kind == Node::Kind::number || node.kind == Node::Kind::string;
+        if (const auto parsed = readable ? parse_frame_rate(node.text) : std::nullopt)
+            rate = *parsed;
+        else
+            r.fail(node, key,
+                   fmt::format("{} = {} is no frame rate; write {} … {} frames a second, or a fraction such as "
+                               "\"30000/1001\"",
+                               r.path(key), shown(node), kSlowestFrameRate, kFastestFrameRate));
+    };
+    const auto write = [&rate] {
+        return rate.denominator == 1 ? integer_node(rate.numerator)
+                                     : text_node(fmt::format("{}/{}", rate.numerator, rate.denominator));
+    };
+    return {"number or \"30000/1001\"",
+            fmt::format(R"({{"oneOf": [{{"type": "number", "minimum": {}, "maximum": {}}}, {{"type": "string", )"
+                        R"("pattern": "^(?!0+(\\.0*)?(/|$))[0-9]+(\\.[0-9]+|/[0-9]*[1-9][0-9]*)?$"}}]}})",
+                        kSlowestFrameRate, kFastestFrameRate),
+            read, write};
+}
+
+// ---- instants, speed ---------------------------------------------------------------------------
+
+std::optional<Instant> parse_instant(std::string_view text) {
+    for (const auto& [word, kind] : {std::pair{std::string_view("impact:"), Instant::Kind::impact},
+                                     std::pair{std::string_view("collision:"), Instant::Kind::collision}}) {
+        if (!text.starts_with(word)) continue;
+        const std::string_view digits = text.substr(word.size());
+        const auto number = number_in<int>(digits);
+        const bool counts = number && *number >= 1 && digits.front() != '0';
+        return counts ? std::optional(Instant{.kind = kind, .number = *number}) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+void read_instant(ObjectReader& r, const Node& node, const std::string& key, std::optional<Instant>& out) {
+    double t = 0;
+    if (node.kind == Node::Kind::string && (node.text.starts_with("impact") || node.text.starts_with("collision"))) {
+        if (const auto instant = parse_instant(node.text))
+            out = instant;
+        else
+            r.fail(node, key,
+                   fmt::format("{} = {}: impacts and collisions are counted from 1, \"impact:1\"", r.path(key),
+                               in_quotes(node.text)));
+    } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
+        out = {.kind = Instant::Kind::time, .t = t};
+    }
+}
+
+Node written(const Instant& at) {
+    if (at.kind == Instant::Kind::time) return number_node(at.t);
+    return text_node(fmt::format("{}:{}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number));
+}
+
+constexpr const char* kInstantType = "time, \"impact:N\" or \"collision:N\"";
+constexpr const char* kInstantSchema = R"({"$ref": "#/$defs/instant"})";
+
+}  // namespace
+
+Form instant_form(Instant& at) {
+    const auto read = [&at](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> some = at;
+        read_instant(r, node, key, some);
+        at = *some;
+    };
+    return {kInstantType, kInstantSchema, read, [&at] { return written(at); }};
+}
+
+Form instant_form(std::optional<Instant>& at) {
+    return {kInstantType, kInstantSchema,
+            [&at](ObjectReader& r, const Node& node, const std::string& key) { read_instant(r, node, key, at); },
+            [&at] { return at ? std::optional(written(*at)) : std::nullopt; }};
+}
+
+Form speed_form(Speed& speed) {
+    const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind == Node::Kind::string && node.text == "impacts")
+            speed.around = SlowMotion{};
+        else
+            r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange, speed.factor);
+    };
+    const auto write = [&speed]() -> std::optional<Node> {
+        return speed.around ? std::nullopt : std::optional(number_node(speed.factor));
+    };
+    return {
+        "factor, \"impacts\" or object",
+        R"({"anyOf": [{"const": "impacts"}, {"type": "number", "minimum": 1e-06, "maximum": 1000}, {"$ref": "#/$defs/percentage"}]})",
+        read, write};
+}
+
+// ---- channels ----------------------------------------------------------------------------------
+
+Form channels_form(std::vector<sim::Channel>& channels) {
+    const auto read = [&channels](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::array || node.items.empty())
+            return r.fail(node, key,
+                          fmt::format("{} must be an array of names such as [\"theta\", \"contact_force\"], not {}",
+                                      r.path(key), shown(node)));
+        const std::vector<sim::Channel> every = all_channels(r.context().scene.problem);
+        std::vector<std::string> known;
+        for (const sim::Channel& channel : every) known.push_back(name(channel));
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const Node& item = node.items[i];
+            const std::string at = fmt::format("{}.{}", key, i);
+            const auto fail = [&](const std::string& problem) {
+                r.fail(item, at, fmt::format("{} = {}{}", r.path(at), shown(item), problem));
+            };
+            const auto found = std::ranges::find(known, item.text);
+            if (item.kind != Node::Kind::string)
+                r.fail(item, at, fmt::format("{} must be a channel's name in quotes, not {}", r.path(at), shown(item)));
+            else if (found == known.end())
+                fail(sim::channel_named(item.text) ? ": the beam has no such coordinate"
+                                                   : " is not a channel" + suggestion_or_list(item.text, known));
+            else if (const sim::Channel channel = every[static_cast<std::size_t>(found - known.begin())];
+                     std::ranges::find(channels, channel) != channels.end())
+                fail(" stands twice; a table has each column once");
+            else
+                channels.push_back(channel);
+        }
+    };
+    const auto write = [&channels]() -> std::optional<Node> {
+        if (channels.empty()) return std::nullopt;
+        Node names = array_node();
+        for (const sim::Channel& channel : channels) names.items.push_back(text_node(name(channel)));
+        return names;
+    };
+    return {"[channel, …]",
+            R"({"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/$defs/channel"}})", read,
+            write};
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,31 @@
+// The values that scenes spell in a way of their own. Each is read, written and described by its Form.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/format/keys.hpp"
+
+namespace beamcam::scenes {
+
+Form file_form(std::string& file, std::initializer_list<const char*> endings);  // relative, of these endings
+Form numbered_file_form(std::string& file);                                     // .png with '#' for the number
+Form size_form(Size& size);
+Form frame_rate_form(FrameRate& rate);
+Form instant_form(Instant& at);
+Form instant_form(std::optional<Instant>& at);
+Form speed_form(Speed& speed);
+Form channels_form(std::vector<sim::Channel>& channels);
+
+std::optional<Size> parse_size(std::string_view text);             // "1280x720"
+std::optional<FrameRate> parse_frame_rate(std::string_view text);  // "60", "29.97", "30000/1001"
+std::optional<Instant> parse_instant(std::string_view text);       // "impact:2", "collision:1"
+
+inline constexpr sim::Range kFromStart{0, sim::Range::kInfinity, false, false, "is before the start; times begin at 0"};
+inline constexpr sim::Range kSpeedRange{1e-6, 1000, false, false,
+                                        "is outside 1e-06 … 1000; 1 is real time, 0.1 a tenth of it"};
+
+}  // namespace beamcam::scenes

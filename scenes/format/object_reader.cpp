@@ -1,0 +1,392 @@
+#include "scenes/format/object_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/format/capabilities.hpp"
+#include "scenes/format/suggest.hpp"
+
+namespace beamcam::scenes {
+
+using sim::Alternative, sim::Range, sim::Unit;
+
+std::string shown(const Node& node) {
+    switch (node.kind) {
+        case Node::Kind::null:
+            return "null";
+        case Node::Kind::boolean:
+            return node.boolean ? "true" : "false";
+        case Node::Kind::number:
+            return shortened(node.text);
+        case Node::Kind::string:
+            return in_quotes(node.text);
+        case Node::Kind::array:
+            return fmt::format("an array of {}", node.items.size());
+        case Node::Kind::object:
+            return "an object";
+    }
+    return "?";
+}
+
+namespace {
+
+// "outputs.type" of "outputs.0.type": the name of a key wherever it stands in a list.
+std::string without_indices(std::string_view path) {
+    std::string out;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        const std::string_view key = path.substr(begin, end - begin);
+        if (key.find_first_not_of("0123456789") != std::string_view::npos)
+            out += (out.empty() ? "" : ".") + std::string(key);
+        begin = end + 1;
+    }
+    return out;
+}
+
+}  // namespace
+
+ObjectReader::ObjectReader(Findings& findings, const Node* object, std::string path, std::string root,
+                           const SceneContext* context)
+    : findings_(findings), object_(object), path_(std::move(path)), root_(std::move(root)), context_(context) {
+    if (object_ && object_->kind != Node::Kind::object) {
+        fail(*object_, "", fmt::format("{} must be an object {{ … }}, not {}", what(), shown(*object_)));
+        object_ = nullptr;
+    }
+}
+
+std::string ObjectReader::path(std::string_view key) const {
+    if (key.empty()) return path_;
+    return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+const Node& ObjectReader::place(std::string_view key) const {
+    const Member* member = object_->find(key);
+    return member ? member->value : *object_;
+}
+
+ObjectReader ObjectReader::inside(const Node& node, std::string_view key) const {
+    ObjectReader reader(findings_, &node, path(key), root_, context_);
+    reader.ranges_ = ranges_;
+    return reader;
+}
+
+const Node* ObjectReader::take(const Key& key) {
+    known_.emplace_back(key.name);
+    const Member* member = object_ ? object_->find(key.name) : nullptr;
+    if (!member && object_ && key.example)
+        findings_.error(object_->place, path(key.name),
+                        fmt::format("{} needs \"{}\", for example {}", what(), key.name, key.example));
+    return member ? &member->value : nullptr;
+}
+
+void ObjectReader::fail(const Node& node, std::string_view key, std::string text) {
+    findings_.error(node.place, path(key), std::move(text));
+}
+
+// ---- the kinds of values -----------------------------------------------------------------------
+
+bool ObjectReader::number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out) {
+    if (node.kind == Node::Kind::number) {
+        out = node.number;
+        return true;
+    }
+    const std::string unit = si_unit(dimension);
+    if (node.kind != Node::Kind::string) {
+        fail(node, key,
+             fmt::format("{} must be a number{}, not {}", path(key),
+                         unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit), shown(node)));
+        return false;
+    }
+    const QuantityText read = parse_quantity(node.text);
+    if (!read.quantity) {
+        fail(node, key,
+             fmt::format("{} is no value for {}: {}{}", in_quotes(node.text), path(key), read.problem,
+                         unit == "1" ? "; write a number" : fmt::format("; a value looks like \"1.5 {}\"", unit)));
+        return false;
+    }
+    if (!same(read.quantity->dimension, dimension)) {
+        fail(node, key, wrong_dimension(node, key, unit, read.quantity->dimension));
+        return false;
+    }
+    out = read.quantity->value;
+    return true;
+}
+
+bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Unit& unit, const Range& range,
+                                double& out) {
+    double value = 0;
+    if (!number_value(node, key, unit.resolved(), value)) return false;
+    if (ranges_ && !range.contains(value)) {
+        fail(node, key,
+             fmt::format(
+                 "{} = {} {}", path(key), shown(node),
+                 range.complaint ? range.complaint : fmt::format("is outside {:g} … {:g}", range.least, range.most)));
+        return false;
+    }
+    out = value;
+    return true;
+}
+
+bool ObjectReader::whole_value(const Node& node, std::string_view key, int least, int most, int& out) {
+    if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
+        fail(node, key, fmt::format("{} must be a whole number, not {}", path(key), shown(node)));
+        return false;
+    }
+    if (node.number < least || node.number > most) {
+        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), shown(node), least, most));
+        return false;
+    }
+    out = static_cast<int>(node.number);
+    return true;
+}
+
+bool ObjectReader::word_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
+                              std::size_t& chosen) {
+    if (node.kind != Node::Kind::string) {
+        fail(node, key, fmt::format("{} must be one of {}, not {}", path(key), fmt::join(words, ", "), shown(node)));
+        return false;
+    }
+    const auto found = std::ranges::find(words, node.text);
+    if (found == words.end()) {
+        const auto planned = not_available(without_indices(path(key)), node.text);
+        fail(node, key,
+             planned ? fmt::format("{}: {}", path(key), *planned)
+                     : fmt::format("{} = {} is not known{}", path(key), in_quotes(node.text),
+                                   suggestion_or_list(node.text, words)));
+        return false;
+    }
+    chosen = static_cast<std::size_t>(found - words.begin());
+    return true;
+}
+
+bool ObjectReader::numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
+                                 std::vector<double>& out) {
+    if (node.kind != Node::Kind::array) {
+        fail(node, key, fmt::format("{} must be an array [ … ], not {}", path(key), shown(node)));
+        return false;
+    }
+    std::vector<double> values(node.items.size());
+    bool fine = true;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        fine = number_value(node.items[i], fmt::format("{}.{}", key, i), dimension, values[i]) && fine;
+    if (fine) out = std::move(values);
+    return fine;
+}
+
+std::string ObjectReader::wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
+                                          const sim::Dimension& got) const {
+    if (same(got, dimension::kNone)) {
+        return unit == "1"
+                   ? fmt::format("{} = {} must be a plain number", path(key), in_quotes(node.text))
+                   : fmt::format("{} = {} has no unit; write it without quotes if it is in {}, or with its unit",
+                                 path(key), in_quotes(node.text), unit);
+    }
+    if (unit == "1")
+        return fmt::format("{} = {} has a unit, but it is a plain number", path(key), in_quotes(node.text));
+    const bool cycles = unit == "rad/s" && same(got, dimension::kFrequency);
+    return fmt::format("{} = {} has the wrong dimension ({}); it is measured in {}{}", path(key), in_quotes(node.text),
+                       si_unit(got), unit, cycles ? ": write rpm, rad/s or deg/s" : "");
+}
+
+// ---- visited keys ------------------------------------------------------------------------------
+
+void ObjectReader::read_number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
+                               const char* word) {
+    const Node* node = take(key);
+    if (!node) return;
+    double read = 0;
+    if (word && node->kind == Node::Kind::string && node->text == word)
+        value.reset();
+    else if (unit.plain && node->kind != Node::Kind::number)
+        fail(*node, key.name,
+             fmt::format("{} must be {}a number, not {}", path(key.name), word ? fmt::format("\"{}\" or ", word) : "",
+                         shown(*node)));
+    else if (ranged_value(*node, key.name, unit, range, read))
+        value = read;
+}
+
+void ObjectReader::number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) {
+    std::optional<double> some = value;
+    read_number(key, some, unit, range, nullptr);
+    value = *some;
+}
+
+void ObjectReader::number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
+                          const char*, const char* word) {
+    if (unit.exponent)
+        later_.emplace_back([this, key, &value, unit, range, word] { read_number(key, value, unit, range, word); });
+    else
+        read_number(key, value, unit, range, word);
+}
+
+void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
+                           const sim::Length& length, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    double one = 0;
+    if (length.or_one_number && node->kind != Node::Kind::array) {
+        if (ranged_value(*node, key.name, unit, range, one)) values = {one};
+        return;
+    }
+    std::vector<double> read;
+    if (!numbers_value(*node, key.name, unit.resolved(), read)) return;
+    const bool fixed = length.least == length.most;
+    if (fixed && read.size() != length.least)
+        return fail(*node, key.name,
+                    fmt::format("{} must have {} numbers, not {}", path(key.name), length.least, read.size()));
+    if (ranges_ && read.size() < length.least)
+        return fail(*node, key.name, fmt::format("{} is empty; give at least one number", path(key.name)));
+    for (std::size_t i = 0; i < read.size(); ++i)
+        ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range, read[i]);
+    values = std::move(read);
+}
+
+void ObjectReader::whole(const Key& key, std::optional<int>& value, int least, int most, const char*) {
+    int read = 0;
+    if (const Node* node = take(key); node && whole_value(*node, key.name, least, most, read)) value = read;
+}
+
+void ObjectReader::truth(const Key& key, bool& value, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    if (node->kind == Node::Kind::boolean)
+        value = node->boolean;
+    else
+        fail(*node, key.name, fmt::format("{} must be true or false, not {}", path(key.name), shown(*node)));
+}
+
+void ObjectReader::text(const Key& key, std::string& value, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    if (node->kind == Node::Kind::string)
+        value = node->text;
+    else
+        fail(*node, key.name, fmt::format("{} must be a text in quotes, not {}", path(key.name), shown(*node)));
+}
+
+void ObjectReader::word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) {
+    if (const Node* node = take(key)) word_value(*node, key.name, words, chosen);
+}
+
+void ObjectReader::object(const Key& key, const Fields& fields, const char*, bool* present) {
+    const Node* node = take(key);
+    if (!node) return;
+    if (present && node->kind == Node::Kind::null) {
+        *present = false;
+        return;
+    }
+    if (present && node->kind != Node::Kind::object)
+        return fail(*node, key.name,
+                    fmt::format("{} must be an object {{ … }}, or null for no {}, not {}", path(key.name), key.name,
+                                shown(*node)));
+    if (present) *present = true;
+    ObjectReader reader = inside(*node, key.name);
+    fields(reader);
+    reader.finish();
+}
+
+std::vector<std::string> ObjectReader::keys_of(const Alternative& alternative) const {
+    ObjectReader nothing(findings_, nullptr, path_, root_, context_);
+    alternative.fields(nothing);
+    return nothing.known_;
+}
+
+void ObjectReader::alternatives(const std::vector<Alternative>& all) {
+    if (!object_) return;
+    std::vector<const Alternative*> left;
+    for (const Alternative& each : all) left.push_back(&each);
+    for (std::size_t depth = 0; left.front()->tags.size() > depth; ++depth) {
+        std::vector<std::string> words;
+        for (const Alternative* each : left)
+            if (std::ranges::find(words, each->tags[depth].second) == words.end())
+                words.emplace_back(each->tags[depth].second);
+        const auto [tag, first] = left.front()->tags[depth];
+        const std::string example = fmt::format("\"{}\"", first);
+        const Node* node = take(sim::required(tag, example.c_str()));
+        std::size_t chosen = 0;
+        if (!node || !word_value(*node, tag, words, chosen)) {
+            if (depth == 0 && all.size() > 1) unclear_ = true;
+            for (const Alternative* each : left)
+                for (std::string& key : keys_of(*each)) known_.push_back(std::move(key));
+            return;
+        }
+        std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != words[chosen]; });
+    }
+    // Shapes with the same tags are told apart by their keys; the first needs none.
+    const auto named = std::find_if(left.rbegin(), left.rend(), [&](const Alternative* each) {
+        return std::ranges::any_of(keys_of(*each), [&](const std::string& key) { return has(key); });
+    });
+    (named == left.rend() ? left.front() : *named)->fields(*this);
+}
+
+void ObjectReader::form(const Key& key, const Form& form, const char*) {
+    if (const Node* node = take(key)) form.read(*this, *node, key.name);
+}
+
+void ObjectReader::either(const Key& key, const Form& form, const Fields& fields, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    if (node->kind != Node::Kind::object) return form.read(*this, *node, key.name);
+    ObjectReader reader = inside(*node, key.name);
+    fields(reader);
+    reader.finish();
+}
+
+void ObjectReader::list(const Key& key, const List& list, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    const std::size_t size = node->items.size();
+    if (node->kind != Node::Kind::array || size < list.least || size > list.most)
+        return fail(
+            *node, key.name,
+            fmt::format("{} must be an array {}, not {}{}", path(key.name),
+                        list.least > 0 ? fmt::format("of {} to {} {}", list.least, list.most, list.of) : "[ … ]",
+                        shown(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+        const Node& item = node->items[i];
+        const std::string at = fmt::format("{}.{}", key.name, i);
+        if (list.form && item.kind != Node::Kind::object) {
+            list.form->read(*this, item, at);
+            continue;
+        }
+        ObjectReader reader = inside(item, at);
+        list.item(reader, i);
+        reader.finish();
+    }
+}
+
+void ObjectReader::exclude(const char* one, const char* other) {
+    for (const char* key : {one, other})
+        if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
+    if (has(one) && has(other))
+        fail(place(other), other, fmt::format("{} has both \"{}\" and \"{}\"; keep one of them", what(), one, other));
+}
+
+void ObjectReader::problem(sim::Problem& problem) {
+    ranges_ = false;
+    visit(*this, problem);
+    ranges_ = true;
+}
+
+void ObjectReader::check(const std::function<void(ObjectReader&)>& judge) {
+    if (object_) judge(*this);
+}
+
+void ObjectReader::finish(const Elsewhere& elsewhere) {
+    for (const auto& read : later_) read();
+    if (!object_ || unclear_) return;
+    for (const Member& member : object_->members) {
+        if (member.key.starts_with("x-") || std::ranges::find(known_, member.key) != known_.end()) continue;
+        const std::string where = elsewhere ? elsewhere(member.key) : "";
+        findings_.error(member.key_place, path(member.key),
+                        !where.empty()
+                            ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), what(), where)
+                            : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),
+                                          findings_.many() ? "" : suggestion_or_list(member.key, known_)));
+    }
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,105 @@
+#include "scenes/format/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace beamcam::scenes {
+namespace {
+
+std::vector<std::string> split(std::string_view path) {
+    std::vector<std::string> keys;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        keys.emplace_back(path.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return keys;
+}
+
+// JSON when it is JSON, or looks as if it were meant to be; else the text itself.
+bool parse_value(std::string_view text, Node& value, std::string& problem) {
+    Parsed parsed = parse(text);
+    if (parsed.is_json && parsed.messages.empty()) {
+        value = std::move(parsed.root);
+        return true;
+    }
+    const std::size_t first = text.find_first_not_of(" \t");
+    const bool looks_like_json =
+        parsed.is_json ||
+        (first != std::string_view::npos && std::string_view("{[\"").find(text[first]) != std::string_view::npos);
+    double ignored = 0;  // "1e999" is a number that JSON refuses, not a word
+    const bool is_number = !text.empty() && std::from_chars(text.data(), text.data() + text.size(), ignored).ptr ==
+                                                text.data() + text.size();
+    if (looks_like_json || is_number) {
+        problem = parsed.messages.front().text;
+        return false;
+    }
+    value = text_node(std::string(text));
+    return true;
+}
+
+}  // namespace
+
+void move_to(Node& node, Place place) {
+    node.place = place;
+    for (Node& item : node.items) move_to(item, place);
+    for (Member& member : node.members) {
+        member.key_place = place;
+        move_to(member.value, place);
+    }
+}
+
+Source override_source(const std::string& text) { return {fmt::format("--set {}", text), text, false}; }
+
+void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages) {
+    const Place place{source, 0};
+    auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
+
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        return refuse("no \"=\" after a key; write --set key.path=value, for example --set beam.modes=4");
+    Node value;
+    std::string problem;
+    if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return refuse(problem);
+    move_to(value, place);
+    set_value(root, std::string_view(text).substr(0, equals), std::move(value), messages);
+}
+
+void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
+    const Place place = value.place;
+    auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
+    const std::vector<std::string> keys = split(path);
+    if (std::find(keys.begin(), keys.end(), "") != keys.end())
+        return refuse("an empty key in the path; write key.path=value");
+
+    Node* node = &root;
+    std::string walked;
+    for (const std::string& key : keys) {
+        const std::string here = walked.empty() ? "the scene" : walked;
+        walked += (walked.empty() ? "" : ".") + key;
+        if (node->kind == Node::Kind::object) {
+            Member* member = node->find(key);
+            if (!member) {
+                Node empty = object_node();
+                empty.place = place;
+                member = &node->members.add({key, place, std::move(empty)});
+            }
+            node = &member->value;
+        } else if (node->kind == Node::Kind::array) {
+            std::size_t index = 0;
+            const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+            if (error != std::errc{} || end != key.data() + key.size() || index >= node->items.size())
+                return refuse(fmt::format("{} has {} entries, counted from 0; there is none named {}", here,
+                                          node->items.size(), in_quotes(key)));
+            node = &node->items[index];
+        } else {
+            return refuse(fmt::format("{} is {}, which has no key {}; set {} as a whole", here, name(node->kind),
+                                      in_quotes(key), here));
+        }
+    }
+    *node = std::move(value);
+}
+
+}  // namespace beamcam::scenes

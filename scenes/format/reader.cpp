@@ -1,0 +1,123 @@
+#include "scenes/format/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "scenes/format/object_reader.hpp"
+#include "scenes/format/overrides.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const std::string& scene_name,
+                std::vector<Message>& messages) {
+    Scene scene;
+    scene.name = scene_name;
+    Findings findings;
+    const SceneContext context{scene, root, source, files};
+    ObjectReader reader(findings, &root, "", "the scene", &context);
+    visit(reader, scene);
+    reader.finish([](const std::string& key) {
+        static constexpr std::string_view kOfOutputs[] = {
+            "view",    "size",       "fps",    "from",  "to",  "at",     "speed",     "layout",     "theme", "events",
+            "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
+        return std::ranges::find(kOfOutputs, key) == std::end(kOfOutputs)
+                   ? std::string()
+                   : fmt::format("into an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
+    });
+    for (Message& message : findings.take()) messages.push_back(std::move(message));
+    return scene;
+}
+
+std::string stem(const std::string& path) {
+    std::string name = std::filesystem::path(path).stem().string();
+    return name.empty() || path == "-" ? "scene" : name;
+}
+
+struct CloseFile {
+    void operator()(std::FILE* file) const {
+        if (file != stdin) std::fclose(file);
+    }
+};
+
+}  // namespace
+
+void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene) {
+    Node alone = object_node();
+    add(alone, "outputs", outputs);
+    ObjectReader reader(findings, &alone, "", "the scene", &context);
+    visit_outputs(reader, scene);
+}
+
+Reading read_scene(Source file, const std::vector<std::string>& overrides) {
+    SceneFiles files;
+    return read_scene(std::move(file), overrides, files);
+}
+
+Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files) {
+    Parsed parsed = parse(file.text);
+    Reading reading;
+    if (parsed.is_json)
+        reading = read_scene(std::move(file), std::move(parsed.root), overrides, files);
+    else
+        reading.sources.push_back(std::move(file));
+    if (std::ranges::any_of(parsed.messages, &Message::fatal)) reading.scene.reset();
+    std::ranges::move(parsed.messages, std::back_inserter(reading.messages));
+    std::ranges::stable_sort(reading.messages, {}, &Message::place);
+    return reading;
+}
+
+Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files) {
+    const SceneFiles::BeingRead this_file(files, file.name);
+    Reading reading;
+    const std::string name = stem(file.name);
+    reading.sources.push_back(std::move(file));
+    reading.root = std::move(root);
+    for (const std::string& text : overrides) {
+        reading.sources.push_back(override_source(text));
+        apply_override(reading.root, text, reading.sources.size() - 1, reading.messages);
+    }
+    Scene scene = read_tree(reading.root, reading.sources.front(), files, name, reading.messages);
+    std::ranges::stable_sort(reading.messages, {}, &Message::place);
+    if (std::ranges::none_of(reading.messages, &Message::fatal)) reading.scene = std::move(scene);
+    return reading;
+}
+
+Source load_named_source(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (path != "-" && std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
+        !std::filesystem::is_regular_file(status))
+        throw UnreadableFile(fmt::format("{} is not a regular file", path));
+    return load_source(path == "-" ? "./-" : path);
+}
+
+Source load_source(const std::string& path) {
+    std::error_code ignored;
+    if (path != "-" && std::filesystem::is_directory(path, ignored))
+        throw UnreadableFile(fmt::format("{} is a directory; name a scene file inside it", path));
+    errno = 0;
+    std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
+    if (!file)
+        throw UnreadableFile(
+            errno == ENOENT
+                ? fmt::format("{}: there is no such file; `beamcam init` writes a scene to start from", path)
+                : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
+    Source source{path == "-" ? "<stdin>" : path, {}, true};
+    std::array<char, 65536> block;
+    while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
+        source.text.append(block.data(), n);
+        if (source.text.size() > kLargestScene) break;  // the parser refuses it in words
+    }
+    if (std::ferror(file.get())) throw UnreadableFile(fmt::format("{} cannot be read: {}", path, std::strerror(errno)));
+    return source;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,147 @@
+// What every key of a scene means, for people: FORMAT.md and `beamcam keys`.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/format/description.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// What tells a shape from the others: its tags, and where several have the same tags the keys that it needs.
+std::string when(const Shape& shape, const std::vector<Shape>& all) {
+    std::vector<std::string> parts;
+    for (const auto& [tag, word] : shape.tags) parts.push_back(fmt::format("{}={}", tag, word));
+    const auto alike = std::ranges::count_if(all, [&](const Shape& other) { return other.tags == shape.tags; });
+    for (const DescribedKey& key : shape.keys)
+        if (alike > 1 && key.required()) parts.push_back(key.name);
+    return fmt::format("{}", fmt::join(parts, " "));
+}
+
+void add_rows(const Shape& shape, const std::string& path, const std::string& needed, std::vector<KeyRow>& rows) {
+    for (const DescribedKey& key : shape.keys) {
+        const std::string own = path.empty() ? key.name : path + "." + key.name;
+        rows.push_back({own, needed, &key});
+        for (const Shape& inside : key.shapes) {
+            const std::string more = when(inside, key.shapes);
+            add_rows(inside, own + (key.list ? "[]" : ""), needed + (needed.empty() || more.empty() ? "" : ", ") + more,
+                     rows);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<KeyRow> key_rows() {
+    std::vector<KeyRow> all, merged;
+    add_rows(scene_format(), "", "", all);
+    for (KeyRow& row : all) {  // alike in several shapes: one row
+        const auto alike = std::ranges::find_if(merged, [&](const KeyRow& other) {
+            return other.path == row.path && other.key->meaning == row.key->meaning && other.key->type == row.key->type;
+        });
+        if (alike == merged.end())
+            merged.push_back(std::move(row));
+        else
+            alike->when += " | " + row.when;
+    }
+    return merged;
+}
+
+std::string range_text(const DescribedKey& key) {
+    const sim::Range& r = key.range;
+    const bool below = std::isfinite(r.least), above = std::isfinite(r.most);
+    if (below && above && !r.without_least && !r.without_most) return fmt::format("{:g} … {:g}", r.least, r.most);
+    std::string text;
+    if (below) text = fmt::format("{} {:g}", r.without_least ? ">" : "≥", r.least);
+    if (above) text += fmt::format("{}{} {:g}", below ? ", " : "", r.without_most ? "<" : "≤", r.most);
+    return text;
+}
+
+std::string default_text(const DescribedKey& key) { return key.value && !key.required() ? one_line(*key.value) : ""; }
+
+// ---- FORMAT.md ---------------------------------------------------------------------------------
+
+namespace {
+
+std::string escaped(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
+}
+
+std::string type_of(const DescribedKey& key) {
+    std::string type = key.words.empty() ? key.type : fmt::format("`{}`", fmt::join(key.words, "` `"));
+    if (const std::string range = range_text(key); !range.empty()) type += ", " + range;
+    return type;
+}
+
+// A value that the key may have, for the example.
+std::optional<std::string> example_of(const DescribedKey& key) {
+    if (key.required()) return key.example;
+    if (!key.shapes.empty()) return std::nullopt;
+    const std::string value = default_text(key);
+    return value.empty() || value == "\"\"" ? std::nullopt : std::optional(value);
+}
+
+std::string example_of(const Shape& shape) {
+    std::vector<std::string> members;
+    for (const auto& [tag, word] : shape.tags) members.push_back(fmt::format("\"{}\": \"{}\"", tag, word));
+    for (const DescribedKey& key : shape.keys)
+        if (const auto value = example_of(key); value && members.size() < 6)
+            members.push_back(fmt::format("\"{}\": {}", key.name, *value));
+    return fmt::format("{{{}}}", fmt::join(members, ", "));
+}
+
+class Reference {
+  public:
+    std::string write() {
+        out_ =
+            "# The scene format\n\n"
+            "Made by `beamcam keys --markdown`; `beamcam keys PATTERN` prints some of it. " +
+            scene_format().meaning + "\n\nA number with a unit may be a text: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
+        shape(scene_format(), "", "The scene");
+        return std::move(out_);
+    }
+
+  private:
+    void shape(const Shape& shape, const std::string& path, const std::string& title) {
+        if (shape.keys.empty() && shape.tags.empty()) return;
+        const bool top = path.empty();
+        out_ += fmt::format("\n{} {}\n", top ? "##" : "###", title);
+        if (!top) out_ += fmt::format("\n{}\n\n    {}\n", shape.meaning, example_of(shape));
+        if (!shape.keys.empty()) {
+            out_ += "\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
+            for (const DescribedKey& key : shape.keys) row(key);
+        }
+        for (const DescribedKey& key : shape.keys)
+            for (const Shape& inside : key.shapes) nested(key, inside, top ? key.name : path + "." + key.name);
+    }
+
+    void row(const DescribedKey& key) {
+        const std::string value = key.type == "text" ? "" : default_text(key);
+        out_ += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, escaped(type_of(key)), key.unit,
+                            key.required()   ? "**required**"
+                            : !value.empty() ? fmt::format("`{}`", escaped(value))
+                                             : "",
+                            escaped(key.meaning));
+    }
+
+    // Objects that several outputs have alike are explained once.
+    void nested(const DescribedKey& key, const Shape& inside, const std::string& path) {
+        const std::string tags = when(inside, key.shapes), place = path + (key.list ? "[]" : "");
+        const std::string title = fmt::format("`{}`{}", place, tags.empty() ? "" : fmt::format(" with {}", tags));
+        if (std::ranges::find(done_, title) != done_.end()) return;
+        done_.push_back(title);
+        shape(inside, place, title);
+    }
+
+    std::string out_;
+    std::vector<std::string> done_;
+};
+
+}  // namespace
+
+std::string reference_text() { return Reference().write(); }
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,206 @@
+// The JSON Schema of scenes, from the description of their keys.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "scenes/format/description.hpp"
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+Node parsed(const std::string& json) { return parse(json).root; }
+
+// What forms refer to.
+constexpr const char* kDefinitions = R"({
+    "withUnit": {
+        "description": "A number and a unit: \"12 mm\", \"300 rpm\", \"2.7 g/cm^3\".",
+        "type": "string",
+        "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *([a-zA-Z°%µμ(]| 1/).*$"
+    },
+    "percentage": {
+        "description": "A plain number as text, or a percentage: \"5 %\".",
+        "type": "string",
+        "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *%? *$"
+    },
+    "instant": {
+        "description": "A time, or the first touch of an impact or collision, counted from 1: \"impact:2\".",
+        "anyOf": [
+            {"type": "number", "minimum": 0},
+            {"$ref": "#/$defs/withUnit"},
+            {"type": "string", "pattern": "^(impact|collision):[1-9][0-9]{0,8}$"}
+        ]
+    },
+    "panelName": {
+        "anyOf": [
+            {"enum": ["mechanism", "phase", "energy", "close-up", "traces"]},
+            {"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]}
+        ]
+    }
+})";
+
+Node channel_schema() {
+    Node names = array_node();
+    for (const sim::Channel& channel : sim::all_channels({}))
+        if (channel.kind != sim::ChannelKind::q) names.items.push_back(text_node(name(channel)));
+    Node known = object_node();
+    add(known, "enum", std::move(names));
+    Node out = object_node();
+    add(out, "anyOf", array_node({std::move(known), parsed(R"({"description": "A coordinate of the beam, q1 … qN.",
+        "type": "string", "pattern": "^q[1-9][0-9]*$"})")}));
+    return out;
+}
+
+class SchemaWriter {
+  public:
+    Node write(const Shape& scene) {
+        definitions_ = parsed(kDefinitions);
+        add(definitions_, "channel", channel_schema());
+        object(scene);  // counts what occurs more than once
+        counted_ = true;
+        Node out = object_node();
+        add(out, "$schema", text_node("https://json-schema.org/draft/2020-12/schema"));
+        add(out, "title", text_node("beamcam scene"));
+        append(out, object(scene));
+        add(out, "$defs", std::move(definitions_));
+        return out;
+    }
+
+  private:
+    static void append(Node& out, Node more) {
+        for (Member& member : more.members) out.members.add(std::move(member));
+    }
+    static Node reference(const std::string& name) {
+        Node out = object_node();
+        add(out, "$ref", text_node("#/$defs/" + name));
+        return out;
+    }
+    static Node one_of(const char* choice, std::vector<Node> all) {
+        if (all.size() == 1) return std::move(all.front());
+        Node out = object_node();
+        add(out, choice, array_node(std::move(all)));
+        return out;
+    }
+
+    Node object(const Shape& shape) {
+        ++depth_;
+        Node properties = object_node(), needed = array_node(), out = object_node();
+        for (const auto& [tag, word] : shape.tags) {
+            Node constant = object_node();
+            add(constant, "const", text_node(word));
+            add(properties, tag, std::move(constant));
+            needed.items.push_back(text_node(tag));
+        }
+        for (const DescribedKey& key : shape.keys) {
+            add(properties, key.name, shared(key.name, property(key)));
+            if (key.required()) needed.items.push_back(text_node(key.name));
+        }
+        add(out, "description", text_node(shape.meaning));
+        add(out, "type", text_node("object"));
+        add(out, "properties", std::move(properties));
+        add(out, "patternProperties", parsed(R"({"^x-": true})"));
+        add(out, "additionalProperties", truth_node(false));
+        if (!needed.items.empty()) add(out, "required", std::move(needed));
+        const Node& known = out.find("properties")->value;
+        for (const auto& [one, other] : shape.exclusive)
+            if (known.find(one) && known.find(other))
+                add(out, "not", parsed(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
+        for (const Node& restriction : shape.restrictions) append(out, restriction);
+        --depth_;
+        return out;
+    }
+
+    // The objects of these shapes; those that contain themselves go into the definitions.
+    Node objects(const std::vector<Shape>& shapes) {
+        std::vector<Node> all;
+        std::string recursive;
+        for (const Shape& shape : shapes) {
+            all.push_back(object(shape));
+            for (const DescribedKey& key : shape.keys)
+                if (!key.nested.empty()) recursive = key.nested;
+        }
+        Node out = one_of("oneOf", std::move(all));
+        if (recursive.empty()) return out;
+        if (!definitions_.find(recursive)) add(definitions_, recursive, std::move(out));
+        return reference(recursive);
+    }
+
+    Node value(const DescribedKey& key) {
+        if (key.shapes.empty() && !key.list) return key.schema;
+        Node inside = key.nested.empty() ? objects(key.shapes) : reference(key.nested);
+        if (key.list) {
+            Node out = key.schema;
+            std::vector<Node> items;
+            if (key.item_schema) items.push_back(*key.item_schema);
+            items.push_back(std::move(inside));
+            add(out, "items", one_of("anyOf", std::move(items)));
+            return out;
+        }
+        if (key.nullable) return one_of("oneOf", {parsed(R"({"type": "null"})"), std::move(inside)});
+        if (key.schema.kind == Node::Kind::object) return one_of("anyOf", {key.schema, std::move(inside)});
+        return inside;
+    }
+
+    Node property(const DescribedKey& key) {
+        Node out = object_node(), schema = value(key);
+        std::string meaning = key.meaning;
+        if (!key.unit.empty()) meaning += fmt::format(" In {}, or a text with a unit.", key.unit);
+        remove(schema, "description");
+        add(out, "description", text_node(meaning));
+        append(out, std::move(schema));
+        if (key.value && !key.required()) add(out, "default", *key.value);
+        return out;
+    }
+
+    // What several outputs have alike is written once, under the name of its key.
+    Node shared(const std::string& name, Node property) {
+        constexpr std::size_t kLarge = 500;  // [bytes]
+        const std::string text = to_text(property);
+        if (depth_ != 2 || text.size() < kLarge) return property;
+        if (!counted_) ++seen_[text];
+        if (!counted_ || seen_[text] == 1) return property;
+        if (!definitions_.find(name)) add(definitions_, name, std::move(property));
+        return reference(name);
+    }
+
+    Node definitions_;
+    int depth_ = 0;                    // of nested objects
+    std::map<std::string, int> seen_;  // how often a property occurs, as text
+    bool counted_ = false;
+};
+
+}  // namespace
+
+std::string one_line(const Node& node) {
+    std::string out;
+    for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + one_line(item);
+    if (node.kind == Node::Kind::array) return "[" + out + "]";
+    for (const Member& member : node.members)
+        out += (out.empty() ? "" : ", ") + one_line(text_node(member.key)) + ": " + one_line(member.value);
+    if (node.kind == Node::Kind::object) return "{" + out + "}";
+    out = to_text(node);
+    out.pop_back();  // the end of the line
+    return out;
+}
+
+namespace {
+
+// What fits into a line stands in one.
+std::string folded(const Node& node, std::size_t indent) {
+    constexpr std::size_t kWidth = 120;
+    std::string line = one_line(node), out;
+    if (indent + line.size() <= kWidth || (node.items.empty() && node.members.empty())) return line;
+    const std::string margin(indent + 2, ' ');
+    for (const Node& item : node.items) out += (out.empty() ? "" : ",\n") + margin + folded(item, indent + 2);
+    for (const Member& member : node.members)
+        out += (out.empty() ? "" : ",\n") + margin + one_line(text_node(member.key)) + ": " +
+               folded(member.value, indent + 2);
+    const bool array = node.kind == Node::Kind::array;
+    return (array ? "[\n" : "{\n") + out + "\n" + std::string(indent, ' ') + (array ? "]" : "}");
+}
+
+}  // namespace
+
+std::string schema_text() { return folded(SchemaWriter().write(scene_format()), 0) + "\n"; }
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,29 @@
+// Quantities that scenes write as text: "12 mm", "300 rpm", "2.7 g/cm^3", "1e8 N/m^1.5".
+//
+// A unit is a product of named units with exponents. Its dimension is checked against the one that the key has.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sim/problem/dimension.hpp"
+
+namespace beamcam::scenes {
+
+using sim::Dimension, sim::same, sim::si_unit;
+namespace dimension = sim::dimension;
+
+struct Quantity {
+    double value = 0;  // in SI
+    Dimension dimension;
+};
+
+// Either a quantity or the reason why the text is none, in words with a remedy.
+struct QuantityText {
+    std::optional<Quantity> quantity;
+    std::string problem;
+};
+QuantityText parse_quantity(std::string_view text);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,102 @@
+// A scene, resolved, as the tree that reads back to it.
+#include "scenes/format/keys.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using sim::Length, sim::Range, sim::Unit;
+
+class Writer final : public SceneVisitor {
+  public:
+    Node take() { return std::move(object_); }
+
+    void number(const Key& key, double& value, const Unit&, const Range&, const char*) override {
+        put(key, number_node(value));
+    }
+    void number(const Key& key, std::optional<double>& value, const Unit&, const Range&, const char*,
+                const char* word) override {
+        if (value)
+            put(key, number_node(*value));
+        else if (word)
+            put(key, text_node(word));
+    }
+    void numbers(const Key& key, std::vector<double>& values, const Unit&, const Range&, const Length& length,
+                 const char*) override {
+        if (values.empty()) return;
+        if (length.or_one_number && values.size() == 1) return put(key, number_node(values.front()));
+        Node all = array_node();
+        for (const double value : values) all.items.push_back(number_node(value));
+        put(key, std::move(all));
+    }
+    void whole(const Key& key, std::optional<int>& value, int, int, const char*) override {
+        if (value) put(key, integer_node(*value));
+    }
+    void truth(const Key& key, bool& value, const char*) override { put(key, truth_node(value)); }
+    void text(const Key& key, std::string& value, const char*) override { put(key, text_node(value)); }
+    void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) override {
+        put(key, text_node(words[chosen]));
+    }
+    void object(const Key& key, const Fields& fields, const char*, bool* present) override {
+        if (present && !*present) return put(key, Node{});
+        Writer inside;
+        if (key.written) fields(inside);
+        put(key, inside.take());
+    }
+    void alternatives(const std::vector<sim::Alternative>& all) override {
+        for (const sim::Alternative& each : all) {
+            if (!each.chosen) continue;
+            for (const auto& [tag, word] : each.tags) put(tag, text_node(word));
+            return each.fields(*this);
+        }
+    }
+    void form(const Key& key, const Form& form, const char*) override {
+        if (!key.written) return;
+        if (auto node = form.write()) put(key, std::move(*node));
+    }
+    void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override {
+        if (auto node = form.write())
+            put(key, std::move(*node));
+        else
+            object(key, fields, meaning, nullptr);
+    }
+    void list(const Key& key, const List& list, const char*) override {
+        if (list.size == 0) return;
+        Node all = array_node();
+        for (std::size_t i = 0; i < list.size; ++i) {
+            Writer item;
+            list.item(item, i);
+            all.items.push_back(item.take());
+        }
+        put(key, std::move(all));
+    }
+    void exclude(const char*, const char*) override {}
+
+  private:
+    void put(const Key& key, Node value) {
+        if (key.written) add(object_, key.name, std::move(value));
+    }
+
+    Node object_ = object_node();
+};
+
+}  // namespace
+
+namespace {
+
+// Visitors may write; this one does not, but takes a copy that it may.
+template <class Struct>
+Node tree_of(Struct visited) {
+    Writer writer;
+    visit(writer, visited);
+    return writer.take();
+}
+
+}  // namespace
+
+Node written(const Scene& scene) { return tree_of(scene); }
+Node written(const sim::Problem& problem) { return tree_of(problem); }
+Node written(const Output& output) { return tree_of(output); }
+
+std::string to_json(const Scene& scene) { return to_text(written(scene)); }
+
+}  // namespace beamcam::scenes

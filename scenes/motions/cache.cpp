@@ -1,0 +1,291 @@
+#include "scenes/motions/cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/checksum.hpp"
+
+namespace beamcam::scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kEnding = ".trajectory";
+constexpr std::uintmax_t kMiB = 1 << 20;
+constexpr std::uintmax_t kUsualLimit = 1024 * kMiB;
+constexpr std::chrono::hours kAbandoned{1};  // a half-written file that nobody has touched for so long
+
+// What stands behind the numbers of an entry.
+struct Trailer {
+    char magic[16];
+    char key[64];
+    char about[128];  // text, padded with zeros
+    double end;       // [s]
+    std::int64_t steps;
+    std::uint64_t count;    // of numbers
+    std::uint32_t numbers;  // their checksum
+    std::uint32_t trailer;  // that of all before it
+};
+constexpr char kMagic[16] = {'b', 'e', 'a', 'm', 'c', 'a', 'm', ' ', 'm', 'o', 't', 'i', 'o', 'n', ' ', '1'};
+
+std::uint32_t checksum(const Trailer& t) { return output::crc32(0, &t, offsetof(Trailer, trailer)); }
+
+// The trailer, if the file ends with one of this key and has as many numbers as it says.
+std::optional<Trailer> read_trailer(std::ifstream& in, const std::string& key) {
+    in.seekg(0, std::ios::end);
+    const auto size = static_cast<std::uint64_t>(in.tellg());
+    Trailer t;
+    if (!in || size < sizeof t) return std::nullopt;
+    in.seekg(static_cast<std::streamoff>(size - sizeof t));
+    if (!in.read(reinterpret_cast<char*>(&t), sizeof t)) return std::nullopt;
+    const bool fine = std::memcmp(t.magic, kMagic, sizeof kMagic) == 0 && key.size() == sizeof t.key &&
+                      std::memcmp(t.key, key.data(), sizeof t.key) == 0 && t.trailer == checksum(t) &&
+                      t.count == (size - sizeof t) / sizeof(double) && (size - sizeof t) % sizeof(double) == 0 &&
+                      std::isfinite(t.end);
+    return fine ? std::optional(t) : std::nullopt;
+}
+
+const char* variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value && *value ? value : nullptr;
+}
+
+bool is_entry(const fs::directory_entry& file) {
+    std::error_code error;
+    return file.path().extension() == kEnding && file.is_regular_file(error);
+}
+
+// Half-written files that a killed process left behind.
+void sweep_abandoned(const fs::path& directory) {
+    std::error_code error;
+    const auto now = fs::file_time_type::clock::now();
+    for (const fs::directory_entry& file : fs::directory_iterator(directory, error)) {
+        if (file.path().extension() != ".part" || file.path().filename().string().find(kEnding) == std::string::npos)
+            continue;
+        const auto touched = file.last_write_time(error);
+        if (!error && now - touched > kAbandoned) fs::remove(file.path(), error);
+    }
+}
+
+}  // namespace
+
+std::optional<fs::path> cache_directory() {
+    if (const char* own = variable("BEAMCAM_CACHE_DIR")) return fs::path(own);
+    // Relative paths are to be ignored (XDG Base Directory Specification).
+    if (const char* base = variable("XDG_CACHE_HOME"); base && fs::path(base).is_absolute())
+        return fs::path(base) / "beamcam";
+    if (const char* home = variable("HOME"); home && fs::path(home).is_absolute())
+        return fs::path(home) / ".cache" / "beamcam";
+    return std::nullopt;
+}
+
+std::uintmax_t cache_limit() {
+    const char* text = variable("BEAMCAM_CACHE_SIZE");
+    if (!text) return kUsualLimit;
+    std::uintmax_t mib = 0;
+    const char* end = text + std::strlen(text);
+    const auto [last, error] = std::from_chars(text, end, mib);
+    return error == std::errc{} && last == end && mib < (std::uintmax_t{1} << 40) ? mib * kMiB : kUsualLimit;
+}
+
+fs::path Cache::path_of(const std::string& key) const { return directory_ / (key + kEnding); }
+
+std::optional<double> Cache::reach(const std::string& key) const {
+    std::ifstream in(path_of(key), std::ios::binary);
+    if (!in) return std::nullopt;
+    const auto trailer = read_trailer(in, key);
+    return trailer ? std::optional(trailer->end) : std::nullopt;
+}
+
+namespace {
+
+// Of an entry whose checksum was found right.
+class EntryNumbers final : public sim::NumberSource {
+  public:
+    EntryNumbers(std::ifstream file, std::uint64_t count) : file_(std::move(file)), count_(count) {}
+    std::uint64_t size() const override { return count_; }
+    void read(std::uint64_t from, std::span<double> into) const override {
+        file_.clear();
+        file_.seekg(static_cast<std::streamoff>(from * sizeof(double)));
+        if (!file_.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size_bytes())))
+            throw std::invalid_argument("a kept trajectory became shorter while it was read");
+    }
+
+  private:
+    mutable std::ifstream file_;
+    std::uint64_t count_;
+};
+
+std::uint32_t checksum(const sim::NumberSource& numbers) {
+    std::uint32_t sum = 0;
+    std::vector<double> piece(std::size_t{1} << 15);
+    for (std::uint64_t from = 0; from < numbers.size(); from += piece.size()) {
+        piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), numbers.size() - from)));
+        numbers.read(from, piece);
+        sum = output::crc32(sum, piece.data(), piece.size() * sizeof(double));
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const sim::NumberSource> Cache::load(const std::string& key, double end) const {
+    std::ifstream in(path_of(key), std::ios::binary);
+    if (!in) return nullptr;
+    const auto trailer = read_trailer(in, key);
+    if (!trailer || trailer->end < end) return nullptr;
+    auto numbers = std::make_shared<EntryNumbers>(std::move(in), trailer->count);
+    try {
+        if (checksum(*numbers) != trailer->numbers) {
+            drop(key);  // else it would keep a whole one of the same length out
+            return nullptr;
+        }
+    } catch (const std::invalid_argument&) {  // cut or unreadable meanwhile
+        return nullptr;
+    }
+    std::error_code ignored;
+    fs::last_write_time(path_of(key), fs::file_time_type::clock::now(), ignored);
+    return numbers;
+}
+
+void Cache::drop(const std::string& key) const {
+    std::error_code ignored;
+    fs::remove(path_of(key), ignored);
+}
+
+// ---- writing ---------------------------------------------------------------------------------------
+
+struct Cache::Entry::Impl {
+    const Cache cache;
+    std::string key, why;
+    std::unique_ptr<output::AtomicFile> file;
+    std::uint64_t count = 0;
+    std::uint32_t sum = 0;
+
+    void give_up(std::string reason) {
+        why = std::move(reason);
+        file.reset();
+    }
+    void make_room() const;
+};
+
+Cache::Entry::Entry(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Cache::Entry::Entry(Entry&&) noexcept = default;
+Cache::Entry::~Entry() = default;
+const std::string& Cache::Entry::why() const { return impl_->why; }
+
+Cache::Entry Cache::begin(const std::string& key) const {
+    Entry entry(std::unique_ptr<Entry::Impl>(new Entry::Impl{*this, key, {}, nullptr}));
+    try {
+        if (limit_ == 0) throw output::IoError("the cache may not hold anything");
+        output::ensure_directory(directory_);
+        entry.impl_->file = std::make_unique<output::AtomicFile>(path_of(key));
+    } catch (const std::exception& error) {
+        entry.impl_->give_up(error.what());
+    }
+    return entry;
+}
+
+void Cache::Entry::add(std::span<const double> numbers) {
+    Impl& e = *impl_;
+    if (!e.file) return;
+    e.count += numbers.size();
+    // One that fills half of the cache would push out all the others.
+    if (e.count * sizeof(double) > e.cache.limit_ / 2) return e.give_up("it is larger than half of the cache");
+    e.sum = output::crc32(e.sum, numbers.data(), numbers.size_bytes());
+    try {
+        e.file->write({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});
+    } catch (const std::exception& error) {
+        e.give_up(error.what());
+    }
+}
+
+bool Cache::Entry::commit(double end, long steps, const std::string& about) {
+    Impl& e = *impl_;
+    if (!e.file) return false;
+    if (const auto other = e.cache.reach(e.key); other && *other >= end) {
+        e.give_up("a longer one is there");
+        return false;
+    }
+    Trailer t{};
+    std::memcpy(t.magic, kMagic, sizeof kMagic);
+    std::memcpy(t.key, e.key.data(), std::min(e.key.size(), sizeof t.key));
+    std::memcpy(t.about, about.data(), std::min(about.size(), sizeof t.about - 1));
+    t.end = end;
+    t.steps = steps;
+    t.count = e.count;
+    t.numbers = e.sum;
+    t.trailer = checksum(t);
+    try {
+        e.file->write({reinterpret_cast<const char*>(&t), sizeof t});
+        // Not synced: what a power cut tears the checksum tells.
+        e.file->commit(output::Durability::buffered);
+    } catch (const std::exception& error) {
+        e.give_up(error.what());
+        return false;
+    }
+    e.file.reset();
+    e.make_room();
+    return true;
+}
+
+void Cache::Entry::Impl::make_room() const {
+    sweep_abandoned(cache.directory_);
+    std::vector<Kept> all = cache.list();
+    std::uintmax_t bytes = 0;
+    for (const Kept& kept : all) bytes += kept.size;
+    while (bytes > cache.limit_ && all.size() > 1) {
+        if (all.back().key != key) cache.drop(all.back().key);
+        bytes -= all.back().size;
+        all.pop_back();
+    }
+}
+
+// ---- housekeeping ----------------------------------------------------------------------------------
+
+std::vector<Cache::Kept> Cache::list() const {
+    std::vector<Kept> all;
+    std::error_code error;
+    for (const fs::directory_entry& file : fs::directory_iterator(directory_, error)) {
+        if (!is_entry(file)) continue;
+        Kept kept;
+        kept.key = file.path().stem().string();
+        kept.size = file.file_size(error);
+        if (error) continue;  // gone meanwhile
+        kept.used = file.last_write_time(error);
+        std::ifstream in(file.path(), std::ios::binary);
+        if (const auto trailer = read_trailer(in, kept.key)) {
+            kept.about.assign(trailer->about, strnlen(trailer->about, sizeof trailer->about));
+            kept.end = trailer->end;
+            kept.steps = trailer->steps;
+        }
+        all.push_back(std::move(kept));
+    }
+    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.used > b.used; });
+    return all;
+}
+
+std::pair<long, std::uintmax_t> Cache::clear() const {
+    long count = 0;
+    std::uintmax_t bytes = 0;
+    for (const Kept& kept : list()) {
+        std::error_code error;
+        if (!fs::remove(path_of(kept.key), error)) continue;
+        ++count;
+        bytes += kept.size;
+    }
+    return {count, bytes};
+}
+
+}  // namespace beamcam::scenes

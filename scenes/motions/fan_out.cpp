@@ -1,0 +1,82 @@
+#include "scenes/motions/fan_out.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace beamcam::scenes {
+
+void Gate::pass(long number, const std::function<void()>& action) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || next_ == number; });
+    if (closed_) throw Closed();
+    action();
+    ++next_;
+    changed_.notify_all();
+}
+
+void Gate::close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+}
+
+int thread_count(int wanted) {
+    return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
+    std::atomic<long> next{0};
+    std::mutex failure_mutex;
+    std::exception_ptr failure;
+    const int most = static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)));
+    std::mutex others_mutex;
+    std::vector<std::thread> others;  // not joined yet
+    std::atomic<int> working{1};
+    std::function<void()> work;
+
+    const auto start_another = [&] {
+        const std::lock_guard lock(others_mutex);
+        if (working >= most) return;
+        try {
+            others.emplace_back(work);
+            ++working;
+        } catch (const std::system_error&) {
+            // fewer threads than asked for do the same work
+        }
+    };
+    work = [&] {
+        try {
+            const Worker worker = make_worker();
+            for (long k = next++; k < count; k = next++) {
+                worker(k);
+                if (crew.more && working < most && next < count && crew.more()) start_another();
+            }
+        } catch (const Gate::Closed&) {
+            // the thread that closed it tells why
+        } catch (...) {
+            const std::lock_guard lock(failure_mutex);
+            if (!failure) failure = std::current_exception();
+            next = count;
+            gate.close();
+        }
+    };
+
+    for (int i = 1; i < std::min(crew.first, most); ++i) start_another();
+    work();
+    for (;;) {  // one that still works may have started another meanwhile
+        std::thread thread;
+        {
+            const std::lock_guard lock(others_mutex);
+            if (others.empty()) break;
+            thread = std::move(others.back());
+            others.pop_back();
+        }
+        thread.join();
+    }
+    if (failure) std::rethrow_exception(failure);
+    return working;
+}
+
+}  // namespace beamcam::scenes

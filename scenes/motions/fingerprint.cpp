@@ -1,0 +1,69 @@
+#include "scenes/motions/fingerprint.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "output/files/sha256.hpp"
+#include "render/base/versions.hpp"
+#include "render/draw/fonts.hpp"
+#include "render/gl/lit.hpp"
+
+namespace beamcam::scenes {
+
+std::string Fingerprint::id() const {
+    output::Sha256 hash;
+    for (const auto& [part, version] : parts) hash.update(fmt::format("{}={}\n", part, version));
+    return hash.hex().substr(0, 12);
+}
+
+namespace {
+
+Fingerprint fingerprint_of_libraries() {
+    Fingerprint found;
+    for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
+    // Read before main, so that it cannot be taken back (main.cpp).
+    if (const char* disabled = std::getenv("PIXMAN_DISABLE")) found.parts["PIXMAN_DISABLE"] = disabled;
+    return found;
+}
+
+}  // namespace
+
+Fingerprint flat_fingerprint() {
+    Fingerprint found = fingerprint_of_libraries();
+    for (const render::FontFile& font : render::font_files())
+        found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    return found;
+}
+
+Fingerprint figure_fingerprint() {
+    Fingerprint found = fingerprint_of_libraries();
+    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
+        if (!font.path.empty())
+            found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    return found;
+}
+
+Fingerprint lit_fingerprint() {
+    Fingerprint found = flat_fingerprint();
+    found.parts["OpenGL"] = render::make_lit_renderer(16, 16)->name();
+    found.parts["processor"] = processor_path();
+    return found;
+}
+
+std::string processor_path() {
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    std::string path;
+    if (__builtin_cpu_supports("avx512f")) path += " avx512f";
+    if (__builtin_cpu_supports("avx2")) path += " avx2";
+    if (__builtin_cpu_supports("fma")) path += " fma";
+    return "x86-64" + (path.empty() ? " without avx2 and fma" : path);
+#elif defined(__aarch64__)
+    return "aarch64";
+#else
+    return "another processor";
+#endif
+}
+
+}  // namespace beamcam::scenes

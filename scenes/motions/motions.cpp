@@ -1,0 +1,252 @@
+#include "scenes/motions/motions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "output/files/interrupt.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/identity.hpp"
+#include "scenes/motions/spooled.hpp"
+#include "sim/observe/trajectory.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// A motion of fewer steps is integrated again about as soon as it is read. Steps of the models that need quadrature
+// take fifty times as long as the others'.
+long fewest_steps(const sim::Problem& problem) {
+    const sim::ModelKind model = problem.beam.model;
+    return model == sim::ModelKind::exact || model == sim::ModelKind::second_order ? 20 : 500;
+}
+
+constexpr std::size_t kMostRemembered = std::size_t{1} << 25;  // numbers of a trajectory: 256 MiB
+
+std::string words_about(const sim::Problem& problem) {
+    if (problem.beam.model == sim::ModelKind::rigid) return name(problem.beam.model);
+    return fmt::format("{}, {} mode{}", name(problem.beam.model), problem.beam.modes,
+                       problem.beam.modes == 1 ? "" : "s");
+}
+
+double latest(std::span<const sim::Request> requests) {
+    double until = 0;
+    for (const sim::Request& request : requests) until = std::max(until, end_of(request));
+    return until;
+}
+
+// How far each of several runs is, as one number.
+class Sum {
+  public:
+    Sum(std::size_t runs, Progress& progress) : reached_(runs, 0), progress_(progress) {}
+    sim::Progress of(std::size_t run) {
+        return [this, run](double t) {
+            const std::lock_guard lock(mutex_);
+            sum_ += t - reached_[run];
+            reached_[run] = t;
+            progress_.reach(sum_);
+            return !output::interrupted();
+        };
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<double> reached_;
+    double sum_ = 0;
+    Progress& progress_;
+};
+
+}  // namespace
+
+bool worth_keeping(const sim::Problem& problem, const sim::Request& request) {
+    const bool dense = !request.tables.empty() || !request.poses.empty() || !request.points.empty();
+    return dense && problem.solver.method != sim::Method::arkode_erk && end_of(request) > 0;
+}
+
+std::size_t Motions::want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label,
+                          bool may_fail) {
+    wishes_.push_back({motion_key(problem), problem, std::move(requests), label, may_fail, {}, {}});
+    return wishes_.size() - 1;
+}
+
+std::vector<Motions::Group> Motions::groups() {
+    std::vector<Group> all;
+    for (; fulfilled_ < wishes_.size(); ++fulfilled_) {
+        Wish& wish = wishes_[fulfilled_];
+        const auto same =
+            std::find_if(all.begin(), all.end(), [&](const Group& group) { return group.front()->key == wish.key; });
+        if (same == all.end())
+            all.push_back({&wish});
+        else
+            same->push_back(&wish);
+    }
+    return all;
+}
+
+void Motions::make() {
+    const std::vector<Group> all = groups();
+    if (all.empty()) return;
+    double total = 0;
+    for (const Group& group : all) {
+        double until = 0;
+        for (const Wish* wish : group) until = std::max(until, latest(wish->requests));
+        total += until;
+    }
+    Sum sum(all.size(), progress_);
+    progress_.begin("simulate", total, "s");
+    Gate gate;
+    const auto worker = [&]() -> Worker {
+        return [&](long k) { make(all[static_cast<std::size_t>(k)], sum.of(static_cast<std::size_t>(k))); };
+    };
+    try {
+        fan_out(static_cast<long>(all.size()), options_.threads, worker, gate);
+    } catch (...) {
+        progress_.end();
+        throw;
+    }
+    progress_.end();
+    for (const Group& group : all) tell(group);
+}
+
+void Motions::make(const Group& group, const sim::Progress& progress) {
+    std::vector<sim::Request> requests;
+    bool keep = false;
+    const Wish& first = *group.front();
+    for (const Wish* wish : group)
+        for (const sim::Request& request : wish->requests) {
+            requests.push_back(request);
+            keep = keep || worth_keeping(first.problem, request);
+        }
+    const auto hand_out = [&](std::vector<sim::Result> results, std::vector<sim::Result> Wish::*to) {
+        auto next = std::make_move_iterator(results.begin());
+        for (Wish* wish : group) {
+            const auto end = next + static_cast<std::ptrdiff_t>(wish->requests.size());
+            (wish->*to).assign(next, end);
+            next = end;
+        }
+    };
+    const auto leave_out = [&](const char* why) {
+        if (!std::ranges::all_of(group, &Wish::may_fail)) return false;
+        sim::Result none;
+        none.warnings = {
+            fmt::format("left out, {}, {} modes: {}", name(first.problem.beam.model), first.problem.beam.modes, why)};
+        hand_out(std::vector(requests.size(), none), &Wish::results);
+        return true;
+    };
+    try {
+        hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
+    } catch (const sim::SolverError& error) {
+        if (leave_out(error.what())) return;
+        if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
+        throw;
+    } catch (const std::invalid_argument& error) {  // an impossible problem, which the figure chose itself
+        if (!leave_out(error.what())) throw;
+    }
+}
+
+void Motions::tell(const Group& group) const {
+    const Wish& first = *group.front();
+    const sim::Result& run = first.results.front();
+    if (!options_.quiet)
+        for (const std::string& warning : run.warnings)
+            output::tell("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
+    if (options_.verbose && run.counters.steps > 0)
+        output::tell(
+            "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
+            "{:.3g} J\n",
+            first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
+            run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
+}
+
+sim::Result Motions::find(const sim::Problem& problem, const sim::Request& request, double far) {
+    sim::Request further;
+    further.end_time = far;
+    further.turning_points = false;
+    const sim::Request both[] = {request, further};
+    const double until = latest(both);
+    progress_.begin("impacts", until, "s");
+    Sum sum(1, progress_);
+    try {
+        auto results = run({motion_key(problem), problem, both, until, true, true}, sum.of(0));
+        progress_.end();
+        return std::move(results.front());
+    } catch (...) {
+        progress_.end();
+        throw;
+    }
+}
+
+// ---- one motion ------------------------------------------------------------------------------------
+
+std::vector<sim::Result> Motions::run(const Job& job, const sim::Progress& progress) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto results = read_back(job, progress);
+    const bool was_kept = results.has_value();
+    if (!results) results = integrate(job, progress);
+    long steps = 0;
+    for (const sim::Result& result : *results) steps = std::max(steps, result.counters.steps);
+    note(job, was_kept, std::chrono::duration<double>(Clock::now() - start).count(), steps);
+    return std::move(*results);
+}
+
+void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
+    if (!history_) return;
+    const bool horizon = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.horizon; });
+    const std::lock_guard lock(mutex_);
+    history_->note(motion_work(job.key, job.problem, read_back, horizon), job.until, seconds,
+                   static_cast<double>(steps));
+}
+
+std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {
+    const auto replay = [&](const sim::Trajectory& trajectory) {
+        sim::Effort effort;
+        auto results = sim::replay(job.problem, trajectory, job.requests, progress, &effort);
+        const std::lock_guard lock(mutex_);
+        effort_.add(effort);
+        return results;
+    };
+    if (const auto known = known_.find(job.key); known != known_.end()) {
+        const sim::Trajectory trajectory(job.problem, known->second);
+        if (trajectory.end() >= job.until) return replay(trajectory);
+    }
+    if (!cache_) return std::nullopt;
+    const auto numbers = cache_->load(job.key, job.until);
+    if (!numbers) return std::nullopt;
+    try {
+        auto results = replay(sim::Trajectory(job.problem, numbers));
+        const std::lock_guard lock(mutex_);
+        ++from_cache_;
+        return results;
+    } catch (const std::invalid_argument&) {  // whole by its checksum, yet no trajectory of this motion
+        cache_->drop(job.key);
+        return std::nullopt;
+    }
+}
+
+std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress& progress) {
+    std::optional<Cache::Entry> entry;
+    if (job.keep && cache_) entry.emplace(cache_->begin(job.key));
+    const auto remembered = std::make_shared<SpooledNumbers>();
+    bool remember = job.remember;
+    sim::TrajectoryWriter writer([&](std::span<const double> numbers) {
+        if (entry) entry->add(numbers);
+        remember = remember && remembered->size() + numbers.size() <= kMostRemembered;
+        if (remember) remembered->add(numbers);
+    });
+    sim::Effort effort;
+    auto results = sim::simulate(job.problem, job.requests, progress, entry || remember ? &writer : nullptr, &effort);
+    const std::lock_guard lock(mutex_);
+    effort_.add(effort);
+    if (remember && writer.complete()) known_[job.key] = remembered;
+    if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
+    if (entry->commit(job.until, writer.steps(), words_about(job.problem)))
+        ++kept_;
+    else if (options_.verbose)
+        output::tell("the motion was not kept for later runs: {}\n", entry->why());
+    return results;
+}
+
+}  // namespace beamcam::scenes

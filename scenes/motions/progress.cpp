@@ -1,0 +1,135 @@
+#include "scenes/motions/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace beamcam::scenes {
+namespace {
+
+// A bar is looked at, a log is read later.
+constexpr double kBarInterval = 0.1, kPlainInterval = 5, kJsonInterval = 0.5;  // [s]
+
+std::string clock_text(double seconds) {
+    const long s = std::lround(std::ceil(seconds));
+    if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+    return fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+std::string count_text(double value, const std::string& unit) {
+    return unit == "s" ? fmt::format("{:.2f}", value) : fmt::format("{:.0f}", value);
+}
+
+bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value && std::string_view(value) != "0" && std::string_view(value) != "false";
+}
+
+}  // namespace
+
+std::optional<ProgressStyle> progress_style_named(std::string_view name) {
+    if (name == "auto") return ProgressStyle::automatic;
+    if (name == "bar") return ProgressStyle::bar;
+    if (name == "plain") return ProgressStyle::plain;
+    if (name == "json") return ProgressStyle::json;
+    if (name == "none") return ProgressStyle::none;
+    return std::nullopt;
+}
+
+ProgressStyle resolve(ProgressStyle style) {
+    if (style != ProgressStyle::automatic) return style;
+    const char* term = std::getenv("TERM");
+    const bool dumb = !term || std::string_view(term) == "dumb";
+    return isatty(STDERR_FILENO) && !dumb && !is_set("CI") ? ProgressStyle::bar : ProgressStyle::plain;
+}
+
+void Progress::begin(std::string stage, double total, std::string unit) {
+    end();
+    const std::lock_guard lock(mutex_);
+    stage_ = std::move(stage);
+    unit_ = std::move(unit);
+    total_ = total;
+    done_ = 0;
+    open_ = true;
+    started_ = shown_ = Clock::now();
+}
+
+void Progress::reach(double done) {
+    const std::lock_guard lock(mutex_);
+    if (!open_ || style_ == ProgressStyle::none) return;
+    done_ = std::max(done_, done);
+    const double since = std::chrono::duration<double>(Clock::now() - shown_).count();
+    const double interval = style_ == ProgressStyle::bar    ? kBarInterval
+                            : style_ == ProgressStyle::json ? kJsonInterval
+                                                            : kPlainInterval;
+    if (since >= interval) show(done_, false);
+}
+
+void Progress::end() {
+    const std::lock_guard lock(mutex_);
+    if (!open_) return;
+    open_ = false;
+    // A stage too short to be shown leaves no trace in a log, but programs hear of each.
+    if (style_ == ProgressStyle::json || line_is_open_) show(done_, true);
+    if (line_is_open_) std::fputc('\n', out_);
+    line_is_open_ = false;
+    std::fflush(out_);
+}
+
+void Progress::show(double done, bool last) {
+    shown_ = Clock::now();
+    const double elapsed = std::chrono::duration<double>(shown_ - started_).count();
+    switch (style_) {
+        case ProgressStyle::automatic:
+        case ProgressStyle::none:
+            break;
+        case ProgressStyle::bar:
+            show_bar(done, elapsed, last);
+            break;
+        case ProgressStyle::plain:
+            show_plain(done, elapsed);
+            break;
+        case ProgressStyle::json:
+            show_json(done, elapsed, last);
+            break;
+    }
+    std::fflush(out_);
+}
+
+void Progress::show_bar(double done, double elapsed, bool last) {
+    constexpr int kCells = 24;
+    const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1;
+    const int filled = static_cast<int>(share * kCells);
+    std::string line = fmt::format("\r\x1b[K{:<9} [{:=<{}}{:<{}}] {}/{} {}", stage_, "", filled, "", kCells - filled,
+                                   count_text(done, unit_), count_text(total_, unit_), unit_);
+    if (elapsed > 0 && done > 0) line += fmt::format("  {:.3g}/s", done / elapsed);
+    if (last)
+        line += fmt::format("  in {}", clock_text(elapsed));
+    else if (done > 0)
+        line += fmt::format("  {} left", clock_text(elapsed * (total_ - done) / done));
+    std::fputs(line.c_str(), out_);
+    line_is_open_ = true;
+}
+
+void Progress::show_plain(double done, double elapsed) {
+    const std::string left = done > 0 ? fmt::format(", {} left", clock_text(elapsed * (total_ - done) / done)) : "";
+    std::fputs(fmt::format("{}: {}/{} {} ({:.3g}/s{})\n", stage_, count_text(done, unit_), count_text(total_, unit_),
+                           unit_, elapsed > 0 ? done / elapsed : 0, left)
+                   .c_str(),
+               out_);
+}
+
+void Progress::show_json(double done, double elapsed, bool last) {
+    const double left = done > 0 ? elapsed * (total_ - done) / done : 0;
+    std::fputs(
+        fmt::format("{{\"stage\":\"{}\",\"done\":{:g},\"total\":{:g},\"unit\":\"{}\",\"elapsed\":{:.3f},\"left\":{},"
+                    "\"finished\":{}}}\n",
+                    stage_, done, total_, unit_, elapsed, done > 0 ? fmt::format("{:.3f}", left) : "null", last)
+            .c_str(),
+        out_);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,96 @@
+#include "scenes/motions/spooled.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+namespace beamcam::scenes {
+namespace {
+
+// A record: the time, the numbers apart from the stations, then three of each station.
+constexpr std::size_t kAlone = 20;
+
+std::array<double, kAlone> numbers_of(const sim::Pose& p) {
+    const sim::Nearest n = p.nearest.value_or(sim::Nearest{});
+    return {p.t,
+            p.theta,
+            p.theta_dot,
+            p.root_slope,
+            p.cam_centre.x,
+            p.cam_centre.y,
+            p.disc_centre.x,
+            p.disc_centre.y,
+            p.cam_angle,
+            double(p.nearest.has_value()),
+            n.x,
+            n.s,
+            n.point.x,
+            n.point.y,
+            n.normal.x,
+            n.normal.y,
+            n.gap,
+            n.force,
+            n.friction,
+            double(n.touching)};
+}
+
+sim::Pose pose_of(std::span<const double> v) {
+    sim::Pose p;
+    p.t = v[0];
+    p.theta = v[1];
+    p.theta_dot = v[2];
+    p.root_slope = v[3];
+    p.cam_centre = {v[4], v[5]};
+    p.disc_centre = {v[6], v[7]};
+    p.cam_angle = v[8];
+    if (v[9] != 0)
+        p.nearest = sim::Nearest{.x = v[10],
+                                 .s = v[11],
+                                 .point = {v[12], v[13]},
+                                 .normal = {v[14], v[15]},
+                                 .gap = v[16],
+                                 .force = v[17],
+                                 .friction = v[18],
+                                 .touching = v[19] != 0};
+    return p;
+}
+
+}  // namespace
+
+std::uint64_t SpooledPoses::place(std::size_t frame) const { return sizeof(double) * frame * (kAlone + 3 * stations_); }
+
+void SpooledPoses::put(std::size_t frame, const sim::Pose& pose) {
+    if (frame >= frames_ || pose.centreline.size() != stations_ || pose.moment.size() != stations_)
+        throw std::invalid_argument("a pose that there is no place for");
+    const std::array<double, kAlone> alone = numbers_of(pose);
+    std::vector<double> record(alone.begin(), alone.end());
+    for (const sim::Vec2 r : pose.centreline) record.push_back(r.x), record.push_back(r.y);
+    record.insert(record.end(), pose.moment.begin(), pose.moment.end());
+    spool_.write(place(frame), std::as_bytes(std::span(record)));
+}
+
+void SurveyedPoses::put(std::size_t row, const sim::Pose& pose) {
+    if (row == 0) count_ = fixed_;
+    poses_.put(row, pose);
+    count_ = std::max(count_, row + 1);
+}
+
+double SpooledPoses::time(std::size_t frame) const {
+    double t = 0;
+    spool_.read(place(frame), std::as_writable_bytes(std::span(&t, 1)));
+    return t;
+}
+
+sim::Pose SpooledPoses::pose(std::size_t frame) const {
+    std::vector<double> record(kAlone + 3 * stations_);
+    spool_.read(place(frame), std::as_writable_bytes(std::span(record)));
+    sim::Pose p = pose_of(record);
+    const double* at = record.data() + kAlone;
+    p.centreline.reserve(stations_);
+    for (std::size_t i = 0; i < stations_; ++i, at += 2) p.centreline.push_back({at[0], at[1]});
+    p.moment.assign(at, at + stations_);
+    return p;
+}
+
+}  // namespace beamcam::scenes

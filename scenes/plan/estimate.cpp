@@ -1,0 +1,56 @@
+#include "scenes/plan/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "scenes/motions/identity.hpp"
+
+namespace beamcam::scenes {
+
+std::vector<std::string> picture_work(const Pictures& p, int threads) {
+    std::string how = fmt::format("{} {}", kind_name(p.kind), view_name(p.picture.view));
+    if (p.kind == Pictures::Kind::video) how += ", " + encoding_words(p.encoding);
+    if (!p.compared.empty()) how += fmt::format(", {} motions", p.compared.size());
+    return {fmt::format("{}, {} x {}, {} threads", how, p.picture.size.width, p.picture.size.height, threads)};
+}
+
+std::vector<std::string> figure_work(const FigureFile& f) {
+    return {fmt::format("figure {} {}", f.figure, std::filesystem::path(f.file).extension().string()), "figure"};
+}
+
+std::vector<std::string> table_work(const TableFile& t) {
+    return {"numbers of " + std::filesystem::path(t.file).extension().string()};
+}
+
+namespace {
+
+std::optional<Cost> cost(const History& history, const std::vector<std::string>& names, double units) {
+    const auto rate = history.find(names);
+    return rate ? std::optional(Cost{units * rate->seconds, units * rate->amount}) : std::nullopt;
+}
+
+std::optional<Cost> cost(const History& history, const sim::Problem& problem, const Simulation& s) {
+    return cost(history, motion_work(motion_key(problem), problem, s.from_cache, s.horizon), s.request.end_time);
+}
+
+}  // namespace
+
+void estimate(Plan& plan, const Scene& scene, const History& history, int threads) {
+    if (plan.simulation) plan.simulation->cost = cost(history, scene.problem, *plan.simulation);
+    for (Variant& v : plan.variants) v.simulation.cost = cost(history, v.problem, v.simulation);
+    for (Pictures& p : plan.pictures) {
+        for (ComparedMotion& each : p.compared)
+            each.cost =
+                cost(history, motion_work(motion_key(each.problem), each.problem, false, false), each.request.end_time);
+        if (p.settled) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
+    }
+    for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);
+    for (TableFile& t : plan.tables) {
+        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
+        t.cost = cost(history, table_work(t), static_cast<double>(table.times.size() * table.channels.size()));
+    }
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,194 @@
+// What a scene's outputs need, found by walking backwards from them:
+// files → pictures → poses and channels → instants → a simulation, of which model, until when.
+//
+// Pure: a Plan is a value, made in microseconds, that run.hpp carries out. What nobody needs is not
+// in it; there are no switches that turn a stage off.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/studies.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::scenes {
+
+// A part of the work, to share it between machines.
+struct Ask {
+    std::optional<std::pair<long, long>> frames;  // numbers of the frames of films and sequences, half open
+    int shard = 1, shards = 1;                    // 1 <= shard <= shards
+};
+
+// What is there already. Found by looking at files (survey.hpp), so that a plan stays pure.
+struct Known {
+    std::set<std::size_t> finished;                // outputs whose files were made from the same inputs
+    std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the frames that are finished
+    std::optional<double> kept_until;              // how far a kept trajectory of this motion goes [s]
+    bool keeps = false;                            // trajectories are kept at all
+    std::map<std::string, double> variants_kept;   // the same of other motions, by Studies::key
+    double until = 0;                              // where the run of all outputs would end, finished ones too [s]
+};
+
+// What a stage took in earlier runs (history.hpp).
+struct Cost {
+    double seconds = 0;
+    double amount = 0;  // steps of a motion, bytes of a file
+};
+
+// One run of the mechanics serves every output.
+struct Simulation {
+    sim::Request request;
+    std::string until_because;  // the output that looks furthest: "fall.mp4"
+    // Pictures that end before the run: each tells of impacts and energy as if the run ended with it.
+    std::vector<double> ends;  // [s], distinct
+    bool horizon = false;      // somebody asks until when it is reproducible: a second run
+    bool from_cache = false;   // a kept trajectory goes far enough
+    bool keep = false;         // for later runs
+    std::optional<Cost> cost;
+};
+
+// Other physics than the scene's, that figures compare it with: what serves all that look at it.
+struct Variant {
+    sim::Problem problem;
+    Simulation simulation;
+};
+
+// Another motion in the same picture: a run of its own, with the poses, the chart and the trace of that picture.
+struct ComparedMotion {
+    std::string label;
+    sim::Problem problem;
+    sim::Request request;  // poses: frames, survey; tables: chart and, with a cam, trace; what is added stands behind
+    std::optional<Cost> cost;
+};
+
+// A film, a sequence or a still: the same pictures, put away differently.
+struct Pictures {
+    enum class Kind { video, frames, still };
+    Kind kind = Kind::video;
+    std::size_t output = 0;  // index into the scene's outputs
+    std::string file;
+    Picture picture;
+    FrameSpan span;           // of video and frames
+    Instant at;               // of a still
+    Encoding encoding;        // of video
+    bool collisions = false;  // a strip of a film shows them one by one
+    bool settled = true;    // false: the instants of frames or of the charts' rows are not known before the impacts are
+    double end_time = 0;    // nothing is looked at beyond it [s]
+    long first_frame = 0;   // number of the first frame; the others follow
+    Ask ask;                // which of them are asked for
+    std::set<long> there;   // numbers of those that are finished
+    std::vector<int> draw;  // which are drawn, ascending; camera and scales are those of all
+    std::string part;       // of a film: "30:60 of 0:90"; empty: the whole
+    // Index into Simulation::ends; absent: the run ends with it, or it compares motions.
+    std::optional<std::size_t> until;
+    std::optional<int> poster;   // of a video: the frame that is also put into poster_file, as in `draw`
+    std::string poster_file;     // empty: none
+    std::vector<double> speeds;  // of time at each frame; empty in real time
+    std::vector<render::Callout> callouts;
+    std::vector<std::string> unshown;  // events of a film that it does not reach: "impact 3"
+    std::string too_small;             // names of the wanted panels that do not fit: "phase, energy"
+    std::vector<sim::Channel> chart_channels;
+    std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
+    // Of the one simulation, unless the picture compares motions:
+    std::size_t poses = 0;             // index into Request::poses, whose times are the frames' instants
+    std::size_t survey = 0;            // the same of what scales are chosen by
+    std::size_t chart = 0;             // index into Request::tables: what the panels show
+    std::optional<std::size_t> trace;  // t, contact_x, contact_s, contact_force; absent without a cam
+    std::optional<Cost> cost;
+
+    bool makes_poster() const;  // it is among those that are drawn
+};
+struct FigureFile {
+    std::size_t output = 0;
+    std::string file, figure;
+    std::vector<Study> studies;  // what it looks at, as if it were alone
+    FigureMaker make;            // from their results
+    std::optional<Cost> cost;
+};
+struct TableFile {
+    std::size_t output = 0;
+    std::string file;
+    std::size_t table = 0;  // index into Request::tables
+    std::optional<Cost> cost;
+};
+struct ImpactsFile {
+    std::size_t output = 0;
+    std::string file;
+};
+struct SummaryFile {
+    std::size_t output = 0;
+    std::string file;
+};
+
+struct Skipped {
+    std::string what, why;
+};
+
+struct Plan {
+    std::optional<Simulation> simulation;
+    // Until when a first run has to find impacts, because pictures that are not settled look at them.
+    std::optional<double> impacts_until;
+    std::vector<Variant> variants;
+    std::vector<Pictures> pictures;
+    std::vector<FigureFile> figures;
+    std::vector<TableFile> tables;
+    std::vector<ImpactsFile> impacts;
+    std::vector<SummaryFile> summaries;
+    std::vector<Skipped> skipped;
+
+    bool needs_gl() const;                                             // a lit view
+    bool needs_encoder() const;                                        // a video
+    std::optional<Cost> cost() const;                                  // of all whose cost is known; amount: bytes
+    std::size_t frames() const;                                        // drawn altogether
+    const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty before it is settled
+};
+
+Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
+
+// What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
+// in their order. None without a simulation.
+std::vector<sim::Request> requests_of(const Plan& plan);
+
+// Why a picture leaves out Pictures::too_small.
+std::string no_room(const Size& size);
+
+// The parameters, and the colour scales, for which the picture has no room: "R = 100 mm; colour scales"; empty: none.
+// Loads fonts. Throws render::FontError.
+std::string unwritten(const Pictures& p, const Scene& scene);
+// Why.
+std::string no_room_to_write(const Size& size);
+// Puts what pictures do not write among what the plan skips; nothing where fonts are missing.
+void note_unwritten(Plan& plan, const Scene& scene);
+
+// A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
+bool is_slow_motion(const Pictures& p);
+
+// "fall.mp4" as the second of three: "fall.2of3.mp4".
+std::string shard_file(const std::string& file, int shard, int shards);
+
+// Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
+// is called once for the scene's own motion, if a picture needs that, and for each compared one. A picture of an
+// instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is thrown. Throws what
+// `find` throws and render::PictureError.
+using FindImpacts = std::function<sim::Result(const sim::Problem& problem, double until)>;
+using RefusePicture = std::function<void(const Pictures& p, const std::string& why)>;
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
+
+// Words of the plan: "lit", "video".
+const char* view_name(const render::View& view);
+const char* kind_name(Pictures::Kind kind);
+std::string encoding_words(const Encoding& encoding);  // "H.264, crf 18, veryfast"
+
+// For people, and for programs.
+std::string to_text(const Plan& plan, const Scene& scene);
+std::string to_json(const Plan& plan, const Scene& scene);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,172 @@
+// A plan in words.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/film_times.hpp"
+
+namespace beamcam::scenes {
+const char* view_name(const render::View& view) {
+    switch (view.style) {
+        case render::Style::lit:
+            return "lit";
+        case render::Style::flat:
+            return "flat";
+        case render::Style::solid:
+            return "solid";
+    }
+    return "?";
+}
+
+const char* kind_name(Pictures::Kind kind) {
+    switch (kind) {
+        case Pictures::Kind::video:
+            return "video";
+        case Pictures::Kind::frames:
+            return "frames";
+        case Pictures::Kind::still:
+            return "still";
+    }
+    return "?";
+}
+
+std::string encoding_words(const Encoding& encoding) {
+    std::string words = output::title(encoding.codec);
+    if (encoding.crf) words += fmt::format(", crf {}", *encoding.crf);
+    if (encoding.codec == output::Codec::h264) words += ", " + encoding.preset;
+    if (encoding.variable_rate) words += ", variable frame rate";
+    return words;
+}
+
+namespace {
+
+std::string model_words(const sim::Problem& problem) {
+    std::string words = name(problem.beam.model);
+    const sim::ModelKind model = problem.beam.model;
+    if (model == sim::ModelKind::exact)
+        words += fmt::format(", {} shape functions", problem.beam.modes);
+    else if (model != sim::ModelKind::rigid)
+        words += fmt::format(", {} {} mode{}", problem.beam.modes, name(resolved_basis(problem)),
+                             problem.beam.modes == 1 ? "" : "s");
+    words += problem.cam ? fmt::format(", {} contact", name(problem.contact.model)) : ", no contact";
+    return words;
+}
+
+// Two digits: "0.31", "5200".
+std::string about(double value) {
+    if (!(value > 0)) return "0";
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return fmt::format("{:.10g}", std::round(value / unit) * unit);
+}
+
+// "; about 0.31 s, 5200 steps"
+std::string motion_cost(const std::optional<Cost>& cost) {
+    return cost ? fmt::format("; about {} s, {} steps", about(cost->seconds), about(cost->amount)) : "";
+}
+
+std::string size_words(double bytes) {
+    return bytes < 1e6   ? about(std::max(1.0, bytes / 1e3)) + " kB"
+           : bytes < 1e9 ? about(bytes / 1e6) + " MB"
+                         : about(bytes / 1e9) + " GB";
+}
+
+// "; about 12 s, 3.1 MB"
+std::string file_cost(const std::optional<Cost>& cost) {
+    return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_words(cost->amount)) : "";
+}
+
+std::string simulation_words(const Simulation& simulation, const sim::Problem& problem) {
+    const sim::Request& request = simulation.request;
+    std::string words = request.end_time > 0
+                            ? fmt::format("{}; until {:g} s, because of {}", model_words(problem), request.end_time,
+                                          simulation.until_because)
+                            : fmt::format("{}; the initial state only, nothing to integrate", model_words(problem));
+    if (simulation.from_cache) words += "; kept from an earlier run";
+    if (simulation.keep) words += "; kept for later runs, unless it is short";
+    if (simulation.horizon) words += "; a second run finds until when it is reproducible";
+    return words + motion_cost(simulation.cost);
+}
+
+std::string span_words(const Pictures& p, const std::vector<double>& times) {
+    const bool still = p.kind == Pictures::Kind::still;
+    if (!p.settled) {
+        if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture of {:g} s", p.at.t);
+        if (still)
+            return fmt::format("one picture of {} {}", p.at.kind == Instant::Kind::impact ? "impact" : "collision",
+                               p.at.number);
+        if (p.span.real_time()) {  // only its charts or its poster ask for the impacts
+            FrameSpan alone = p.span;
+            alone.poster.reset();
+            return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second",
+                               film_times(alone, p.end_time, {}).frames.size(), p.span.from, p.end_time,
+                               p.span.fps.value());
+        }
+        return fmt::format("frames of {:g} s to {:g} s at {:g} a second, as many as the impacts ask for", p.span.from,
+                           p.end_time, p.span.fps.value());
+    }
+    if (still) return fmt::format("one picture of {:g} s", times.front());
+    return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", p.draw.size(),
+                       times[static_cast<std::size_t>(p.draw.front())], times[static_cast<std::size_t>(p.draw.back())],
+                       p.span.fps.value());
+}
+
+std::string pace_words(const Speed& speed) {
+    if (!speed.around) return speed.factor == 1 ? "" : fmt::format(", {:g} times real speed", speed.factor);
+    return fmt::format(", {:g} times real speed around impacts", speed.around->factor);
+}
+
+std::string picture_words(const Pictures& p, const std::vector<double>& times) {
+    std::string words = fmt::format("{}: {}{}", p.file, span_words(p, times), pace_words(p.span.speed));
+    words += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
+    if (p.picture.view.transparent) words += ", transparent";
+    if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
+    if (p.makes_poster())
+        words +=
+            fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
+    else if (!p.settled && !p.poster_file.empty())
+        words += fmt::format("; one of its frames as {} too", p.poster_file);
+    if (const double memory = memory_of(p.picture); memory >= kMuchMemory)
+        words += fmt::format("; takes {} of memory for each thread", size_words(memory));
+    return words + file_cost(p.cost);
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan, const Scene& scene) {
+    std::string text = "to do\n";
+    auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
+    if (plan.impacts_until)
+        line("impacts", fmt::format("a first run until {:g} s finds them: pictures below stand or slow down at them",
+                                    *plan.impacts_until));
+    if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
+    for (const Pictures& p : plan.pictures) {
+        for (const ComparedMotion& motion : p.compared)
+            line("simulate", fmt::format("{}; until {:g} s, as \"{}\" of {}", model_words(motion.problem),
+                                         motion.request.end_time, motion.label, p.file) +
+                                 motion_cost(motion.cost));
+        line(kind_name(p.kind), picture_words(p, plan.times(p)));
+    }
+    for (const Variant& variant : plan.variants)
+        line("simulate", simulation_words(variant.simulation, variant.problem));
+    for (const FigureFile& f : plan.figures)
+        line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
+    for (const TableFile& t : plan.tables) {
+        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
+        line("table", fmt::format("{}: {} rows of {} channels{}", t.file, table.times.size(), table.channels.size(),
+                                  file_cost(t.cost)));
+    }
+    for (const ImpactsFile& i : plan.impacts) line("impacts", i.file);
+    for (const SummaryFile& s : plan.summaries) line("summary", s.file);
+    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.settled; });
+    if (const auto cost = plan.cost())
+        line("in all", fmt::format("{}{}, as past runs tell", some ? "besides pictures that look at impacts, " : "",
+                                   file_cost(cost).substr(2)));
+    text += "skipped\n";
+    for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
+    return text;
+}
+
+}  // namespace beamcam::scenes

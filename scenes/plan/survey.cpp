@@ -1,0 +1,131 @@
+#include "scenes/plan/survey.hpp"
+
+#include <algorithm>
+
+#include "scenes/figures/make.hpp"
+#include "scenes/motions/identity.hpp"
+#include "scenes/scene/files.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Surveyor {
+  public:
+    Surveyor(const Scene& scene, const Ask& ask, const std::string& directory, output::Manifest& manifest)
+        : scene_(scene), whole_(plan(scene, ask)), directory_(directory), manifest_(manifest) {
+        found_.inputs.resize(scene.outputs.size());
+    }
+
+    Survey look(const Cache* cache, bool afresh) {
+        const double until = whole_.simulation ? whole_.simulation->request.end_time : 0;
+        for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
+            if (file_of(scene_.outputs[i]) != "-") found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
+        found_.motion = motion_key(scene_.problem);
+        found_.known.until = until;
+        found_.known.keeps = cache && cache->limit() > 0;
+        if (cache) look_at_kept(*cache);
+        if (!afresh) look_at_files();
+        return std::move(found_);
+    }
+
+  private:
+    void look_at_kept(const Cache& cache) {
+        found_.known.kept_until = cache.reach(found_.motion);
+        for (const Variant& variant : whole_.variants)
+            if (const auto until = cache.reach(motion_key(variant.problem)))
+                found_.known.variants_kept[Studies::key(variant.problem)] = *until;
+    }
+
+    std::string part_of(std::size_t output) const {
+        for (const Pictures& p : whole_.pictures)
+            if (p.output == output) return p.part;
+        return {};
+    }
+
+    bool is_there(const std::string& file, std::size_t output) {
+        return file != "-" && manifest_.is_made_from(place_of(directory_, file), found_.inputs[output]);
+    }
+
+    void look_at_files() {
+        for (const Pictures& p : whole_.pictures)
+            if (p.kind == Pictures::Kind::frames)
+                look_at_frames(p);
+            else if (!awaits_poster(p))
+                look_at(p.file, p.output);
+        for (const FigureFile& f : whole_.figures) look_at_figure(f);
+        for (const TableFile& t : whole_.tables) look_at(t.file, t.output);
+        for (const ImpactsFile& i : whole_.impacts) look_at(i.file, i.output);
+        for (const SummaryFile& s : whole_.summaries) look_at(s.file, s.output);
+    }
+
+    // A film whose poster is not there is not finished. Which part of it has the poster, only the impacts may tell.
+    bool awaits_poster(const Pictures& p) {
+        const bool has = p.settled ? p.makes_poster() : p.ask.shards <= 1;
+        return !p.poster_file.empty() && has && !is_there(p.poster_file, p.output);
+    }
+
+    void look_at(const std::string& file, std::size_t output) {
+        if (is_there(file, output)) found_.known.finished.insert(output);
+    }
+
+    void look_at_figure(const FigureFile& f) {
+        const auto files = files_of(std::get<FigureOutput>(scene_.outputs[f.output]));
+        if (std::ranges::all_of(files, [&](const std::string& file) { return is_there(file, f.output); }))
+            found_.known.finished.insert(f.output);
+    }
+
+    void look_at_frames(const Pictures& p) {
+        std::set<long> there;
+        if (!p.settled) {  // how many there are only the impacts tell
+            there = frames_there(p);
+            if (!there.empty()) found_.known.frames[p.output] = std::move(there);
+            return;
+        }
+        for (int k : p.draw)
+            if (const long number = p.first_frame + k; is_there(numbered_file(p.file, number), p.output))
+                there.insert(number);
+        if (there.size() == p.draw.size())
+            found_.known.finished.insert(p.output);
+        else if (!there.empty())
+            found_.known.frames[p.output] = std::move(there);
+    }
+
+    // Of all numbers.
+    std::set<long> frames_there(const Pictures& p) {
+        std::set<long> there;
+        const fs::path pattern = p.file, folder = place_of(directory_, pattern.parent_path().string());
+        std::error_code failed;  // no folder, no frames
+        for (fs::directory_iterator at(folder.empty() ? "." : folder, failed), end; !failed && at != end;
+             at.increment(failed))
+            if (const auto number = number_of(pattern.filename().string(), at->path().filename().string());
+                number && is_there(numbered_file(p.file, *number), p.output))
+                there.insert(*number);
+        return there;
+    }
+
+    const Scene& scene_;
+    const Plan whole_;
+    const std::string& directory_;
+    output::Manifest& manifest_;
+    Survey found_;
+};
+
+}  // namespace
+
+Survey survey(const Scene& scene, const Ask& ask, const std::string& directory, output::Manifest& manifest,
+              const Cache* cache, bool afresh) {
+    return Surveyor(scene, ask, directory, manifest).look(cache, afresh);
+}
+
+fs::path place_of(const std::string& directory, const std::string& file) {
+    return directory.empty() ? fs::path(file) : fs::path(directory) / file;
+}
+
+std::optional<Cache> open_cache(bool no_cache) {
+    const auto directory = no_cache ? std::nullopt : cache_directory();
+    return directory ? std::optional<Cache>(std::in_place, *directory, cache_limit()) : std::nullopt;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,85 @@
+// A file of baselines: what is to be rendered and simulated again, and which pixels and motion are expected.
+//
+//     { "references": "golden", "tolerance": {…},
+//       "entries": { "fall": { "scene": "fall.json", "set": ["cam.speed=5"], "output": {"type": "still", "at": 0.3},
+//                              "tolerance": {…}, "reproducible_until": 0.3,
+//                              "accepted": [{"renderer": "0123456789ab", "sha256": ["…"]}] } },
+//       "renderers": { "0123456789ab": {"cairo": "1.16.0", …} } }
+//
+// The format is that of scenes (comments, trailing commas, places in messages); beamcam-baselines.schema.json describes
+// it key by key. `accepted`, `reproducible_until` and `renderers` are written by the program, into the text as people
+// wrote it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/format/source.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+
+// What is still "equivalent". Absent: the entry's default.
+struct Tolerance {
+    std::optional<int> channel;     // of a pixel, 0…255; default 0 for flat views and figures, 2 for lit views
+    std::optional<double> share;    // of the pixels that may differ by more, 0…1; default 0
+    std::optional<double> motion;   // of a channel's range, up to the reproducible horizon; default 2e-5
+    std::optional<double> impacts;  // of an impact's quantities; its times to that share of a millisecond; default 1e-4
+
+    // `over`, where it says something, else this.
+    Tolerance overridden_by(const Tolerance& over) const;
+};
+
+// Pixels that one kind of machine makes, and that are right.
+struct Accepted {
+    std::string renderer;             // a fingerprint's id
+    std::vector<std::string> sha256;  // one a picture
+};
+
+struct Baseline {
+    std::string name;  // also of its folder among the references
+    Scene scene;       // with the one output of the entry
+    Tolerance tolerance;
+    bool physics = true;  // false: only the picture is guarded
+    std::vector<Accepted> accepted;
+    std::optional<double> reproducible_until;  // [s]
+    // Why the scene or its output cannot be read, with its place; then the entry has a name only. Empty: it can.
+    std::string problem;
+
+    bool has_pictures() const;
+    const Output& output() const { return scene.outputs.front(); }
+};
+
+using RendererParts = std::map<std::string, std::string>;
+
+struct Baselines {
+    Source source;
+    std::filesystem::path references;  // folder of reference pictures and motions
+    std::vector<Baseline> entries;     // in the order of the file
+    std::map<std::string, RendererParts> renderers;
+};
+
+// Throws SceneError with every issue at once, UnreadableFile.
+Baselines read_baselines(const std::string& path);
+
+// `key=value` of --tolerance. Throws UsageError.
+void apply_tolerance(Tolerance& tolerance, const std::string& text);
+
+// ---- writing -------------------------------------------------------------------------------------
+
+// What changes in one entry.
+struct BaselineEdit {
+    std::string name;
+    std::vector<Accepted> accepted;
+    std::optional<double> reproducible_until;
+};
+// The text with these entries changed and every other byte left as it was, but for "renderers", which lists those that
+// some entry names.
+std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& edits,
+                   const std::map<std::string, RendererParts>& renderers);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,219 @@
+#include "scenes/regression/motion_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "output/data/records.hpp"
+#include "output/data/tables.hpp"
+#include "output/files/atomic_file.hpp"
+#include "scenes/format/tree.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSteps = 200;              // of a picture's motion: 13 kB a file
+constexpr double kTimeScale = 1e-3;      // [s]: a usual contact's duration; times are compared to a share of it
+constexpr double kSmallestShare = 0.01;  // of a quantity's largest value: below it relative differences mean nothing
+constexpr std::size_t kMostLines = 4;
+
+// ---- impacts as text and back ----------------------------------------------------------------------
+
+std::string impacts_text(const std::vector<sim::Impact>& impacts, double until) {
+    sim::Result some;
+    for (sim::Impact impact : impacts) {
+        if (impact.t_start > until) continue;
+        if (!impact.t_end || *impact.t_end > until) {  // the same, however long the run was
+            impact.t_end = impact.v_n_after = impact.v_t_after = impact.duration = impact.restitution = std::nullopt;
+            impact.force_peak = impact.penetration_peak = impact.impulse_n = impact.impulse_t = impact.energy_lost = 0;
+        }
+        some.impacts.push_back(impact);
+    }
+    return output::impacts_json(some);
+}
+
+std::optional<std::vector<ImpactFields>> parse_impacts(const std::string& text) {
+    const Parsed parsed = parse(text);
+    const Member* list = parsed.is_json ? parsed.root.find("impacts") : nullptr;
+    if (!list || list->value.kind != Node::Kind::array) return std::nullopt;
+    std::vector<ImpactFields> impacts;
+    for (const Node& item : list->value.items) {
+        ImpactFields fields;
+        for (const Member& member : item.members) {
+            const bool number = member.value.kind == Node::Kind::number;
+            fields.emplace_back(member.key, number ? std::optional(member.value.number) : std::nullopt);
+        }
+        impacts.push_back(std::move(fields));
+    }
+    return impacts;
+}
+
+std::optional<double> field(const ImpactFields& impact, std::string_view key) {
+    for (const auto& [name, value] : impact)
+        if (name == key) return value;
+    return std::nullopt;
+}
+
+bool is_time(std::string_view key) { return key == "t_start" || key == "t_end"; }
+
+// ---- comparing -------------------------------------------------------------------------------------
+
+struct Finding {
+    double excess;  // multiples of the tolerance
+    std::string line;
+};
+
+class Comparer {
+  public:
+    Comparer(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance, double horizon)
+        : expected_(expected), actual_(actual), tolerance_(tolerance), horizon_(horizon) {}
+
+    MotionVerdict compare() {
+        compare_tables();
+        compare_impacts();
+        MotionVerdict result;
+        if (identical_) return result;
+        std::stable_sort(findings_.begin(), findings_.end(),
+                         [](const Finding& a, const Finding& b) { return a.excess > b.excess; });
+        const bool differs = !findings_.empty() && findings_.front().excess > 1;
+        result.verdict = differs ? Verdict::different : Verdict::equivalent;
+        for (const Finding& finding : findings_)
+            if (result.lines.size() < kMostLines && (finding.excess > 1 || !differs))
+                result.lines.push_back(finding.line);
+        if (result.lines.empty())
+            result.lines.push_back(fmt::format("only beyond the reproducible horizon of {:.4g} s", horizon_));
+        return result;
+    }
+
+  private:
+    void find(double excess, std::string line) { findings_.push_back({excess, std::move(line)}); }
+
+    void compare_tables() {
+        const output::TableDifference whole = output::difference(expected_.table, actual_.table);
+        if (whole.identical()) return;
+        identical_ = false;
+        if (!whole.same_shape())
+            find(INFINITY, fmt::format("the recorded table became another: {} rows and {} columns, expected {} and {}",
+                                       actual_.table.rows(), actual_.table.names.size(), expected_.table.rows(),
+                                       expected_.table.names.size()));
+        for (const output::ColumnDifference& c : output::difference(expected_.table, actual_.table, horizon_).columns) {
+            if (c.undefined > 0) find(INFINITY, fmt::format("{}: {} values appeared or vanished", c.name, c.undefined));
+            if (c.largest == 0) continue;
+            find(
+                c.share / std::max(*tolerance_.motion, 1e-300),
+                fmt::format("{} differs by {:.2g} at {:.4g} s ({:.2g} of its range)", c.name, c.largest, c.t, c.share));
+        }
+    }
+
+    void compare_impacts() {
+        const auto &a = expected_.impacts, &b = actual_.impacts;
+        if (a != b) identical_ = false;
+        for (const ImpactFields& impact : a)
+            for (const auto& [key, value] : impact)
+                if (value) largest_[key] = std::max(largest_[key], std::abs(*value));
+        const std::size_t before = reproducible(a), after = reproducible(b);
+        for (std::size_t i = 0; i < std::min(before, after); ++i) compare_impact(i, before, a[i], b[i]);
+        if (before == after) return;
+        // At the very horizon an impact may come a little before it in one run and a little after in the other.
+        const ImpactFields& odd = before > after ? a[after] : b[before];
+        const double t = field(odd, "t_start").value_or(0);
+        if (std::abs(t - horizon_) <= kTimeScale) return;
+        find(INFINITY, fmt::format("{} impacts became {}: the one at {:.6g} s {}", before, after, t,
+                                   before > after ? "is lost" : "is new"));
+    }
+
+    std::size_t reproducible(const std::vector<ImpactFields>& impacts) const {
+        return static_cast<std::size_t>(std::count_if(impacts.begin(), impacts.end(), [&](const ImpactFields& impact) {
+            return field(impact, "t_start").value_or(INFINITY) <= horizon_;
+        }));
+    }
+
+    void compare_impact(std::size_t index, std::size_t count, const ImpactFields& a, const ImpactFields& b) {
+        double excess = 0;
+        std::string worst;
+        for (const auto& [key, expected] : a) {
+            const std::optional<double> actual = field(b, key);
+            if (expected == actual) continue;
+            const bool late = key == "t_end" || key.ends_with("_after") || key == "duration" || key == "restitution";
+            if (late && field(a, "t_end").value_or(0) > horizon_) continue;
+            if (!expected || !actual) {
+                excess = INFINITY;
+                worst = fmt::format("{} {}", key, expected ? "is not there any more" : "was not there");
+                continue;
+            }
+            const double scale =
+                is_time(key) ? kTimeScale : std::max(std::abs(*expected), kSmallestShare * largest_[key]);
+            const double share = scale > 0 ? std::abs(*actual - *expected) / scale : INFINITY;
+            if (share / std::max(*tolerance_.impacts, 1e-300) <= excess) continue;
+            excess = share / std::max(*tolerance_.impacts, 1e-300);
+            worst = is_time(key)
+                        ? fmt::format("{} {:.9g} → {:.9g} s ({:+.2g} s)", key, *expected, *actual, *actual - *expected)
+                        : fmt::format("{} {:.6g} → {:.6g} ({:+.2g} %)", key, *expected, *actual,
+                                      100 * (*actual - *expected) / scale);
+        }
+        if (excess > 0)
+            find(excess, fmt::format("impact {} of {} at {:.6g} s: {}", index + 1, count,
+                                     field(a, "t_start").value_or(0), worst));
+    }
+
+    const MotionRecord &expected_, &actual_;
+    const Tolerance& tolerance_;
+    double horizon_;
+    bool identical_ = true;
+    std::vector<Finding> findings_;
+    std::map<std::string, double> largest_;  // magnitude of each quantity over the expected impacts
+};
+
+}  // namespace
+
+sim::TableRequest motion_behind_picture(const sim::Problem& problem, double until) {
+    sim::TableRequest table;
+    table.channels = {{sim::ChannelKind::t, 0}, {sim::ChannelKind::theta, 0}};
+    if (problem.beam.model != sim::ModelKind::rigid) table.channels.push_back({sim::ChannelKind::tip_deflection, 0});
+    for (int k = 0; k <= kSteps && (until > 0 || k == 0); ++k) table.times.push_back(until * k / kSteps);
+    return table;
+}
+
+MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
+    MotionRecord record;
+    for (const sim::Channel& channel : table.channels) record.table.names.push_back(name(channel));
+    record.table.columns = table.values;
+    record.impacts = *parse_impacts(impacts_text(impacts, until));
+    return record;
+}
+
+RecordNames::RecordNames(std::size_t motion)
+    : table(motion == 0 ? "motion.csv" : fmt::format("motion-{}.csv", motion)),
+      impacts(motion == 0 ? "impacts.json" : fmt::format("impacts-{}.json", motion)) {}
+
+void write_record(const fs::path& folder, const RecordNames& names, const sim::Table& table,
+                  const std::vector<sim::Impact>& impacts, double until) {
+    output::write_csv(folder / names.table, table);
+    output::write_file(folder / names.impacts, impacts_text(impacts, until));
+}
+
+std::optional<MotionRecord> read_record(const fs::path& folder, const RecordNames& names) {
+    if (!output::is_there(folder / names.table) || !output::is_there(folder / names.impacts)) return std::nullopt;
+    MotionRecord record;
+    record.table = output::read_table(folder / names.table);
+    auto impacts = parse_impacts(output::read_file(folder / names.impacts));
+    if (!impacts)
+        throw output::IoError(
+            fmt::format("cannot read {}: it is no list of impacts, or it is damaged; restore it, or make "
+                        "it again with --update",
+                        (folder / names.impacts).string()));
+    record.impacts = std::move(*impacts);
+    return record;
+}
+
+MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance,
+                      double horizon) {
+    return Comparer(expected, actual, tolerance, horizon).compare();
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,302 @@
+#include "scenes/regression/references.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/sha256.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kMarker = ".beamcam-reference", *kMarkerFormat = "beamcam reference 1";
+constexpr const char *kStaging = ".beamcam-update", *kUpdateFormat = "beamcam update 1";
+constexpr const char *kTasks = "tasks", *kText = "baselines.json", *kNew = "new";
+
+[[noreturn]] void refuse(const fs::path& file, const char* why) {
+    throw output::WouldOverwrite(
+        fmt::format("{} {}; move it, or replace what stands there with --force", file.string(), why));
+}
+
+// Empty when there is no file.
+std::string digest_of(const fs::path& file) {
+    return output::is_there(file) ? output::sha256_of_file(file) : std::string();
+}
+
+void remove_file(const fs::path& file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw output::write_error(file, error.value());
+}
+
+// The lines behind a first one that names the format. Their last word may hold spaces.
+std::vector<std::istringstream> lines_of(const fs::path& file, const char* format) {
+    std::istringstream text(output::read_file(file));
+    std::string line;
+    if (!std::getline(text, line) || line != format)
+        throw output::IoError(fmt::format("cannot read {}: it is damaged; restore it or remove it", file.string()));
+    std::vector<std::istringstream> lines;
+    while (std::getline(text, line)) lines.emplace_back(line);
+    return lines;
+}
+
+std::string word_of(std::istringstream& line) {
+    std::string word;
+    line >> word;
+    return word == "-" ? std::string() : word;
+}
+std::string rest_of(std::istringstream& line) {
+    std::string rest;
+    std::getline(line >> std::ws, rest);
+    return rest;
+}
+const char* word(const std::string& digest) { return digest.empty() ? "-" : digest.c_str(); }
+
+std::string marker_text(const ReferenceFiles& files) {
+    std::string text = fmt::format("{}\n", kMarkerFormat);
+    for (const auto& [name, file] : files) text += fmt::format("{} {} {}\n", file.sha256, word(file.pixels), name);
+    return text;
+}
+
+bool is_file_name(const std::string& name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder))
+        names.push_back(file.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// ---- what an update has to do ----------------------------------------------------------------------
+
+using Task = ReferenceUpdate::Task;
+
+struct Tasks {
+    fs::path baselines;         // relative to the references
+    std::string before, after;  // digests of the baselines
+    std::vector<Task> files;
+};
+
+std::string text_of(const Tasks& tasks) {
+    std::string text =
+        fmt::format("{}\n{} {} {}\n", kUpdateFormat, tasks.before, tasks.after, tasks.baselines.string());
+    for (const Task& task : tasks.files)
+        text += fmt::format("{} {} {}/{}\n", word(task.before), word(task.after), task.entry, task.name);
+    return text;
+}
+
+Tasks read_tasks(const fs::path& list) {
+    Tasks tasks;
+    for (std::istringstream& line : lines_of(list, kUpdateFormat)) {
+        const std::string before = word_of(line), after = word_of(line);
+        if (tasks.after.empty()) {
+            tasks.before = before, tasks.after = after, tasks.baselines = rest_of(line);
+        } else {
+            const fs::path file = rest_of(line);  // entry/name
+            const std::string entry = file.parent_path().string(), name = file.filename().string();
+            if (is_file_name(entry) && is_file_name(name)) tasks.files.push_back({entry, name, before, after});
+        }
+    }
+    return tasks;
+}
+
+// Carries out what a staging folder lists; whatever is done already is left out.
+class Carrier {
+  public:
+    Carrier(const fs::path& references, output::Journal& journal)
+        : references_(references),
+          staging_(references / kStaging),
+          journal_(journal),
+          tasks_(read_tasks(staging_ / kTasks)),
+          baselines_((references_ / tasks_.baselines).lexically_normal()) {}
+
+    const fs::path& baselines() const { return baselines_; }
+
+    void carry_out() {
+        write_baselines();
+        for (const Task& task : tasks_.files) carry_out(task);
+    }
+
+  private:
+    [[noreturn]] void give_up(const fs::path& file) const {
+        throw output::WouldOverwrite(
+            fmt::format("{} was changed while an update of the references was interrupted; restore it, or remove {} to "
+                        "give the update up",
+                        file.string(), staging_.string()));
+    }
+
+    // They come first: as long as their new text is in the staging folder, no reference is changed.
+    void write_baselines() {
+        const fs::path text = staging_ / kText;
+        if (!output::is_there(text)) return;
+        const std::string now = digest_of(baselines_);
+        if (now != tasks_.before && now != tasks_.after) give_up(baselines_);
+        if (now != tasks_.after) {
+            output::Target target(baselines_);
+            target.before_creation = [this](const fs::path& temporary) {
+                journal_.add(output::journal_line(temporary.filename().string()));
+            };
+            output::write_file(target, output::read_file(text));
+        }
+        remove_file(text);
+    }
+
+    void carry_out(const Task& task) {
+        const fs::path folder = references_ / task.entry, file = folder / task.name,
+                       source = staging_ / kNew / task.entry / task.name;
+        const std::string now = digest_of(file);
+        if (now == task.after) return;
+        if (now != task.before) {
+            if (task.after.empty()) return;  // it is the user's now
+            give_up(file);
+        }
+        if (task.after.empty()) return remove_file(file);
+        output::ensure_directory(folder);
+        std::error_code error;
+        fs::rename(source, file, error);
+        if (error) throw output::write_error(file, error.value());
+    }
+
+    const fs::path references_, staging_;
+    output::Journal& journal_;
+    const Tasks tasks_;
+    const fs::path baselines_;
+};
+
+// Ours by the journal in it, or empty, as between two system calls of a run that was killed.
+bool is_own_staging(const fs::path& staging) { return !output::journals_in(staging).empty() || fs::is_empty(staging); }
+
+// The journals go last: they mark the folder as beamcam's own until nothing else is in it.
+void remove_staging(const fs::path& staging, std::error_code& error) {
+    const std::vector<fs::path> journals = output::journals_in(staging);
+    std::vector<fs::path> others;
+    for (fs::directory_iterator at(staging, error), end; !error && at != end; at.increment(error))
+        if (std::find(journals.begin(), journals.end(), at->path()) == journals.end()) others.push_back(at->path());
+    for (auto other = others.begin(); !error && other != others.end(); ++other) fs::remove_all(*other, error);
+    if (!error) fs::remove_all(staging, error);
+}
+
+void remove_staging(const fs::path& staging) {
+    std::error_code error;
+    remove_staging(staging, error);
+    if (error) throw output::write_error(staging, error.value());
+}
+
+}  // namespace
+
+std::optional<ReferenceFiles> marked_files(const fs::path& folder) {
+    if (!output::is_there(folder / kMarker)) return std::nullopt;
+    ReferenceFiles files;
+    for (std::istringstream& line : lines_of(folder / kMarker, kMarkerFormat)) {
+        const ReferenceFile file{word_of(line), word_of(line)};
+        if (const std::string name = rest_of(line); is_file_name(name)) files[name] = file;
+    }
+    return files;
+}
+
+std::string ReferenceUpdate::recover(const fs::path& references) {
+    const fs::path staging = references / kStaging;
+    if (!output::is_there(staging)) return {};
+    const output::DirectoryLock lock(references);
+    if (!output::is_there(staging)) return {};
+    if (!is_own_staging(staging))
+        throw output::WouldOverwrite(
+            fmt::format("{} is not beamcam's own; move it, updates need that name", staging.string()));
+    const std::vector<fs::path> journals = output::journals_in(staging);
+    if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // it is under way
+    const bool listed = output::is_there(staging / kTasks);
+    if (listed) {
+        output::Journal own(staging);
+        Carrier carrier(references, own);
+        for (const fs::path& journal : journals)
+            output::remove_temporaries(carrier.baselines().parent_path(),
+                                       output::parse_journal(output::read_file(journal)));
+        carrier.carry_out();
+    }
+    remove_staging(staging);
+    return listed ? "completed an update of the references that was interrupted"
+                  : "removed an update of the references that was interrupted";
+}
+
+ReferenceUpdate::ReferenceUpdate(fs::path baselines, fs::path references, bool force)
+    : baselines_(std::move(baselines)),
+      references_(std::move(references)),
+      staging_(references_ / kStaging),
+      force_(force) {
+    output::ensure_directory(references_);
+    const output::DirectoryLock lock(references_);
+    if (output::is_there(staging_) && !fs::is_empty(staging_))
+        throw output::IoError(fmt::format("another update of {} is under way", references_.string()));
+    output::ensure_directory(staging_);
+    journal_ = std::make_unique<output::Journal>(staging_);
+}
+
+ReferenceUpdate::~ReferenceUpdate() {
+    // What is listed has to be completed, by the next run if this one could not.
+    std::error_code ignored;
+    if (!fs::exists(staging_ / kTasks, ignored)) remove_staging(staging_, ignored);
+}
+
+fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNew / entry; }
+
+fs::path ReferenceUpdate::begin(const std::string& entry) {
+    const fs::path folder = folder_of(entry);
+    std::error_code error;
+    if (fs::is_symlink(folder, error)) refuse(folder, "is a symbolic link");
+    if (output::is_there(folder)) {
+        if (!fs::is_directory(folder)) refuse(folder, "is no folder");
+        const auto marked = marked_files(folder);
+        if (!marked && !force_ && !fs::is_empty(folder))
+            refuse(folder, "is not a folder of references that beamcam made");
+        for (const auto& [name, file] : marked.value_or(ReferenceFiles{}))
+            if (const std::string now = digest_of(folder / name); !force_ && !now.empty() && now != file.sha256)
+                refuse(folder / name, "was changed after beamcam made it");
+    }
+    output::ensure_directory(staged(entry));
+    entries_.push_back(entry);
+    return staged(entry);
+}
+
+void ReferenceUpdate::drop(const std::string& entry) { std::erase(entries_, entry); }
+
+void ReferenceUpdate::commit(const std::string& expected, const std::string& text,
+                             const std::map<std::string, std::map<std::string, std::string>>& pixels) {
+    Tasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
+    for (const std::string& entry : entries_) add_tasks(entry, pixels.at(entry), tasks.files);
+    if (output::read_file(baselines_) != expected) refuse(baselines_, "was changed during the update");
+    output::write_file(staging_ / kText, text);
+    output::write_file(staging_ / kTasks, text_of(tasks));
+    Carrier(references_, *journal_).carry_out();
+    remove_staging(staging_);
+}
+
+void ReferenceUpdate::add_tasks(const std::string& entry, const std::map<std::string, std::string>& pixels,
+                                std::vector<Task>& tasks) const {
+    const fs::path folder = folder_of(entry), fresh_folder = staged(entry);
+    const ReferenceFiles old = marked_files(folder).value_or(ReferenceFiles{});
+    ReferenceFiles fresh;
+    for (const std::string& name : files_in(fresh_folder)) {
+        const auto picture = pixels.find(name);
+        fresh[name] = {output::sha256_of_file(fresh_folder / name),
+                       picture == pixels.end() ? std::string() : picture->second};
+        const std::string now = digest_of(folder / name);
+        if (!now.empty() && !force_ && !old.contains(name)) refuse(folder / name, "was not made by beamcam");
+        tasks.push_back({entry, name, now, fresh[name].sha256});
+    }
+    for (const auto& [name, file] : old)
+        if (!fresh.contains(name)) tasks.push_back({entry, name, file.sha256, ""});
+    const std::string marker = marker_text(fresh);
+    output::write_file(fresh_folder / kMarker, marker);
+    tasks.push_back({entry, kMarker, digest_of(folder / kMarker), output::sha256(marker)});
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,640 @@
+#include "scenes/regression/regression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <mutex>
+
+#include "output/data/manifest.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/files/sha256.hpp"
+#include "output/files/standard_output.hpp"
+#include "output/image/png.hpp"
+#include "output/image/png_reader.hpp"
+#include "render/base/error.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/motions/fingerprint.hpp"
+#include "scenes/outputs/capture.hpp"
+#include "scenes/regression/motion_record.hpp"
+#include "scenes/regression/references.hpp"
+#include "scenes/scene/exit_code.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
+
+enum class Drawn { flat, lit, figure };
+
+Drawn drawn(const Baseline& entry) {
+    const auto by_style = [](const render::View& view) {
+        return view.style == render::Style::flat ? Drawn::flat : Drawn::lit;
+    };
+    if (const auto* still = std::get_if<StillOutput>(&entry.output())) return by_style(still->view);
+    if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) return by_style(frames->view);
+    return std::holds_alternative<FigureOutput>(entry.output()) ? Drawn::figure : Drawn::flat;
+}
+
+Fingerprint fingerprint_of(Drawn how) {
+    switch (how) {
+        case Drawn::flat:
+            return flat_fingerprint();
+        case Drawn::lit:
+            return lit_fingerprint();
+        case Drawn::figure:
+            return figure_fingerprint();
+    }
+    throw std::logic_error("a way of drawing that has no fingerprint");
+}
+
+std::string describe(const sim::SolverError& error) {
+    return fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what());
+}
+
+// ---- one entry ---------------------------------------------------------------------------------------
+
+class EntryTest {
+  public:
+    // `update`: null when references stay as they are.
+    EntryTest(const Baselines& baselines, const Baseline& entry, const RegressionOptions& options, EntryResult& result,
+              output::Manifest& report_files, ReferenceUpdate* update)
+        : entry_(entry),
+          options_(options),
+          result_(result),
+          report_files_(report_files),
+          update_(update),
+          tolerance_(entry.tolerance.overridden_by(options.tolerance)),
+          folder_(baselines.references / entry.name) {
+        if (entry.has_pictures()) result_.picture = Verdict::identical;
+        if (entry.physics || !entry.has_pictures()) result_.motion = Verdict::identical;
+        if (update_) fresh_ = update_->begin(entry.name);
+    }
+
+    const Baseline& entry() const { return entry_; }
+    bool asks_for_motion() const { return result_.motion.has_value(); }
+    void ask_for_no_motion() { result_.motion.reset(); }
+    bool is_updated() const { return fresh_.has_value(); }
+    EntryResult& result() { return result_; }
+
+    void judge_motion(const sim::Table& all, const std::vector<sim::Impact>& impacts, double until,
+                      std::optional<double> reproducible_until) {
+        const sim::Table table = without_residuals(all);
+        if (fresh_) {
+            write_record(*fresh_, RecordNames(0), table, impacts, until);
+            horizon_ = std::min(until, reproducible_until.value_or(until));
+        }
+        judge_record(RecordNames(0), "", record_of(table, impacts, until), entry_.reproducible_until.value_or(until));
+    }
+
+    // What is recorded of a motion that the picture compares: as far as it was reproducible when it was accepted.
+    sim::TableRequest motion_compared(std::size_t index, const sim::Problem& problem, double until) const {
+        sim::TableRequest request = motion_behind_picture(problem, until);
+        if (is_updated()) return request;
+        if (const auto expected = read_record(folder_, RecordNames(index + 1)))
+            if (const std::vector<double>* t = expected->table.find("t")) request.times = *t;
+        return request;
+    }
+    void judge_compared(std::size_t index, const std::string& label, sim::Table table,
+                        const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until) {
+        const RecordNames names(index + 1);
+        if (fresh_) {
+            if (reproducible_until) cut(table, *reproducible_until);
+            write_record(*fresh_, names, table, impacts, table.values.front().back());
+        }
+        const double until = table.values.front().back();
+        judge_record(names, label + ": ", record_of(table, impacts, until), until);
+    }
+
+    // From any thread.
+    void judge_picture(long frame, const render::Image& image) {
+        thread_local output::Raster raster;
+        output::to_raster(image, raster);
+        FrameResult found;
+        found.sha256 = output::digest(raster);
+        const bool accepted = is_accepted(frame, found.sha256);
+        if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
+        with_old_reference([&] {
+            if (!accepted)
+                compare_with_reference(frame, raster, found);
+            else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
+                found.verdict = Verdict::different;
+        });
+        if (fresh_) output::write_png(*fresh_ / picture_name(frame), image);
+        const std::lock_guard lock(mutex_);
+        result_.frames[frame] = std::move(found);
+    }
+
+    void finish() {
+        if (result_.picture) conclude_pictures();
+    }
+
+    // There is nothing to judge. `exit_code`: what the program is to end with.
+    void make_impossible(const std::string& why, Verdict verdict = Verdict::different, int exit_code = kDiffers) {
+        if (result_.picture) result_.picture = verdict;
+        if (result_.motion) result_.motion = verdict;
+        (result_.motion ? result_.motion_lines : result_.picture_lines) = {why};
+        result_.exit_code = exit_code;
+        if (fresh_) update_->drop(entry_.name);
+        fresh_.reset();
+    }
+
+    // Does some work; what fails costs this entry alone. False: it has failed.
+    bool attempt(const std::function<void()>& work) {
+        try {
+            work();
+            return true;
+        } catch (const sim::SolverError& error) {  // such as one of a variant that a figure compares the scene with
+            make_impossible(describe(error));
+        } catch (const render::PictureError& error) {  // such as an impact that there is no more
+            make_impossible(error.what());
+        } catch (const output::IoError& error) {  // such as a damaged reference
+            make_impossible(error.what(), Verdict::missing, kInputOutput);
+        } catch (const fs::filesystem_error& error) {
+            make_impossible(output::io_error(error).what(), Verdict::missing, kInputOutput);
+        }
+        return false;
+    }
+
+    // Nothing is accepted yet of the renderer that drew the pictures, and nothing else is wrong with the entry.
+    bool differs_by_renderer(const std::string& renderer) const {
+        const auto is_fine = [](const auto& each) { return each.second.reference_accepted; };
+        return result_.picture == Verdict::different && result_.exit_code == 0 &&
+               result_.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
+               std::ranges::all_of(result_.frames, is_fine) && !entry_.accepted.empty() &&
+               entry_.accepted.front().sha256.size() == result_.frames.size() &&
+               std::ranges::none_of(entry_.accepted, [&](const Accepted& a) { return a.renderer == renderer; });
+    }
+    void tell_of_renderer(const std::string& renderer) {
+        if (!options_.add_digest && differs_by_renderer(renderer))
+            result_.picture_lines.push_back(fmt::format(
+                "nothing is accepted yet of this renderer, {} (beamcam doctor); look at the picture, and --add-digest",
+                renderer));
+    }
+
+    // What the baselines file is to say, when this entry changes it.
+    std::optional<BaselineEdit> edit(const std::string& renderer) {
+        BaselineEdit change{entry_.name, entry_.accepted, entry_.reproducible_until};
+        if (fresh_) {
+            change.accepted.clear();
+            if (result_.picture) change.accepted.push_back(digests(renderer));
+            if (result_.motion) change.reproducible_until = horizon_;
+            result_.updated = true;
+            return change;
+        }
+        if (!options_.add_digest || (result_.picture != Verdict::equivalent && !differs_by_renderer(renderer)))
+            return std::nullopt;
+        change.accepted.push_back(digests(renderer));
+        result_.digest_added = true;
+        return change;
+    }
+
+    // Digests of the new reference pictures by file name.
+    std::map<std::string, std::string> new_pictures() const {
+        std::map<std::string, std::string> all;
+        for (const auto& [frame, found] : result_.frames) all[picture_name(frame)] = found.sha256;
+        return all;
+    }
+
+  private:
+    // Reads what may be damaged; then an update replaces it.
+    void with_old_reference(const std::function<void()>& work) const {
+        try {
+            work();
+        } catch (const output::IoError&) {
+            if (!fresh_) throw;
+        }
+    }
+
+    // A table of all channels holds an error of the solver, which no two solvers share.
+    sim::Table without_residuals(const sim::Table& table) const {
+        const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output());
+        if (!asked || !asked->channels.empty()) return table;
+        sim::Table kept;
+        for (std::size_t i = 0; i < table.channels.size(); ++i)
+            if (table.channels[i].kind != sim::ChannelKind::energy_residual) {
+                kept.channels.push_back(table.channels[i]);
+                kept.values.push_back(table.values[i]);
+            }
+        return kept;
+    }
+
+    // The rows up to `until`; the first one stays.
+    static void cut(sim::Table& table, double until) {
+        const std::vector<double>& t = table.values.front();
+        const auto kept = std::max<std::ptrdiff_t>(1, std::upper_bound(t.begin(), t.end(), until) - t.begin());
+        for (std::vector<double>& column : table.values) column.resize(static_cast<std::size_t>(kept));
+    }
+
+    void judge_record(const RecordNames& names, const std::string& label, const MotionRecord& actual, double horizon) {
+        std::vector<std::string>& lines = result_.motion_lines;
+        std::optional<MotionRecord> expected;
+        with_old_reference([&] { expected = read_record(folder_, names); });
+        if (!expected) {
+            result_.motion = Verdict::missing;
+            lines.push_back(fmt::format("{}no motion is kept in {}", label, folder_.string()));
+            return;
+        }
+        if (const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output()); asked && asked->channels.empty())
+            remove_column(expected->table, "energy_residual");
+        const MotionVerdict found = compare(*expected, actual, tolerance_, horizon);
+        result_.motion = worse(*result_.motion, found.verdict);
+        for (const std::string& line : found.lines) lines.push_back(label + line);
+        for (const std::string& name : {names.table, names.impacts})
+            if (!is_as_marked(name)) {
+                result_.motion = worse(*result_.motion, Verdict::different);
+                lines.push_back(fmt::format("{} is not what --update put there", (folder_ / name).string()));
+            }
+    }
+
+    static void remove_column(output::NamedTable& table, std::string_view name) {
+        const auto at = std::find(table.names.begin(), table.names.end(), name);
+        if (at == table.names.end()) return;
+        table.columns.erase(table.columns.begin() + (at - table.names.begin()));
+        table.names.erase(at);
+    }
+
+    bool is_accepted(long frame, const std::string& digest) const {
+        return std::any_of(entry_.accepted.begin(), entry_.accepted.end(), [&](const Accepted& accepted) {
+            const auto at = static_cast<std::size_t>(frame);
+            return at < accepted.sha256.size() && accepted.sha256[at] == digest;
+        });
+    }
+
+    const ReferenceFile* marked(const std::string& name) const {
+        const auto file = marked_.find(name);
+        return file == marked_.end() ? nullptr : &file->second;
+    }
+    // Folders that were made before there were markers tell nothing.
+    bool is_as_marked(const std::string& name) const {
+        const ReferenceFile* file = marked(name);
+        return marked_.empty() || (file && output::sha256_of_file(folder_ / name) == file->sha256);
+    }
+
+    // The reference picture belongs to one of the accepted digests, or there is none.
+    bool is_reference_accepted(long frame) const {
+        const std::string name = picture_name(frame);
+        if (!output::is_there(folder_ / name)) return true;
+        const ReferenceFile* file = marked(name);
+        const bool as_marked = file && output::sha256_of_file(folder_ / name) == file->sha256;
+        return is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(folder_ / name)));
+    }
+
+    void compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
+        const fs::path reference = folder_ / picture_name(frame);
+        if (!output::is_there(reference)) return write_actual(frame, actual, found);
+        const output::Raster expected = output::read_png(reference);
+        found.expected = reference;
+        found.compared = true;
+        found.reference_accepted = entry_.accepted.empty() || is_accepted(frame, output::digest(expected));
+        found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
+        const bool near =
+            found.comparison.same_size() && found.comparison.difference.share() <= tolerance_.share.value_or(0);
+        if (near && found.reference_accepted && !entry_.accepted.empty()) found.verdict = Verdict::equivalent;
+        write_difference(frame, expected, actual, found);
+    }
+
+    void write_actual(long frame, const output::Raster& actual, FrameResult& found) {
+        if (!options_.report) return;
+        found.actual = put(frame, "actual", actual);
+    }
+    void write_difference(long frame, const output::Raster& expected, const output::Raster& actual,
+                          FrameResult& found) {
+        if (!options_.report) return;
+        found.actual = put(frame, "actual", actual);
+        if (!found.comparison.same_size()) return;
+        const int threshold = found.comparison.difference.changed > 0 ? tolerance_.channel.value_or(0) : 0;
+        found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
+    }
+    fs::path put(long frame, const char* what, const output::Raster& picture) {
+        fs::path file = *options_.report / entry_.name / fmt::format("{:04}-{}.png", frame, what);
+        const std::string bytes = output::encode_png(output::to_image(picture));
+        output::require_within(file, *options_.report);
+        output::ensure_directory(file.parent_path());
+        output::Target target = report_files_.target(file);
+        target.within = *options_.report;
+        output::write_file(target, bytes, output::Durability::buffered);
+        return file;
+    }
+
+    void conclude_pictures() {
+        Verdict verdict = Verdict::identical;
+        for (const auto& [frame, found] : result_.frames) verdict = worse(verdict, found.verdict);
+        if (entry_.accepted.empty()) {
+            result_.picture_lines = {
+                fmt::format("no digest is accepted yet; look at the picture and --update {}", entry_.name)};
+            verdict = Verdict::missing;
+        } else if (const std::size_t count = entry_.accepted.front().sha256.size(); count != result_.frames.size()) {
+            result_.picture_lines = {
+                fmt::format("{} pictures were expected, {} were drawn", count, result_.frames.size())};
+            verdict = Verdict::different;
+        } else if (const auto* worst = result_.worst()) {
+            result_.picture_lines = {in_words(*worst)};
+        }
+        result_.picture = verdict;
+        for (const auto& [frame, found] : result_.frames) {
+            if (found.verdict == Verdict::identical) continue;
+            result_.new_digest = found.sha256;
+            const auto at = static_cast<std::size_t>(frame);
+            if (!entry_.accepted.empty() && at < entry_.accepted.front().sha256.size())
+                result_.old_digest = entry_.accepted.front().sha256[at];
+            break;
+        }
+    }
+
+    std::string in_words(const std::pair<const long, FrameResult>& worst) const {
+        const std::size_t changed = result_.frames.size() - result_.frames_with(Verdict::identical);
+        if (!worst.second.reference_accepted)
+            return fmt::format("{} is not the picture that was accepted: its digest is not among those of the entry",
+                               (folder_ / picture_name(worst.first)).string());
+        const std::string which = result_.frames.size() > 1
+                                      ? fmt::format("{} of {} pictures changed, most number {}: ", changed,
+                                                    result_.frames.size(), worst.first)
+                                      : "";
+        if (!worst.second.compared)
+            return which + fmt::format("the reference {} is not there", (folder_ / picture_name(worst.first)).string());
+        return which + scenes::in_words(worst.second.comparison);
+    }
+
+    Accepted digests(const std::string& renderer) const {
+        Accepted own{renderer, {}};
+        for (const auto& [frame, found] : result_.frames) own.sha256.push_back(found.sha256);
+        return own;
+    }
+
+    const Baseline& entry_;
+    const RegressionOptions& options_;
+    EntryResult& result_;
+    output::Manifest& report_files_;
+    ReferenceUpdate* update_;
+    Tolerance tolerance_;
+    fs::path folder_;
+    const ReferenceFiles marked_ = marked_files(folder_).value_or(ReferenceFiles{});
+    std::optional<fs::path> fresh_;  // where the new references go
+    double horizon_ = 0;
+    std::mutex mutex_;  // of result_.frames
+};
+
+// ---- entries that share one motion ----------------------------------------------------------------------
+
+// Each entry has a plan of its own, so that its pictures do not depend on what else is tested; one integration answers
+// the requests of all.
+class Group {
+  public:
+    void add(EntryTest& test) { jobs_.push_back({&test, {}, 0, 0}); }
+
+    void run(const RegressionOptions& options, RegressionResult& all) {
+        std::erase_if(jobs_, [](Job& job) { return !job.test->attempt([&] { prepare(job); }); });
+        if (jobs_.empty()) return;
+        std::vector<sim::Request> requests;
+        for (const Job& job : jobs_)
+            for (sim::Request& request : requests_of(job.plan)) requests.push_back(std::move(request));
+        std::vector<sim::Result> results;
+        try {
+            results = sim::simulate(problem(), requests, [](double) { return !output::interrupted(); });
+        } catch (const sim::SolverError& error) {
+            if (jobs_.size() == 1) return jobs_.front().test->make_impossible(describe(error));
+            for (const Job& job : jobs_) {  // one that looks less far may come to its end
+                Group alone;
+                alone.add(*job.test);
+                alone.run(options, all);
+            }
+            return;
+        }
+        ++all.simulations;
+        auto next = results.begin();
+        for (Job& job : jobs_) {
+            const auto last = next + static_cast<std::ptrdiff_t>(requests_of(job.plan).size());
+            job.test->attempt([&] {
+                judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options);
+            });
+            next = last;
+            all.pictures += job.test->result().frames.size();
+        }
+    }
+
+  private:
+    struct Job {
+        EntryTest* test = nullptr;
+        Plan plan;
+        std::size_t motion = 0;  // the table of the plan's request that is recorded
+        double until = 0;        // the last instant that the entry looks at [s]
+    };
+
+    const sim::Problem& problem() const { return jobs_.front().test->entry().scene.problem; }
+
+    static void prepare(Job& job) {
+        const Scene& scene = job.test->entry().scene;
+        job.plan = plan(scene);
+        settle(job.plan, scene, [](const sim::Problem& some, double until) {
+            sim::Request only_impacts;
+            only_impacts.end_time = until;
+            return sim::simulate(some, only_impacts, [](double) { return !output::interrupted(); });
+        });
+        // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
+        // statics, behind which there is no motion at all.
+        if (!job.plan.simulation) {
+            job.plan.simulation.emplace();
+            double& until = job.plan.simulation->request.end_time;
+            for (const Pictures& p : job.plan.pictures) until = std::max(until, p.end_time);
+            for (const Variant& v : job.plan.variants) until = std::max(until, v.simulation.request.end_time);
+            if (job.plan.pictures.empty() && job.plan.variants.empty() && !job.plan.figures.empty())
+                job.test->ask_for_no_motion();
+        }
+        sim::Request& request = job.plan.simulation->request;
+        job.until = request.end_time;
+        if (job.test->is_updated()) request.horizon = true;  // some figures ask for it anyway
+        job.motion = request.tables.size();
+        if (!job.plan.tables.empty())
+            job.motion = job.plan.tables.front().table;
+        else if (job.test->asks_for_motion())
+            request.tables.push_back(motion_behind_picture(scene.problem, job.until));
+        if (!job.test->asks_for_motion()) return;
+        for (Pictures& p : job.plan.pictures)
+            for (std::size_t i = 0; i < p.compared.size(); ++i) {
+                ComparedMotion& other = p.compared[i];
+                other.request.tables.push_back(job.test->motion_compared(i, other.problem, p.end_time));
+                if (job.test->is_updated()) other.request.horizon = true;
+            }
+    }
+
+    static void judge(Job& job, std::vector<sim::Result> results, const RegressionOptions& options) {
+        const sim::Result& run = results.front();
+        if (job.test->asks_for_motion())
+            job.test->judge_motion(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
+        Capture capture{
+            std::move(results),
+            [&](const Pictures&, long frame, const render::Image& image) { job.test->judge_picture(frame, image); },
+            [&](const render::Image& image) { job.test->judge_picture(0, image); },
+            {}};
+        if (job.test->asks_for_motion())
+            capture.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
+                job.test->judge_compared(index, job.plan.pictures[picture].compared[index].label, result.tables.back(),
+                                         result.impacts, result.reproducible_until);
+            };
+        RunOptions run_options = options.run;
+        run_options.no_cache = true;  // what is tested is what this program does now
+        scenes::draw(job.plan, job.test->entry().scene, capture, run_options);
+        job.test->finish();
+    }
+
+    std::vector<Job> jobs_;
+};
+
+// ---- all entries -----------------------------------------------------------------------------------------
+
+class Regression {
+  public:
+    Regression(const std::string& path, const RegressionOptions& options)
+        : path_(path), options_(options), baselines_(read_baselines(path)), report_files_(options.run.force) {
+        if (path_ == "-") return;
+        const std::string told = ReferenceUpdate::recover(baselines_.references);
+        if (told.empty()) return;
+        output::tell("{}: {}\n", path_, told);
+        baselines_ = read_baselines(path);
+    }
+
+    RegressionResult go() {
+        const auto started = std::chrono::steady_clock::now();
+        if (path_ == "-" && (!options_.update.empty() || options_.add_digest))
+            throw UsageError("baselines from standard input cannot be changed; name the file");
+        choose();
+        for (Group& group : groups()) group.run(options_, result_);
+        write_changes();
+        report_files_.save();
+        result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        return std::move(result_);
+    }
+
+  private:
+    void choose() {
+        std::vector<std::string> known;
+        for (const Baseline& entry : baselines_.entries) known.push_back(entry.name);
+        const std::vector<std::string>& names = options_.update.empty() ? options_.only : options_.update;
+        for (const std::string& name : names)
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                throw UsageError(
+                    fmt::format("{} has no entry {}{}", path_, in_quotes(name), suggestion_or_list(name, known)));
+        std::vector<const Baseline*> chosen;
+        for (const Baseline& entry : baselines_.entries)
+            if (names.empty() || std::find(names.begin(), names.end(), entry.name) != names.end())
+                chosen.push_back(&entry);
+        result_.entries.resize(chosen.size());
+        if (!options_.update.empty())
+            update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            EntryResult& result = result_.entries[i];
+            result.name = chosen[i]->name;
+            if (!chosen[i]->problem.empty()) {
+                refuse(result, chosen[i]->problem, kBadScene);
+                continue;
+            }
+            try {
+                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, result, report_files_,
+                                                             update_.get()));
+            } catch (const output::IoError& error) {  // a damaged marker
+                if (update_) throw;
+                refuse(result, fmt::format("{}\n", error.what()), kInputOutput);
+            }
+        }
+    }
+
+    // There is no test for an entry that cannot be read.
+    static void refuse(EntryResult& result, const std::string& problem, int exit_code) {
+        output::tell("{}", problem);
+        result.picture = Verdict::missing;
+        result.picture_lines = {problem.substr(0, problem.find('\n'))};
+        result.exit_code = exit_code;
+    }
+
+    std::vector<Group> groups() {
+        std::map<std::string, std::size_t> index;
+        std::vector<Group> all;
+        for (const auto& test : tests_) {
+            Scene physics = test->entry().scene;  // all that the motion depends on
+            physics.outputs.clear();
+            physics.title.clear();
+            physics.end_time = 1;
+            const auto [found, added] = index.emplace(to_json(physics), all.size());
+            if (added) all.emplace_back();
+            all[found->second].add(*test);
+        }
+        return all;
+    }
+
+    void write_changes() {
+        std::vector<BaselineEdit> edits;
+        std::map<std::string, RendererParts> renderers;
+        std::map<Drawn, Fingerprint> known;
+        for (const auto& test : tests_) {
+            std::string id;
+            const bool differs = test->result().picture == Verdict::different && test->result().exit_code == 0;
+            if (test->entry().has_pictures() && (test->is_updated() || options_.add_digest || differs)) {
+                const Drawn how = drawn(test->entry());
+                if (!known.contains(how)) known[how] = fingerprint_of(how);
+                id = known[how].id();
+                renderers[id] = known[how].parts;
+            }
+            test->tell_of_renderer(id);
+            if (auto change = test->edit(id)) edits.push_back(std::move(*change));
+        }
+        if (edits.empty()) return;
+        const std::string text = edited(baselines_, edits, renderers);
+        if (update_)
+            update_->commit(baselines_.source.text, text, new_pictures());
+        else
+            output::write_file(path_, text);
+        result_.changed = true;
+    }
+
+    // Of each entry that is updated.
+    std::map<std::string, std::map<std::string, std::string>> new_pictures() const {
+        std::map<std::string, std::map<std::string, std::string>> all;
+        for (const auto& test : tests_)
+            if (test->is_updated()) all[test->entry().name] = test->new_pictures();
+        return all;
+    }
+
+    std::string path_;
+    const RegressionOptions& options_;
+    Baselines baselines_;
+    std::unique_ptr<ReferenceUpdate> update_;
+    output::Manifest report_files_;
+    RegressionResult result_;
+    std::vector<std::unique_ptr<EntryTest>> tests_;
+};
+
+}  // namespace
+
+double FrameResult::weight() const {
+    if (verdict == Verdict::identical) return -1;
+    if (!compared || !comparison.same_size()) return 1e300;
+    return static_cast<double>(comparison.difference.changed) + comparison.difference.largest / 256.0;
+}
+
+Verdict EntryResult::verdict() const {
+    return worse(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
+}
+
+const std::pair<const long, FrameResult>* EntryResult::worst() const {
+    const std::pair<const long, FrameResult>* worst = nullptr;
+    for (const auto& frame : frames)
+        if (frame.second.verdict != Verdict::identical && (!worst || frame.second.weight() > worst->second.weight()))
+            worst = &frame;
+    return worst;
+}
+
+std::size_t EntryResult::frames_with(Verdict verdict) const {
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [verdict](const auto& f) { return f.second.verdict == verdict; }));
+}
+
+RegressionResult test_regression(const std::string& path, const RegressionOptions& options) {
+    return Regression(path, options).go();
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,72 @@
+// Renders and simulates what a file of baselines asks for, and judges it: the picture and the motion separately.
+//
+// Entries that share a scene are integrated once, no further than they look, and nothing that they do not need is
+// drawn. Nothing is read from caches: what is tested is this program.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/outputs/run.hpp"
+#include "scenes/regression/baselines.hpp"
+#include "scenes/regression/comparison.hpp"
+
+namespace beamcam::scenes {
+
+struct FrameResult {
+    Verdict verdict = Verdict::identical;
+    std::string sha256;  // of what was drawn
+    PictureComparison comparison;
+    bool compared = false;                               // with a reference picture
+    bool reference_accepted = true;                      // the reference picture belongs to an accepted digest
+    std::filesystem::path expected, actual, difference;  // files, where there are any
+    // How far it is from what is expected: what reports begin with.
+    double weight() const;
+};
+
+struct EntryResult {
+    std::string name;
+    std::optional<Verdict> picture, motion;                // absent: the entry does not ask for it
+    std::map<long, FrameResult> frames;                    // by number, from 0
+    std::vector<std::string> picture_lines, motion_lines;  // what there is to say
+    std::string old_digest, new_digest;                    // of the first picture that is another, on --update
+    bool updated = false, digest_added = false;
+    int exit_code = 0;  // what the program is to end with when there was nothing to judge; 0: judged
+
+    Verdict verdict() const;
+    // The frame that changed most, when one changed.
+    const std::pair<const long, FrameResult>* worst() const;
+    std::size_t frames_with(Verdict verdict) const;
+};
+
+struct RegressionOptions {
+    std::vector<std::string> only;                // names; empty: all
+    std::vector<std::string> update;              // names; only these are run and replaced
+    bool add_digest = false;                      // keep the digests of what is equivalent as accepted ones
+    Tolerance tolerance;                          // over that of every entry
+    std::optional<std::filesystem::path> report;  // folder for actual and difference pictures
+    RunOptions run;
+};
+
+struct RegressionResult {
+    std::vector<EntryResult> entries;
+    std::size_t simulations = 0, pictures = 0;
+    double seconds = 0;
+    bool changed = false;  // the baselines were rewritten
+};
+
+// Throws UsageError for unknown names, and what runs and files throw. A solver that fails is a verdict.
+RegressionResult test_regression(const std::string& path, const RegressionOptions& options);
+
+// ---- what is told ----------------------------------------------------------------------------------
+
+std::string to_text(const RegressionResult& result, bool failures_only);
+std::string to_json(const RegressionResult& result);
+std::string to_junit(const RegressionResult& result, const std::string& suite, bool strict);
+// One page that needs nothing else: pictures are inside it.
+std::string to_html(const RegressionResult& result, const std::string& title);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,128 @@
+// JSON of what the commands around regression tests find.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "scenes/regression/comparison.hpp"
+#include "scenes/regression/provenance.hpp"
+#include "scenes/regression/regression.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// File names need not be UTF-8; what is not becomes U+FFFD.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json box(const output::PixelBox& b) {
+    if (b.empty()) return nullptr;
+    return {{"left", b.left}, {"top", b.top}, {"width", b.width()}, {"height", b.height()}};
+}
+
+Json picture(const PictureComparison& p) {
+    Json out = {{"a", p.a}, {"b", p.b}, {"verdict", name(p.verdict)}, {"size_a", p.size_a}, {"size_b", p.size_b}};
+    if (!p.same_size()) return out;
+    const output::PictureDifference& d = p.difference;
+    out["pixels"] = d.pixels;
+    out["changed"] = d.changed;
+    out["share"] = d.share();
+    out["largest"] = d.largest;
+    out["box"] = box(d.box);
+    out["antialiased"] = d.antialiased;
+    out["ssim"] = d.ssim;
+    out["lowest_ssim"] = d.lowest_ssim;
+    return out;
+}
+
+Json table(const output::TableDifference& d) {
+    Json columns = Json::object();
+    for (const output::ColumnDifference& c : d.columns)
+        columns[c.name] = {{"identical", c.identical}, {"largest", c.largest}, {"t", c.t},
+                           {"range", c.range},         {"share", c.share},     {"undefined", c.undefined}};
+    return {{"rows_a", d.rows_a},       {"rows_b", d.rows_b},       {"rows_compared", d.rows_compared},
+            {"only_in_a", d.only_in_a}, {"only_in_b", d.only_in_b}, {"columns", columns}};
+}
+
+}  // namespace
+
+std::string to_json(const Comparison& c) {
+    Json out = {{"a", c.a}, {"b", c.b}, {"verdict", name(c.verdict)}};
+    if (c.table) {
+        out["table"] = table(*c.table);
+        return text_of(out);
+    }
+    out["pictures_a"] = c.pictures_a;
+    out["pictures_b"] = c.pictures_b;
+    out["identical"] = std::min(c.pictures_a, c.pictures_b) - c.pictures.size();
+    out["pictures"] = Json::array();
+    for (const PictureComparison& p : c.pictures) out["pictures"].push_back(picture(p));
+    return text_of(out);
+}
+
+std::string to_json(const RegressionResult& result) {
+    Json entries = Json::object();
+    for (const EntryResult& entry : result.entries) {
+        Json out = {{"verdict", name(entry.verdict())}};
+        if (entry.picture) {
+            out["picture"] = {
+                {"verdict", name(*entry.picture)}, {"pictures", entry.frames.size()}, {"words", entry.picture_lines}};
+            out["picture"]["changed"] = Json::object();
+            for (const auto& [number, frame] : entry.frames) {
+                if (frame.verdict == Verdict::identical) continue;
+                Json one = {{"verdict", name(frame.verdict)}, {"sha256", frame.sha256}};
+                if (frame.compared) one["difference"] = picture(frame.comparison);
+                out["picture"]["changed"][std::to_string(number)] = std::move(one);
+            }
+        }
+        if (entry.motion) out["motion"] = {{"verdict", name(*entry.motion)}, {"words", entry.motion_lines}};
+        if (entry.updated) out["updated"] = true;
+        if (entry.digest_added) out["digest_added"] = true;
+        entries[entry.name] = std::move(out);
+    }
+    return text_of({{"entries", std::move(entries)},
+                    {"simulations", result.simulations},
+                    {"pictures", result.pictures},
+                    {"seconds", result.seconds},
+                    {"changed", result.changed}});
+}
+
+std::string to_json(const Provenance& p) {
+    Json out = {{"file", p.file}, {"kind", p.kind}};
+    for (const auto& [key, value] : p.facts) out[key] = value;
+    out["made_by_beamcam"] = p.made_by_beamcam();
+    if (!p.version.empty()) out["version"] = p.version;
+    if (!p.accuracy.empty()) out["accuracy"] = p.accuracy;
+    if (!p.title.empty()) out["title"] = p.title;
+    if (!p.scene.empty()) {
+        const Json scene = Json::parse(p.scene, nullptr, false);
+        out["scene"] = scene.is_discarded() ? Json(p.scene) : scene;
+    }
+    return text_of(out);
+}
+
+std::string runnable_scene(const std::string& scene) {
+    Json out = Json::parse(scene, nullptr, false);
+    if (!out.is_object()) return {};
+    if (out.contains("outputs") && out["outputs"].is_array())
+        for (Json& output : out["outputs"]) {
+            if (!output.is_object() || !output.contains("file") || !output["file"].is_string()) continue;
+            const std::string file = output["file"].get<std::string>();
+            if (file == "-")
+                output.erase("file");
+            else
+                output["file"] = file.substr(file.rfind('/') + 1);  // npos + 1 is 0
+        }
+    return text_of(out);
+}
+
+std::string to_json(const std::vector<Check>& checks) {
+    Json out = Json::object();
+    for (const Check& check : checks) {
+        Json one = {{"ok", check.ok}, {"found", check.found}};
+        if (!check.ok) one["remedy"] = check.remedy;
+        out[check.group][check.what] = std::move(one);
+    }
+    return text_of(out);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,30 @@
+// How the program ends, and what ends it before any work.
+#pragma once
+
+#include <stdexcept>
+
+namespace beamcam::scenes {
+
+// What scripts rely on.
+enum ExitCode {
+    kDone = 0,
+    kBug = 1,
+    kUsage = 2,
+    kBadScene = 3,
+    kSolverFailed = 4,
+    kMissingPart = 5,  // renderer, codec or font
+    kInputOutput = 6,
+    kDiffers = 7,
+    kInterrupted = 130
+};
+
+// Exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+// Exit code 3. The report has one message or more, positioned and complete.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,215 @@
+#include "scenes/scene/film_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/base/error.hpp"
+#include "scenes/scene/time_map.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// Strip charts show steps down to a quarter of a millisecond, and never more points than a screen
+// of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
+constexpr double kChartRate = 4000;  // [Hz]
+constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
+constexpr double kFinePoints = 40000;                   // more of them where time runs slowly
+constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still's instant
+constexpr int kFineSteps = 8;                           // between two frames
+constexpr double kLongestCollision = 0.1;               // [s] that a strip shows of one
+// Vibration that lasts is met at all its phases; what a collision does within milliseconds is asked for apart.
+constexpr int kSurveyed = 300;
+
+std::vector<double> surveyed(double from, double to) {
+    if (!(to > from)) return {from};
+    std::vector<double> out;
+    for (int k = 0; k < kSurveyed; ++k) out.push_back(from + (to - from) * k / kSurveyed);
+    out.push_back(to);
+    return out;
+}
+
+double chart_rate(double duration) {
+    const double seconds = std::max(duration, 1e-12);
+    return std::clamp(kChartRate, kFewestChartPoints / seconds, kMostChartPoints / seconds);
+}
+
+void merge(std::vector<double>& into, const std::vector<double>& more) {
+    into.insert(into.end(), more.begin(), more.end());
+    std::ranges::sort(into);
+    into.erase(std::unique(into.begin(), into.end()), into.end());
+}
+
+FilmTimes real_time(const FrameSpan& span, double to) {
+    FilmTimes out;
+    const double fps = span.fps.value();
+    out.first = std::lround(span.from * fps);
+    const long last = std::lround(to * fps);
+    for (long k = out.first; k < last; ++k)
+        out.frames.push_back(static_cast<double>(k) * span.fps.denominator / span.fps.numerator);
+    return out;
+}
+
+// Absent where the film is cut short before it; the whole motion has to have it.
+std::optional<double> reached(const Instant& at, const FrameSpan& span, const sim::Result& motion) {
+    return span.to ? find_instant(at, motion) : instant_of(at, motion);
+}
+
+std::string name_of(const Instant& at) {
+    return fmt::format("{} {}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number);
+}
+
+// Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
+FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
+                 std::vector<double>& fine) {
+    TimeMap map(span.from, to, span.speed, slowed);
+    FilmTimes out;
+    struct Shown {
+        const FilmEvent* event;
+        double t;
+    };
+    std::vector<Shown> shown;
+    for (const FilmEvent& event : span.events) {
+        const std::optional<double> t = reached(event.at, span, motion);
+        if (t && *t >= span.from && *t <= to) {
+            shown.push_back({&event, *t});
+            if (event.freeze > 0) map.freeze(*t, event.freeze);
+        } else if (event.at.kind != Instant::Kind::time) {  // the reader has told of those
+            out.unshown.push_back(name_of(event.at));
+        }
+    }
+    const double fps = span.fps.value(), count = std::round(map.duration() * fps);
+    if (count > kMostFrames)
+        throw render::PictureError(
+            fmt::format("the film would have {:.0f} frames, more than {:.0f}; give it a \"to\", a larger \"speed\", or "
+                        "fewer frames "
+                        "a second",
+                        count, kMostFrames));
+    if (!(count >= 1)) throw render::PictureError("the film has no frame at that speed; lower it, or raise \"fps\"");
+    const int steps = std::clamp(static_cast<int>(kFinePoints / count), 1, kFineSteps);
+    double previous = span.from;
+    for (long k = 0; k < static_cast<long>(count); ++k) {
+        const double film = static_cast<double>(k) * span.fps.denominator / span.fps.numerator;
+        // Freezes begin between frames: rounding must not step back by an ulp.
+        previous = std::max(previous, map.instant(film));
+        out.frames.push_back(previous);
+        out.speeds.push_back(map.speed(film));
+        for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
+            fine.push_back(map.instant(film + i / (steps * fps)));
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto& [event, t] = shown[i];
+        if (event->text.empty()) continue;
+        double from = map.film_time(t);  // one after the other where several are of one instant
+        for (std::size_t j = 0; j < i; ++j)
+            if (shown[j].t == t) from += shown[j].event->freeze;
+        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
+                  last = static_cast<int>(std::floor((from + std::max(event->show, event->freeze)) * fps + 1e-6));
+        out.callouts.push_back({first, last, event->text});
+    }
+    return out;
+}
+
+// As many rows for each collision as a strip of it has columns; with very many collisions fewer.
+std::vector<double> rows_of_collisions(const sim::Result& motion, double from, double to) {
+    struct Span {
+        double low, high;
+    };
+    std::vector<Span> spans;
+    std::optional<int> last;
+    for (const sim::Impact& i : motion.impacts) {
+        if (i.t_start > to) break;
+        if (last != i.collision) spans.push_back({i.t_start, i.t_start});
+        last = i.collision;
+        spans.back().high = std::max(spans.back().high, std::min(i.t_end.value_or(to), to));
+    }
+    std::vector<double> out;
+    const double count = std::clamp(kFinePoints / std::max(1.0, double(spans.size())), 4.0, 600.0);
+    for (const Span& s : spans) {
+        if (s.high < from) continue;
+        const double length = std::clamp(s.high - s.low, 1e-4, kLongestCollision), before = 0.15 * length;
+        for (const double t :
+             rows(std::max(from, s.low - before), std::min(to, s.low + length + before), count / (length + 2 * before)))
+            out.push_back(t);
+    }
+    return out;
+}
+
+// Of the collision that is under way at `t`, with a little of what follows; `t` itself where none is.
+double end_of_collision(const sim::Result& motion, double t) {
+    std::optional<int> which;
+    double begin = t, end = t;
+    for (const sim::Impact& i : motion.impacts) {
+        if (!which && i.t_start == t) which = i.collision;
+        if (which == i.collision) end = std::max(end, std::min(i.t_end.value_or(t), t + kLongestCollision));
+    }
+    return end + 0.15 * (end - begin);
+}
+
+// The first frame at this instant or after it, else the last: what an impact has begun shows.
+int first_at(const std::vector<double>& frames, double t) {
+    const auto at = std::ranges::lower_bound(frames, t - 1e-12 * std::max(1.0, t));
+    return static_cast<int>(std::min(at - frames.begin(), std::ssize(frames) - 1));
+}
+
+}  // namespace
+
+std::vector<double> rows(double from, double to, double rate) {
+    std::vector<double> times;
+    const double first = std::ceil(from * rate), last = std::floor(to * rate);
+    times.reserve(static_cast<std::size_t>(std::max(0.0, last - first)) + 2);
+    for (long k = 0; first + static_cast<double>(k) <= last; ++k)
+        times.push_back((first + static_cast<double>(k)) / rate);
+    // k/rate and `to` may be one instant, written twice by rounding.
+    if (!times.empty() && std::abs(times.back() - to) < 1e-9 / rate) times.back() = to;
+    if (times.empty() || times.back() < to) times.push_back(to);
+    return times;
+}
+
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions) {
+    return film_times(span, end_time, motion, motion.impacts, collisions);
+}
+
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+                     const std::vector<sim::Impact>& slowed, bool collisions) {
+    const double to = span.to.value_or(end_time);
+    std::vector<double> fine;
+    FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
+    if (span.poster) {
+        if (const std::optional<double> t = reached(*span.poster, span, motion))
+            out.poster = first_at(out.frames, *t);
+        else
+            out.unshown.push_back(name_of(*span.poster) + ", its poster");
+    }
+    out.chart = rows(span.from, to, chart_rate(to - span.from));
+    out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
+    // A frame's own instant is a row: the curve under the cursor has the value that the frame tells.
+    merge(out.chart, out.frames);
+    if (!fine.empty()) {
+        fine.insert(fine.end(), out.frames.begin(), out.frames.end());
+        merge(out.chart, fine);
+        merge(out.trace, fine);
+    }
+    if (collisions) merge(out.chart, rows_of_collisions(motion, span.from, to));
+    out.survey = surveyed(span.from, to);
+    return out;
+}
+
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions) {
+    FilmTimes out;
+    const double t = instant_of(at, motion);
+    out.frames = {t};
+    // At the first touch of an impact nothing of it can be seen yet: the charts go on to where it is over.
+    const double ahead = at.kind == Instant::Kind::time ? t : std::max(t, std::min(end_of_collision(motion, t), until));
+    out.chart = rows(0, t, chart_rate(t));
+    if (ahead > t) merge(out.chart, rows(t, ahead, 600 / (ahead - t)));
+    // The collision that a still shows may be milliseconds long.
+    merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
+    out.trace = out.chart;
+    if (collisions) merge(out.chart, rows_of_collisions(motion, 0, std::max(t, ahead)));
+    out.survey = surveyed(0, std::max(t, until));
+    return out;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,173 @@
+// What a scene says, resolved: every default filled in, every unit turned into SI.
+//
+// Plain values; nothing here reads, checks or runs. The format is described, key by key, in
+// beamcam-scene.schema.json; `reader.hpp` makes a Scene from a file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "output/film/video_format.hpp"
+#include "render/film/film.hpp"
+#include "sim/observe/channels.hpp"
+#include "sim/problem/problem.hpp"
+
+namespace beamcam::scenes {
+
+// Frames a second as a fraction, so that 30000/1001 stays exact.
+struct FrameRate {
+    int numerator = 60, denominator = 1;  // both > 0, in lowest terms
+
+    double value() const { return static_cast<double>(numerator) / denominator; }
+    bool operator==(const FrameRate&) const = default;
+};
+
+struct Size {
+    int width = 1920, height = 1080;  // [px]
+    bool operator==(const Size&) const = default;
+};
+
+// How a film is encoded. The file's ending names the container.
+struct Encoding {
+    output::Codec codec = output::Codec::h264;
+    std::optional<int> crf;           // 0 (best) …; absent: the codec's usual one, or it has none
+    std::string preset = "veryfast";  // of x264
+    bool variable_rate = false;       // pictures that do not change are coded once and last longer
+};
+
+// An instant of the motion: a time, or the first touch of an impact or a collision, counted from 1.
+struct Instant {
+    enum class Kind { time, impact, collision };
+    Kind kind = Kind::time;
+    double t = 0;    // [s], >= 0
+    int number = 1;  // of the impact or collision
+    bool operator==(const Instant&) const = default;
+};
+
+// How fast the motion runs in a film.
+struct SlowMotion {
+    double factor = 0.02;  // of real time, around impacts
+    // All in seconds of the motion: slow from so long before the first touch of an impact …
+    double before = 2e-3;
+    double after = 10e-3;  // … until so long after its release …
+    double ease = 20e-3;   // … and on the way from one speed to the other for so long
+    bool operator==(const SlowMotion&) const = default;
+};
+struct Speed {
+    double factor = 1;  // of real time, away from impacts
+    std::optional<SlowMotion> around = {};
+    bool real_time() const { return factor == 1 && !around; }
+    bool operator==(const Speed&) const = default;
+};
+
+// What the film does at an instant: stands still, says something.
+struct FilmEvent {
+    Instant at;
+    double freeze = 0;  // [s] of the film
+    std::string text;   // plain, beside the contact
+    double show = 1.5;  // [s] of the film, and at least as long as it stands still
+};
+
+// Another motion in the same picture: this scene with some of its mechanics changed.
+struct Compared {
+    std::string label;
+    sim::Problem problem;
+};
+
+// What every picture has.
+struct Picture {
+    Size size;
+    render::View view;
+    std::optional<render::LayoutNode> layout;  // absent: the standard arrangement
+    // Absent: this motion alone. The first is the main one; the scene itself is one of them only if listed.
+    std::vector<Compared> compare;
+    render::Comparison comparison = render::Comparison::panels;
+};
+
+// Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers; with a speed other than real
+// time or with events, k / fps is the film's own time.
+struct FrameSpan {
+    FrameRate fps;
+    double from = 0;                // [s] of the motion, >= 0
+    std::optional<double> to = {};  // [s], > from; absent: the end of the scene
+    Speed speed = {};
+    std::vector<FilmEvent> events = {};
+    std::optional<Instant> poster = {};  // of a video: its frame that is put beside it as a picture
+
+    bool real_time() const { return speed.real_time() && events.empty(); }
+    bool looks_at_impacts() const;  // they have to be known before the frames' instants are
+};
+
+struct VideoOutput : Picture {
+    std::string file;  // relative to the output directory, as in every output
+    FrameSpan span;
+    Encoding encoding;
+};
+struct FramesOutput : Picture {
+    std::string file;  // with one run of '#', replaced by the frame number
+    FrameSpan span;
+};
+struct StillOutput : Picture {
+    std::string file;
+    Instant at;
+};
+struct TrajectoryOutput {
+    std::string file;                    // .csv or .npz
+    std::vector<sim::Channel> channels;  // in this order; the time comes first in any case
+    double rate = 1000;                  // [Hz], rows k/rate and the end; unless there are times
+    std::vector<double> times;           // [s], rows in this order
+};
+struct ImpactsOutput {
+    std::string file;  // .json or .csv
+};
+struct SummaryOutput {
+    std::string file;  // .json
+    bool horizon = false;
+};
+enum class Lang { en, zh };
+struct FigureOutput {
+    std::string file;                 // .pdf, .svg or .png
+    std::string figure;               // its name, see figures/recipes.hpp
+    std::string column = "elsevier";  // a journal's, see render/plot/style.hpp
+    std::optional<double> width;      // [m]; absent: the column's
+    Lang lang = Lang::en;
+    double dpi = 300;                     // of .png
+    std::string data_file, caption_file;  // beside it; only the command line asks for them
+};
+using Output =
+    std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
+
+// About what a thread needs to draw it [bytes], and from where on people are told.
+double memory_of(const Picture& picture);
+constexpr double kMuchMemory = 1e9;
+
+const std::string& file_of(const Output& output);
+std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
+std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
+const char* type_name(const Output& output);                // "video", "frames", …
+
+struct Scene {
+    std::string name = "scene";  // the file's name without its ending
+    std::string title;
+    sim::Problem problem;
+    double end_time = 1.5;  // [s], > 0
+    std::vector<Output> outputs;
+    // Where each stands, for messages: "fall.json:12:5"; none of those that a command adds.
+    std::vector<std::string> output_places;
+
+    void set_outputs(std::vector<Output> others) {
+        outputs = std::move(others);
+        output_places.clear();
+    }
+};
+
+// The film that a scene without outputs yields.
+VideoOutput default_film(const Scene& scene);
+
+// The scene as JSON text in the scene format, every default written out: it reads back to the same
+// scene, and goes into the metadata of what was made from it. Without `outputs`: physics only.
+std::string to_json(const Scene& scene);
+
+}  // namespace beamcam::scenes

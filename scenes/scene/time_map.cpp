@@ -1,0 +1,177 @@
+#include "scenes/scene/time_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "render/base/error.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr int kEasePieces = 32;  // of each ease: the integrand varies by at most e^(ln 1e4 / 16) in one of them
+
+double smoothstep(double x) {
+    x = std::clamp(x, 0.0, 1.0);
+    return x * x * (3 - 2 * x);
+}
+
+}  // namespace
+
+TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<sim::Impact>& impacts)
+    : from_(from), to_(to), base_(speed.factor), factor_(speed.factor), ease_(0) {
+    if (speed.around) {
+        factor_ = speed.around->factor;
+        ease_ = speed.around->ease;
+        for (const sim::Impact& impact : impacts) {
+            const Span span{impact.t_start - speed.around->before,
+                            impact.t_end.value_or(std::max(to, impact.t_start)) + speed.around->after};
+            if (span.to + ease_ < from || span.from - ease_ > to) continue;
+            // Spans whose eases would meet are one: speeding up for an instant tells nobody anything.
+            if (!slow_.empty() && span.from - slow_.back().to < 2 * ease_)
+                slow_.back().to = std::max(slow_.back().to, span.to);
+            else
+                slow_.push_back(span);
+        }
+    }
+    std::vector<std::pair<double, bool>> cuts;  // where pieces begin, and whether the speed stays constant in them
+    cuts.emplace_back(from, true);
+    for (const Span& s : slow_) {
+        for (int side = 0; side < 2; ++side) {
+            const double begin = side == 0 ? s.from - ease_ : s.to;
+            for (int i = 0; i < kEasePieces; ++i) cuts.emplace_back(begin + ease_ * i / kEasePieces, ease_ == 0);
+            cuts.emplace_back(begin + ease_, true);
+        }
+    }
+    double tau = 0;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const double t0 = std::clamp(cuts[i].first, from, to);
+        const double t1 = i + 1 < cuts.size() ? std::clamp(cuts[i + 1].first, from, to) : to;
+        if (!(t1 > t0)) continue;
+        Piece piece{t0, t1, tau, cuts[i].second};
+        tau += elapsed(piece, t1);
+        pieces_.push_back(piece);
+    }
+    length_ = tau;
+}
+
+double TimeMap::speed_at(double t) const {
+    double weight = 0;
+    for (const Span& s : slow_) {
+        if (t >= s.from && t <= s.to) weight = 1;
+        if (ease_ > 0 && t < s.from) weight = std::max(weight, smoothstep(1 - (s.from - t) / ease_));
+        if (ease_ > 0 && t > s.to) weight = std::max(weight, smoothstep(1 - (t - s.to) / ease_));
+    }
+    if (weight == 0) return base_;
+    if (weight == 1) return factor_;
+    return base_ * std::pow(factor_ / base_, weight);
+}
+
+// Gauss and Legendre's five points; within a piece the integrand is smooth.
+double TimeMap::elapsed(const Piece& piece, double t) const {
+    if (piece.flat) return (t - piece.t0) / speed_at((piece.t0 + piece.t1) / 2);
+    static constexpr std::array<double, 5> kNodes{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+                                                  -0.9061798459386640};
+    static constexpr std::array<double, 5> kWeights{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
+                                                    0.2369268850561891, 0.2369268850561891};
+    const double middle = (piece.t0 + t) / 2, half = (t - piece.t0) / 2;
+    double sum = 0;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) sum += kWeights[i] / speed_at(middle + half * kNodes[i]);
+    return half * sum;
+}
+
+void TimeMap::freeze(double t, double seconds) {
+    if (t < from_ || t > to_ || !(seconds > 0)) return;
+    double tau = length_;
+    for (const Piece& piece : pieces_)
+        if (t >= piece.t0 && t < piece.t1) tau = piece.tau0 + elapsed(piece, t);
+    freezes_.push_back({t, tau, seconds});
+    std::ranges::stable_sort(freezes_, {}, &Freeze::t);
+}
+
+double TimeMap::duration() const {
+    double all = length_;
+    for (const Freeze& f : freezes_) all += f.seconds;
+    return all;
+}
+
+double TimeMap::unfrozen(double film, bool& frozen) const {
+    frozen = false;
+    double spent = 0;
+    for (const Freeze& f : freezes_) {
+        if (film - spent <= f.tau) break;
+        if (film - spent < f.tau + f.seconds) {
+            frozen = true;
+            return f.tau;
+        }
+        spent += f.seconds;
+    }
+    return film - spent;
+}
+
+double TimeMap::instant(double film) const {
+    bool frozen = false;
+    const double tau = unfrozen(film, frozen);
+    if (frozen)  // every frame of a freeze shows one and the same instant
+        for (const Freeze& f : freezes_)
+            if (f.tau == tau) return f.t;
+    if (pieces_.empty() || tau <= 0) return from_;
+    auto at = std::ranges::upper_bound(pieces_, tau, {}, &Piece::tau0);
+    const Piece& piece = *(at - 1);
+    const double wanted = tau - piece.tau0;
+    double t = piece.t0 + wanted * speed_at(piece.flat ? (piece.t0 + piece.t1) / 2 : piece.t0);
+    if (!piece.flat) {
+        t = std::clamp(t, piece.t0, piece.t1);
+        for (int i = 0; i < 20; ++i) {
+            const double step = (wanted - elapsed(piece, t)) * speed_at(t);
+            t = std::clamp(t + step, piece.t0, piece.t1);
+            if (std::abs(step) <= 1e-15 * std::max(1.0, std::abs(t))) break;
+        }
+    }
+    return std::min(t, to_);
+}
+
+double TimeMap::speed(double film) const {
+    bool frozen = false;
+    unfrozen(film, frozen);
+    return frozen ? 0 : speed_at(instant(film));
+}
+
+double TimeMap::film_time(double t) const {
+    double film = length_;
+    if (t <= from_) film = 0;
+    for (const Piece& piece : pieces_)
+        if (t >= piece.t0 && t < piece.t1) film = piece.tau0 + elapsed(piece, t);
+    for (const Freeze& f : freezes_)
+        if (f.t < t) film += f.seconds;
+    return film;
+}
+
+std::optional<double> find_instant(const Instant& instant, const sim::Result& motion) {
+    const auto pick = [&](const auto& all) -> std::optional<double> {
+        if (instant.number < 1 || std::cmp_greater(instant.number, all.size())) return std::nullopt;
+        return all[static_cast<std::size_t>(instant.number - 1)].t_start;
+    };
+    switch (instant.kind) {
+        case Instant::Kind::time:
+            break;
+        case Instant::Kind::impact:
+            return pick(motion.impacts);
+        case Instant::Kind::collision:
+            return pick(motion.collisions);
+    }
+    return instant.t;
+}
+
+double instant_of(const Instant& instant, const sim::Result& motion) {
+    if (const auto t = find_instant(instant, motion)) return *t;
+    const bool impact = instant.kind == Instant::Kind::impact;
+    throw render::PictureError(fmt::format("there is no {} {}: the motion has {} until {:g} s",
+                                           impact ? "impact" : "collision", instant.number,
+                                           impact ? motion.impacts.size() : motion.collisions.size(), motion.end_time));
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,357 @@
+#include "sim/beam/modal_model.hpp"
+
+#include <cmath>
+
+namespace beamcam::sim {
+
+ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis) {
+    const Beam& beam = problem.beam;
+    const double a = problem.hub.radius, length = beam.length, rho = beam.line_density();
+    const int n = shapes.count();
+    ModalMatrices m;
+    m.J = problem.hub.inertia + rho * (std::pow(a + length, 3) - a * a * a) / 3;
+    m.S = rho * (a * length + 0.5 * length * length);
+    m.U = m.W = m.K = m.slope = Eigen::VectorXd::Zero(n);
+    m.M = m.D = m.G = m.P0 = m.P1 = m.P2 = Eigen::MatrixXd::Zero(n, n);
+    if (n == 0) return m;
+
+    // Products of two shapes oscillate with 2β_n: three nodes a mode and a margin reach rounding.
+    const Quadrature rule = gauss_legendre(3 * n + 24, length);
+    // Shapes at the nodes, one column each; the integrals are products with them.
+    const Eigen::Index nodes = rule.x.size();
+    Eigen::MatrixXd y(n, nodes), y1(n, nodes), y2(n, nodes);
+    for (Eigen::Index k = 0; k < nodes; ++k)
+        shapes.evaluate(rule.x[k], y.col(k).data(), y1.col(k).data(), y2.col(k).data());
+    const Eigen::ArrayXd x = rule.x.array(), w = rho * rule.w.array();
+    m.U.noalias() = y * (w * (a + x)).matrix();  // (S8)
+    m.W.noalias() = y * w.matrix();              // (S9)
+    m.K.noalias() = beam.bending_stiffness() * (y2.cwiseAbs2() * rule.w);
+    const auto product = [&](const Eigen::MatrixXd& f, const Eigen::ArrayXd& weight, Eigen::MatrixXd& out) {
+        out.noalias() = f * weight.matrix().asDiagonal() * f.transpose();
+        out = 0.5 * (out + out.transpose()).eval();
+    };
+    product(y, w, m.M);                                                               // (S10)
+    product(y1, w * (a * (length - x) + 0.5 * (length * length - x.square())), m.D);  // (S11)
+    product(y1, w * (length - x), m.G);                                               // (S12)
+    if (beam.model == ModelKind::paper) {
+        product(y1, w, m.P0);
+        product(y1, w * x, m.P1);
+        product(y1, w * x.square(), m.P2);
+    }
+    if (basis == Basis::hub_beam) {
+        // The hub turns by α = y′(0)·q inside the frame; the root sits at (a − ½aα², aα) (S13).
+        shapes.evaluate(0, nullptr, m.slope.data(), nullptr);
+        m.U.setZero();
+        m.D.noalias() += a * m.S * m.slope * m.slope.transpose();
+        m.G.noalias() += a * rho * length * m.slope * m.slope.transpose();
+    }
+    return m;
+}
+
+struct ModalModel::Tables {
+    ModalMatrices m;
+    Eigen::MatrixXd B;  // what multiplies θ̇² and qq in the inertia: M − D, or M
+    Shapes shapes;
+    std::vector<double> beta4;
+    Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
+    Eigen::MatrixXd root;        // what the antiderivative of φ_i′φ_j′ is at x = 0
+    bool foreshortening = true;
+};
+
+namespace {
+
+// Σ_j A_ij(x) q_j with A_ij the antiderivative of φ_i′φ_j′, from φ⁗ = β⁴φ and by parts:          (S5a)
+//   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
+//   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
+template <class Tables>
+void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
+                    const double* y3, const double* q, double* out) {
+    const auto n = static_cast<int>(tables.beta4.size());
+    for (int i = 0; i < n; ++i) {
+        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+        for (int j = 0; j < n; ++j) {
+            const double c = tables.difference(j, i) * q[j];  // antisymmetric: the sign is turned below
+            s0 += c * tables.beta4[static_cast<std::size_t>(j)] * y[j];
+            s1 += c * y1[j];
+            s2 += c * y2[j];
+            s3 += c * y3[j];
+        }
+        const double b4 = tables.beta4[static_cast<std::size_t>(i)];
+        const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] -
+                                   y2[i] * y3[i] / b4);
+        out[i] = own * q[i] - (b4 * y[i] * s1 - y3[i] * s2 + y2[i] * s3 - y1[i] * s0);
+    }
+}
+
+}  // namespace
+
+ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.beam.model) {
+    auto tables = std::make_shared<Tables>();
+    const Basis basis = resolved_basis(problem);
+    tables->shapes = Shapes::of(problem);
+    tables->m = modal_matrices(problem, tables->shapes, basis);
+    ModalMatrices& m = tables->m;
+    tables->foreshortening = kind_ != ModelKind::zeroth_order && kind_ != ModelKind::rigid;
+    tables->B = tables->foreshortening ? Eigen::MatrixXd(m.M - m.D) : m.M;
+    coupled_ = basis == Basis::cantilever && modes_ > 0;
+    for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = m.slope[i];
+
+    if (tables->foreshortening) {
+        tables->difference = tables->root = Eigen::MatrixXd::Zero(modes_, modes_);
+        for (int i = 0; i < modes_; ++i) tables->beta4.push_back(std::pow(tables->shapes.beta(i), 4));
+        for (int i = 0; i < modes_; ++i)
+            for (int j = 0; j < modes_; ++j)
+                if (i != j)
+                    tables->difference(i, j) =
+                        1 / (tables->beta4[static_cast<std::size_t>(i)] - tables->beta4[static_cast<std::size_t>(j)]);
+        Local here;
+        tables->shapes.evaluate(0, here.y, here.y1, here.y2, here.y3);
+        Eigen::VectorXd unit_coordinate = Eigen::VectorXd::Zero(modes_), column(modes_);
+        for (int j = 0; j < modes_; ++j) {
+            unit_coordinate[j] = 1;
+            antiderivative(*tables, 0, here.y, here.y1, here.y2, here.y3, unit_coordinate.data(), column.data());
+            tables->root.col(j) = column;
+            unit_coordinate[j] = 0;
+        }
+    }
+    bq_ = gq_ = Eigen::VectorXd::Zero(modes_);
+    tables_ = tables;
+    build_damping(problem);
+}
+
+bool ModalModel::foreshortening() const { return tables_->foreshortening; }
+const ModalMatrices& ModalModel::matrices() const { return tables_->m; }
+const Eigen::MatrixXd& ModalModel::inertia_matrix() const { return tables_->B; }
+const Shapes& ModalModel::shapes() const { return tables_->shapes; }
+
+void ModalModel::shortening_matrix(double x, double* h) const {
+    Local here;
+    tables_->shapes.evaluate(x, here.y, here.y1, here.y2, here.y3);
+    const auto n = static_cast<std::size_t>(modes_);
+    for (std::size_t j = 0; j < n; ++j) {
+        const double b4j = tables_->beta4[j];
+        for (std::size_t i = 0; i < n; ++i) {
+            const double b4 = tables_->beta4[i];
+            const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+            const double value =
+                i == j
+                    ? 0.25 *
+                          (x * (here.y1[i] * here.y1[i] - 2 * here.y2[i] * here.y[i] + here.y3[i] * here.y3[i] / b4) +
+                           3 * here.y1[i] * here.y[i] - here.y2[i] * here.y3[i] / b4)
+                    : tables_->difference(r, c) * (b4 * here.y[i] * here.y1[j] - here.y3[i] * here.y2[j] +
+                                                   here.y2[i] * here.y3[j] - b4j * here.y1[i] * here.y[j]);
+            h[j * n + i] = value - tables_->root(r, c);
+        }
+    }
+}
+
+void ModalModel::state_changed() {
+    sin_ = std::sin(xi_[0]);
+    cos_ = std::cos(xi_[0]);
+    turn_ = turn_rate_ = 0;
+    for (int i = 1; i < size_; ++i) {
+        turn_ += hub_row_[i] * xi_[i];
+        turn_rate_ += hub_row_[i] * rate_[i];
+    }
+    local_.shortened = false;
+}
+
+const ModalModel::Local& ModalModel::at(double x) const {
+    if (local_.x != x) {
+        tables_->shapes.evaluate(x, local_.y, local_.y1, local_.y2, local_.y3);
+        local_.x = x;
+        local_.shortened = false;
+    }
+    if (tables_->foreshortening && !local_.shortened) shorten(local_);
+    return local_;
+}
+
+void ModalModel::shorten(Local& here) const {
+    antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, xi_ + 1, here.shortening);
+    for (int j = 0; j < modes_; ++j)
+        for (int i = 0; i < modes_; ++i) here.shortening[i] -= tables_->root(i, j) * xi_[1 + j];
+    here.shortened = true;
+}
+
+// first-order (S14), zeroth-order: D = G = 0, paper (S15):
+//   [J + qᵀBq] Θ̈ + Uᵀq̈ = −2Θ̇ qᵀBq̇ − g[S cos Θ − Wᵀq sin Θ − ½ cos Θ qᵀGq]
+//   U Θ̈ + m q̈ = −C_d q̇ − Kq + Θ̇²Bq + g sin Θ Gq − g cos Θ W
+bool ModalModel::assemble(double* f) {
+    const ModalMatrices& m = tables_->m;
+    const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
+    Eigen::Map<Eigen::VectorXd> fq(f + 1, modes_);
+    const double spin = rate_[0];
+    if (modes_ == 0) {
+        inertia_ = m.J;
+        f[0] = -gravity_ * m.S * cos_;
+        return true;
+    }
+    bq_.noalias() = tables_->B * q;
+    inertia_ = m.J + q.dot(bq_);
+    double gravity_torque = m.S * cos_ - m.W.dot(q) * sin_;
+    fq = -m.K.cwiseProduct(q) - gravity_ * cos_ * m.W;
+    if (kind_ == ModelKind::first_order) {
+        gq_.noalias() = m.G * q;
+        gravity_torque -= 0.5 * cos_ * q.dot(gq_);
+        fq += spin * spin * bq_ + gravity_ * sin_ * gq_;
+    } else if (kind_ == ModelKind::paper) {
+        // The stiffening weight a(l − x) + ½(l² − x²) with l = L cos θ, in the v-equation only.
+        const double l = length_ * cos_;
+        gq_.noalias() = m.M * q;
+        gq_.noalias() -= (radius_ * l + 0.5 * l * l) * (m.P0 * q);
+        gq_.noalias() += radius_ * (m.P1 * q);
+        gq_.noalias() += 0.5 * (m.P2 * q);
+        fq += spin * spin * gq_;
+    } else {
+        fq += spin * spin * bq_;
+    }
+    f[0] = -2 * spin * bq_.dot(dq) - gravity_ * gravity_torque;
+    add_damping(f);
+    const double schur = coupled_ ? inertia_ - m.U.squaredNorm() / mass_ : inertia_;
+    return schur > 1e-9 * m.J;
+}
+
+void ModalModel::solve(double* f) const {
+    Eigen::Map<Eigen::VectorXd> fq(f + 1, modes_);
+    if (coupled_) {
+        const Eigen::VectorXd& U = tables_->m.U;
+        const double hub = (f[0] - U.dot(fq) / mass_) / (inertia_ - U.squaredNorm() / mass_);
+        fq = (fq - hub * U) / mass_;
+        f[0] = hub;
+    } else {
+        f[0] /= inertia_;
+        fq /= mass_;
+    }
+}
+
+double ModalModel::solve_held(double* f, double hub) const {
+    Eigen::Map<Eigen::VectorXd> fq(f + 1, modes_);
+    double torque = inertia_ * hub - f[0];
+    if (coupled_) fq -= hub * tables_->m.U;
+    fq /= mass_;
+    if (coupled_) torque += tables_->m.U.dot(fq);
+    f[0] = hub;
+    return torque;
+}
+
+void ModalModel::point(double x, BeamPoint& p) const {
+    const Local& here = at(x);
+    double v = 0, v1 = 0, v2 = 0, dv = 0, dv1 = 0, qHq = 0, rHq = 0;
+    for (int i = 0; i < modes_; ++i) {
+        const double q = xi_[1 + i], dq = rate_[1 + i];
+        v += here.y[i] * q;
+        v1 += here.y1[i] * q;
+        v2 += here.y2[i] * q;
+        dv += here.y[i] * dq;
+        dv1 += here.y1[i] * dq;
+    }
+    double u = 0, du = 0, u1 = 0, u2 = 0, du1 = 0;
+    if (tables_->foreshortening) {
+        for (int i = 0; i < modes_; ++i) {
+            qHq += xi_[1 + i] * here.shortening[i];
+            rHq += rate_[1 + i] * here.shortening[i];
+        }
+        u = -0.5 * qHq - 0.5 * radius_ * turn_ * turn_;  // (S5), (S13)
+        du = -rHq - radius_ * turn_ * turn_rate_;
+        u1 = -0.5 * v1 * v1;
+        u2 = -v1 * v2;
+        du1 = -v1 * dv1;
+    }
+    const Vec2 along{cos_, sin_}, across{-sin_, cos_};
+    const double spin = rate_[0];
+    const double rx = radius_ + x + u, ry = v;
+    p.r = rx * along + ry * across;
+    p.r1 = (1 + u1) * along + v1 * across;
+    p.r2 = u2 * along + v2 * across;
+    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;  // (S7)
+    p.v1 = (du1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
+}
+
+void ModalModel::jacobian(double x, double* jx, double* jy, double* jchi) const {
+    const Local& here = at(x);
+    const bool shortening = tables_->foreshortening;
+    double v = 0, v1 = 0, u = 0;
+    for (int i = 0; i < modes_; ++i) {
+        v += here.y[i] * xi_[1 + i];
+        v1 += here.y1[i] * xi_[1 + i];
+        if (shortening) u -= 0.5 * here.shortening[i] * xi_[1 + i];
+    }
+    if (shortening) u -= 0.5 * radius_ * turn_ * turn_;
+    const double rx = radius_ + x + u, t1 = shortening ? 1 - 0.5 * v1 * v1 : 1;
+    const double speed2 = t1 * t1 + v1 * v1;
+    jx[0] = -rx * sin_ - v * cos_;
+    jy[0] = rx * cos_ - v * sin_;
+    jchi[0] = 1;
+    for (int i = 0; i < modes_; ++i) {
+        const double ui = shortening ? -here.shortening[i] - radius_ * turn_ * hub_row_[1 + i] : 0;
+        const double ui1 = shortening ? -v1 * here.y1[i] : 0;
+        jx[1 + i] = ui * cos_ - here.y[i] * sin_;
+        jy[1 + i] = ui * sin_ + here.y[i] * cos_;
+        jchi[1 + i] = (t1 * here.y1[i] - v1 * ui1) / speed2;
+    }
+}
+
+// −Θ̇² r + 2Θ̇ k×(u̇, v̇) + (ü, 0) with ü = −q̇ᵀH(x)q̇ − aα̇², as in (S17).
+Vec2 ModalModel::convective(double x) const {
+    BeamPoint p;
+    point(x, p);
+    const Local& here = at(x);
+    const double spin = rate_[0];
+    const Vec2 along{cos_, sin_};
+    const Vec2 relative = p.v - spin * perp(p.r);
+    double bend = 0;
+    if (tables_->foreshortening) {
+        double h_rate[kMaxModes] = {};
+        antiderivative(*tables_, x, here.y, here.y1, here.y2, here.y3, rate_ + 1, h_rate);
+        for (int j = 0; j < modes_; ++j)
+            for (int i = 0; i < modes_; ++i) h_rate[i] -= tables_->root(i, j) * rate_[1 + j];
+        for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
+        bend -= radius_ * turn_rate_ * turn_rate_;
+    }
+    return -spin * spin * p.r + 2 * spin * perp(relative) + bend * along;
+}
+
+double ModalModel::bending_moment(double x) const {
+    double y2[kMaxModes];
+    tables_->shapes.evaluate(x, nullptr, nullptr, y2);
+    double v2 = 0;
+    for (int i = 0; i < modes_; ++i) v2 += y2[i] * xi_[1 + i];
+    return stiffness_ * v2;
+}
+
+Energies ModalModel::energies() const {
+    const ModalMatrices& m = tables_->m;
+    Energies e;
+    const double spin = rate_[0];
+    if (modes_ == 0) return {0.5 * m.J * spin * spin, gravity_ * m.S * sin_, 0};
+    const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
+    bq_.noalias() = tables_->B * q;
+    e.kinetic = 0.5 * (m.J + q.dot(bq_)) * spin * spin + spin * m.U.dot(dq) + 0.5 * mass_ * dq.squaredNorm();
+    e.elastic = 0.5 * m.K.dot(q.cwiseAbs2());
+    e.gravity = m.S * sin_ + m.W.dot(q) * cos_;
+    if (kind_ == ModelKind::first_order) {
+        gq_.noalias() = m.G * q;
+        e.gravity -= 0.5 * sin_ * q.dot(gq_);
+    }
+    e.gravity *= gravity_;
+    return e;
+}
+
+void ModalModel::linearize(double* mass, double* stiffness, double* centrifugal) const {
+    const ModalMatrices& m = tables_->m;
+    Eigen::Map<Eigen::MatrixXd> mm(mass, size_, size_), kk(stiffness, size_, size_), cc(centrifugal, size_, size_);
+    mm.setZero();
+    kk.setZero();
+    cc.setZero();
+    mm(0, 0) = m.J;
+    for (int i = 0; i < modes_; ++i) {
+        mm(0, 1 + i) = mm(1 + i, 0) = m.U[i];
+        mm(1 + i, 1 + i) = mass_;
+        kk(1 + i, 1 + i) = m.K[i];
+    }
+    cc.bottomRightCorner(modes_, modes_) = -tables_->B;
+}
+
+double ModalModel::frequency(int i) const { return std::sqrt(tables_->m.K[i] / mass_); }
+
+}  // namespace beamcam::sim

@@ -1,0 +1,116 @@
+#include "sim/beam/model.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "sim/beam/eigenmodes.hpp"
+#include "sim/beam/modal_model.hpp"
+#include "sim/beam/quadrature_model.hpp"
+
+namespace beamcam::sim {
+
+Model::Model(const Problem& problem)
+    : length_(problem.beam.length),
+      mass_(problem.beam.line_density() * problem.beam.length),
+      radius_(problem.hub.radius),
+      hub_inertia_(problem.hub.inertia),
+      gravity_(problem.gravity),
+      line_density_(problem.beam.line_density()),
+      stiffness_(problem.beam.bending_stiffness()) {
+    modes_ = problem.beam.model == ModelKind::rigid ? 0 : problem.beam.modes;
+    size_ = 1 + modes_;
+    hub_row_[0] = 1;
+}
+
+void Model::set(const double* xi, const double* rate) {
+    std::copy_n(xi, size_, xi_);
+    std::copy_n(rate, size_, rate_);
+    state_changed();
+}
+
+double Model::hub_angle() const {
+    double theta = 0;
+    for (int i = 0; i < size_; ++i) theta += hub_row_[i] * xi_[i];
+    return theta;
+}
+
+double Model::hub_rate() const {
+    double rate = 0;
+    for (int i = 0; i < size_; ++i) rate += hub_row_[i] * rate_[i];
+    return rate;
+}
+
+void Model::add_damping(double* f) const {
+    if (!damped_) return;
+    const double* c = damping_->data();
+    if (damping_diagonal_) {
+        for (int i = 0; i < modes_; ++i) f[1 + i] -= c[i] * rate_[1 + i];
+        return;
+    }
+    for (int j = 0; j < modes_; ++j)
+        for (int i = 0; i < modes_; ++i) f[1 + i] -= c[j * modes_ + i] * rate_[1 + j];
+}
+
+double Model::damping_power() const {
+    if (!damped_) return 0;
+    double force[kMaxSize] = {};
+    add_damping(force);
+    double power = 0;
+    for (int i = 1; i < size_; ++i) power -= force[i] * rate_[i];
+    return power;
+}
+
+void Model::build_damping(const Problem& problem) {
+    const Beam& beam = problem.beam;
+    const bool by_ratio =
+        std::any_of(beam.damping_ratio.begin(), beam.damping_ratio.end(), [](double z) { return z != 0; });
+    const bool by_time = beam.kelvin_voigt && *beam.kelvin_voigt > 0;
+    if (modes_ == 0 || (!by_ratio && !by_time)) return;
+    Eigen::MatrixXd mass(size_, size_), stiffness(size_, size_), centrifugal(size_, size_);
+    linearize(mass.data(), stiffness.data(), centrifugal.data());
+    const Eigen::Index n = modes_;
+    Eigen::MatrixXd damping(n, n);
+    if (by_time) {
+        damping = *beam.kelvin_voigt * stiffness.bottomRightCorner(n, n);  // (S21)
+    } else {
+        // Modes of the free hub (Θ condensed out: it carries no stiffness) or of the held one (S20).
+        Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n);
+        if (!is_prescribed(problem.hub.drive))
+            inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);
+        const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
+        Eigen::VectorXd twice(n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const std::size_t k = beam.damping_ratio.size() == 1 ? 0 : static_cast<std::size_t>(i);
+            const double ratio = k < beam.damping_ratio.size() ? beam.damping_ratio[k] : 0;
+            twice[i] = 2 * ratio * std::sqrt(std::max(0.0, modes.omega_squared[i]));
+        }
+        const Eigen::MatrixXd weighted = inertia * modes.shapes;
+        damping = weighted * twice.asDiagonal() * weighted.transpose();
+    }
+    damping = 0.5 * (damping + damping.transpose()).eval();
+    const double off = (damping - Eigen::MatrixXd(damping.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
+    damped_ = true;
+    damping_diagonal_ = off <= 1e-9 * damping.diagonal().cwiseAbs().maxCoeff() && n > 0;
+    auto values = std::make_shared<std::vector<double>>();
+    if (damping_diagonal_)
+        for (Eigen::Index i = 0; i < n; ++i) values->push_back(damping(i, i));
+    else
+        values->assign(damping.data(), damping.data() + n * n);
+    damping_ = values;
+}
+
+std::unique_ptr<Model> make_model(const Problem& problem) {
+    switch (problem.beam.model) {
+        case ModelKind::rigid:
+        case ModelKind::zeroth_order:
+        case ModelKind::first_order:
+        case ModelKind::paper:
+            return std::make_unique<ModalModel>(problem);
+        case ModelKind::second_order:
+        case ModelKind::exact:
+            return make_quadrature_model(problem);
+    }
+    return nullptr;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,66 @@
+#include "sim/beam/modes.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+#include "sim/beam/eigenmodes.hpp"
+#include "sim/beam/model.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kPoints = 101;
+
+}  // namespace
+
+std::vector<Mode> natural_modes(const Problem& given, std::optional<double> speed) {
+    Problem problem = given;
+    problem.gravity = 0;
+    problem.beam.damping_ratio.clear();
+    problem.beam.kelvin_voigt.reset();
+    // A held hub asks for clamped shapes; `auto` means just that.
+    const bool held = speed.has_value() || is_prescribed(problem.hub.drive);
+    if (held && problem.beam.basis == Basis::automatic) problem.beam.basis = Basis::cantilever;
+    const std::unique_ptr<Model> model = make_model(problem);
+    const Eigen::Index size = model->size(), n = size - 1;
+    if (n == 0) return {};
+    Eigen::MatrixXd mass(size, size), stiffness(size, size), centrifugal(size, size);
+    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+    if (speed) stiffness += *speed * *speed * centrifugal;
+
+    // Coordinates (Θ, q) → q: the free hub carries Θ along with no stiffness of its own; the held one
+    // has θ = Θ + h·q = 0. Both are Θ = −c·q (S42).
+    Eigen::RowVectorXd follow(n);
+    for (Eigen::Index i = 0; i < n; ++i) follow[i] = held ? -model->hub_row()[1 + i] : -mass(0, 1 + i) / mass(0, 0);
+    Eigen::MatrixXd reduce(size, n);
+    reduce.row(0) = follow;
+    reduce.bottomRows(n).setIdentity();
+    const Eigen::MatrixXd m = reduce.transpose() * mass * reduce;
+    Eigen::MatrixXd k = reduce.transpose() * stiffness * reduce;
+    k = 0.5 * (k + k.transpose()).eval();
+    const Eigenmodes natural = eigenmodes(k, m);
+
+    // Small displacements of the points are linear in the coordinates: read off the Jacobian at rest.
+    const double zero[kMaxSize] = {};
+    model->set(zero, zero);
+    std::vector<Mode> modes(static_cast<std::size_t>(n));
+    for (Eigen::Index j = 0; j < n; ++j) {
+        Mode& mode = modes[static_cast<std::size_t>(j)];
+        const double square = natural.omega_squared[j];
+        mode.omega = square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
+        const Eigen::VectorXd xi = reduce * natural.shapes.col(j);
+        for (int p = 0; p < kPoints; ++p) {
+            const double x = model->length() * p / (kPoints - 1);
+            double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize], y = 0;
+            model->jacobian(x, jx, jy, jchi);
+            for (Eigen::Index i = 0; i < size; ++i) y += jy[i] * xi[i];
+            mode.shape.push_back({x, y});
+        }
+        if (mode.shape.back().y < 0)
+            for (Vec2& at : mode.shape) at.y = -at.y;
+    }
+    return modes;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,454 @@
+#include "sim/beam/quadrature_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+
+#include "sim/base/numerics.hpp"
+#include "sim/base/ode.hpp"
+#include "sim/beam/eigenmodes.hpp"
+#include "sim/beam/shapes.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
+
+// What both share: columns ∂r/∂ξ and the acceleration at ξ̈ = 0, node by node, and their projection.
+//   M = ρA Σ w cᵀc + I_h hᵀh,   f = −ρA Σ w cᵀ(r̈|ξ̈=0 + g) − Kq − C_d q̇           (S16)
+class QuadratureModel : public Model {
+  public:
+    bool assemble(double* f) override {
+        columns();
+        const Eigen::Index nodes = rule_.x.size();
+        for (Eigen::Index k = 0; k < nodes; ++k) {
+            const double root_weight = std::sqrt(line_density_ * rule_.w[k]);
+            cx_.row(k) *= root_weight;
+            cy_.row(k) *= root_weight;
+            bias_x_[k] *= root_weight;
+            bias_y_[k] *= root_weight;
+        }
+        inertia_.noalias() = cx_.transpose() * cx_;
+        inertia_.noalias() += cy_.transpose() * cy_;
+        Eigen::Map<Eigen::VectorXd> force(f, size_);
+        force.noalias() = -(cx_.transpose() * bias_x_);
+        force.noalias() -= cy_.transpose() * bias_y_;
+        for (int j = 0; j < size_; ++j)
+            for (int i = 0; i < size_; ++i) inertia_(i, j) += hub_inertia_ * hub_row_[i] * hub_row_[j];
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_);
+        Eigen::Map<Eigen::VectorXd>(f + 1, modes_).noalias() -= bending_ * q;
+        add_damping(f);
+        factor_.compute(inertia_);
+        return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0;
+    }
+
+    void solve(double* f) const override {
+        Eigen::Map<Eigen::VectorXd> force(f, size_);
+        factor_.solveInPlace(force);
+    }
+
+    double solve_held(double* f, double hub) const override {
+        Eigen::Map<Eigen::VectorXd> force(f + 1, modes_);
+        const Small inner = inertia_.bottomRightCorner(modes_, modes_);
+        force -= hub * inertia_.col(0).tail(modes_);
+        Eigen::LDLT<Small> inner_factor(inner);
+        inner_factor.solveInPlace(force);
+        const double torque = inertia_(0, 0) * hub + inertia_.row(0).tail(modes_).dot(force.transpose()) - f[0];
+        f[0] = hub;
+        return torque;
+    }
+
+    void linearize(double* mass, double* stiffness, double* centrifugal) const override {
+        // Taken from the model itself at the straight beam; the centrifugal part by a central difference, of
+        // fourth order, of the bias force alone, which is quadratic in the speed and odd in q near q = 0.
+        const std::unique_ptr<Model> copy = clone();
+        auto& model = static_cast<QuadratureModel&>(*copy);
+        model.damped_ = false;
+        model.gravity_ = 0;
+        double xi[kMaxSize] = {}, rate[kMaxSize] = {}, f[kMaxSize], g[kMaxSize];
+        model.set(xi, rate);
+        if (!model.assemble(f)) throw InertiaLost();
+        Eigen::Map<Eigen::MatrixXd> mm(mass, size_, size_), kk(stiffness, size_, size_), cc(centrifugal, size_, size_);
+        mm = model.inertia_;
+        kk.setZero();
+        kk.bottomRightCorner(modes_, modes_) = bending_;
+        model.bending_.setZero();
+        cc.setZero();
+        rate[0] = 1;
+        const double step = 1e-3 * (angular_ ? 1.0 : length_);
+        for (int j = 1; j < size_; ++j) {
+            const auto odd = [&](double q, double* out) {  // of the forces, whatever the inertia of the bent beam
+                double back[kMaxSize];
+                xi[j] = q;
+                model.set(xi, rate);
+                model.assemble(out);
+                xi[j] = -q;
+                model.set(xi, rate);
+                model.assemble(back);
+                xi[j] = 0;
+                for (int i = 0; i < size_; ++i) out[i] = 0.5 * (out[i] - back[i]);
+            };
+            odd(step, f);
+            odd(2 * step, g);
+            for (int i = 1; i < size_; ++i) cc(i, j) = -(8 * f[i] - g[i]) / (6 * step);
+        }
+    }
+
+    double frequency(int i) const override { return frequencies_[static_cast<std::size_t>(i)]; }
+
+    Energies energies() const override {
+        Energies e;
+        node_kinematics();
+        double height = 0;
+        for (Eigen::Index k = 0; k < rule_.x.size(); ++k) {
+            const double w = line_density_ * rule_.w[k];
+            e.kinetic += 0.5 * w * (vx_[k] * vx_[k] + vy_[k] * vy_[k]);
+            height += w * y_[k];
+        }
+        const double turn = hub_rate();
+        e.kinetic += 0.5 * hub_inertia_ * turn * turn;
+        e.gravity = gravity_ * height;
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_);
+        e.elastic = 0.5 * q.dot(bending_ * q);
+        return e;
+    }
+
+  protected:
+    QuadratureModel(const Problem& problem, int nodes) : Model(problem) {
+        rule_ = gauss_legendre(nodes, length_);
+        integral_ = SpectralIntegral(rule_, length_);
+        primitive_ = integral_.matrix(rule_);
+        cx_.resize(nodes, size_);
+        cy_.resize(nodes, size_);
+        for (Eigen::VectorXd* v : {&bias_x_, &bias_y_, &y_, &vx_, &vy_, &scratch_, &scratch2_}) v->resize(nodes);
+        weights_.resize(nodes);
+        inertia_.resize(size_, size_);
+    }
+    QuadratureModel(const QuadratureModel&) = default;
+
+    void finish(const Problem& problem) {
+        double f[kMaxSize];
+        const double zero[kMaxSize] = {};
+        set(zero, zero);
+        if (!assemble(f)) throw InertiaLost();
+        // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
+        // little.
+        const Eigenmodes modes = eigenmodes(bending_, inertia_.bottomRightCorner(modes_, modes_));
+        frequencies_.resize(static_cast<std::size_t>(modes_));
+        for (int i = 0; i < modes_; ++i)
+            frequencies_[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, modes.omega_squared[i]));
+        build_damping(problem);
+    }
+
+    // cx_, cy_ ← ∂r/∂ξ; bias_x_, bias_y_ ← r̈|ξ̈=0 plus gravity, all at the nodes, in one frame.
+    virtual void columns() = 0;
+    // y_ ← height; vx_, vy_ ← velocity, at the nodes.
+    virtual void node_kinematics() const = 0;
+
+    Quadrature rule_;
+    SpectralIntegral integral_;
+    Eigen::MatrixXd primitive_;  // ∫₀ to each node
+    Eigen::MatrixXd bending_;    // EI∫ of curvature products
+    bool angular_ = false;       // coordinates are angles
+    Eigen::MatrixXd cx_, cy_;
+    Eigen::VectorXd bias_x_, bias_y_;
+    mutable Eigen::VectorXd y_, vx_, vy_, scratch_, scratch2_, weights_;
+    Small inertia_;
+    Eigen::LDLT<Small> factor_;
+    std::vector<double> frequencies_;  // [rad/s], ascending
+};
+
+// Frame coordinates: r = (a + x + u, v), u = −½∫v′² − ½aα²                                  (S5), (S13)
+class SecondOrderModel final : public QuadratureModel {
+  public:
+    explicit SecondOrderModel(const Problem& problem)
+        : QuadratureModel(problem, 3 * problem.beam.modes + 20), shapes_(Shapes::of(problem)) {
+        const Eigen::Index nodes = rule_.x.size();
+        phi_.resize(nodes, modes_);
+        phi1_.resize(nodes, modes_);
+        bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
+        Eigen::VectorXd y(modes_), y1(modes_), y2(modes_);
+        for (Eigen::Index k = 0; k < nodes; ++k) {
+            shapes_.evaluate(rule_.x[k], y.data(), y1.data(), y2.data());
+            phi_.row(k) = y.transpose();
+            phi1_.row(k) = y1.transpose();
+            bending_.noalias() += stiffness_ * rule_.w[k] * y2 * y2.transpose();
+        }
+        if (resolved_basis(problem) == Basis::hub_beam) {
+            shapes_.evaluate(0, nullptr, y1.data(), nullptr);
+            for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = y1[i];
+        }
+        for (Eigen::VectorXd* v : {&v_, &v1_, &dv_, &dv1_, &u_, &du_}) v->resize(nodes);
+        slopes_.resize(nodes, modes_);
+        finish(problem);
+    }
+    std::unique_ptr<Model> clone() const override { return std::make_unique<SecondOrderModel>(*this); }
+
+    void point(double x, BeamPoint& p) const override {
+        double y[kMaxModes], y1[kMaxModes], y2[kMaxModes];
+        shapes_.evaluate(x, y, y1, y2);
+        double v = 0, v1 = 0, v2 = 0, dv = 0, dv1 = 0;
+        for (int i = 0; i < modes_; ++i) {
+            v += y[i] * xi_[1 + i];
+            v1 += y1[i] * xi_[1 + i];
+            v2 += y2[i] * xi_[1 + i];
+            dv += y[i] * rate_[1 + i];
+            dv1 += y1[i] * rate_[1 + i];
+        }
+        integral_.weights(x, weights_.data());
+        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
+        const double du = -weights_.dot(v1_.cwiseProduct(dv1_)) - radius_ * turn_ * turn_rate_;
+        const double u1 = -0.5 * v1 * v1, rx = radius_ + x + u, spin = rate_[0];
+        const Vec2 along{cos_, sin_}, across{-sin_, cos_};
+        p.r = rx * along + v * across;
+        p.r1 = (1 + u1) * along + v1 * across;
+        p.r2 = -v1 * v2 * along + v2 * across;
+        p.v = (du - v * spin) * along + (dv + rx * spin) * across;
+        p.v1 = (-v1 * dv1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
+    }
+
+    void jacobian(double x, double* jx, double* jy, double* jchi) const override {
+        double y[kMaxModes], y1[kMaxModes];
+        shapes_.evaluate(x, y, y1, nullptr);
+        double v = 0, v1 = 0;
+        for (int i = 0; i < modes_; ++i) {
+            v += y[i] * xi_[1 + i];
+            v1 += y1[i] * xi_[1 + i];
+        }
+        integral_.weights(x, weights_.data());
+        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
+        const double rx = radius_ + x + u, t1 = 1 - 0.5 * v1 * v1, speed2 = t1 * t1 + v1 * v1;
+        jx[0] = -rx * sin_ - v * cos_;
+        jy[0] = rx * cos_ - v * sin_;
+        jchi[0] = 1;
+        for (int i = 0; i < modes_; ++i) {
+            double ui = -radius_ * turn_ * hub_row_[1 + i];
+            for (Eigen::Index k = 0; k < v1_.size(); ++k) ui -= weights_[k] * v1_[k] * phi1_(k, i);
+            jx[1 + i] = ui * cos_ - y[i] * sin_;
+            jy[1 + i] = ui * sin_ + y[i] * cos_;
+            jchi[1 + i] = (t1 * y1[i] + v1 * v1 * y1[i]) / speed2;
+        }
+    }
+
+    Vec2 convective(double x) const override {
+        BeamPoint p;
+        point(x, p);
+        const double spin = rate_[0], bend = -weights_.dot(dv1_.cwiseAbs2()) - radius_ * turn_rate_ * turn_rate_;
+        const Vec2 relative = p.v - spin * perp(p.r);
+        return -spin * spin * p.r + 2 * spin * perp(relative) + bend * Vec2{cos_, sin_};  // (S17)
+    }
+
+    double bending_moment(double x) const override {
+        double y2[kMaxModes];
+        shapes_.evaluate(x, nullptr, nullptr, y2);
+        double v2 = 0;
+        for (int i = 0; i < modes_; ++i) v2 += y2[i] * xi_[1 + i];
+        return stiffness_ * v2;
+    }
+
+  private:
+    void state_changed() override {
+        sin_ = std::sin(xi_[0]);
+        cos_ = std::cos(xi_[0]);
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
+        v_.noalias() = phi_ * q;
+        v1_.noalias() = phi1_ * q;
+        dv_.noalias() = phi_ * dq;
+        dv1_.noalias() = phi1_ * dq;
+        scratch_ = v1_.cwiseAbs2();
+        u_.noalias() = -0.5 * (primitive_ * scratch_);
+        scratch_ = v1_.cwiseProduct(dv1_);
+        du_.noalias() = -(primitive_ * scratch_);
+        turn_ = turn_rate_ = 0;
+        for (int i = 1; i < size_; ++i) {
+            turn_ += hub_row_[i] * xi_[i];
+            turn_rate_ += hub_row_[i] * rate_[i];
+        }
+        u_.array() -= 0.5 * radius_ * turn_ * turn_;
+        du_.array() -= radius_ * turn_ * turn_rate_;
+    }
+
+    void columns() override {
+        const double spin = rate_[0];
+        cx_.col(0) = -v_;
+        cy_.col(0) = rule_.x + u_;
+        cy_.col(0).array() += radius_;
+        slopes_ = phi1_;
+        for (int i = 0; i < modes_; ++i) slopes_.col(i).array() *= v1_.array();
+        cx_.rightCols(modes_).noalias() = -(primitive_ * slopes_);
+        for (int i = 0; i < modes_; ++i) cx_.col(1 + i).array() -= radius_ * turn_ * hub_row_[1 + i];
+        cy_.rightCols(modes_) = phi_;
+        // r̈ at ξ̈ = 0, in the frame: −Θ̇²r + 2Θ̇ k×(u̇, v̇) + (ü, 0), ü = −∫v̇′² − aα̇²      (S17)
+        scratch_ = dv1_.cwiseAbs2();
+        bias_x_.noalias() = -(primitive_ * scratch_);
+        bias_x_.array() -= radius_ * turn_rate_ * turn_rate_;
+        bias_x_ -= spin * spin * cy_.col(0) + 2 * spin * dv_;
+        bias_y_ = -spin * spin * v_ + 2 * spin * du_;
+        bias_x_.array() += gravity_ * sin_;
+        bias_y_.array() += gravity_ * cos_;
+    }
+
+    void node_kinematics() const override {
+        const double spin = rate_[0];
+        for (Eigen::Index k = 0; k < rule_.x.size(); ++k) {
+            const double rx = radius_ + rule_.x[k] + u_[k];
+            y_[k] = rx * sin_ + v_[k] * cos_;
+            vx_[k] = du_[k] - v_[k] * spin;
+            vy_[k] = dv_[k] + rx * spin;
+        }
+    }
+
+    Shapes shapes_;
+    Eigen::MatrixXd phi_, phi1_, slopes_;
+    Eigen::VectorXd v_, v1_, dv_, dv1_, u_, du_;
+    double sin_ = 0, cos_ = 1, turn_ = 0, turn_rate_ = 0;
+};
+
+// Section angle ψ(x) = θ + Σ q_j η_j(x), η_j = P_j(2x/L − 1) − P_j(−1): the space of shifted Legendre
+// polynomials, with the hub angle itself as first coordinate. r = a e(θ) + ∫₀ˣ e(ψ)           (S18)
+class ExactModel final : public QuadratureModel {
+  public:
+    explicit ExactModel(const Problem& problem) : QuadratureModel(problem, 2 * problem.beam.modes + 24) {
+        angular_ = true;
+        const Eigen::Index nodes = rule_.x.size();
+        eta_.resize(nodes, modes_);
+        double value[kMaxModes], slope[kMaxModes];
+        bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
+        for (Eigen::Index k = 0; k < nodes; ++k) {
+            shape(rule_.x[k], value, slope);
+            for (int i = 0; i < modes_; ++i) {
+                eta_(k, i) = value[i];
+                for (int j = 0; j < modes_; ++j) bending_(i, j) += stiffness_ * rule_.w[k] * slope[i] * slope[j];
+            }
+        }
+        for (Eigen::VectorXd* v : {&cos_, &sin_, &spin_}) v->resize(nodes);
+        turned_.resize(nodes, size_);
+        finish(problem);
+    }
+    std::unique_ptr<Model> clone() const override { return std::make_unique<ExactModel>(*this); }
+
+    void point(double x, BeamPoint& p) const override {
+        double value[kMaxModes], slope[kMaxModes];
+        shape(x, value, slope);
+        double psi = xi_[0], psi_rate = rate_[0], curvature = 0;
+        for (int i = 0; i < modes_; ++i) {
+            psi += value[i] * xi_[1 + i];
+            psi_rate += value[i] * rate_[1 + i];
+            curvature += slope[i] * xi_[1 + i];
+        }
+        integral_.weights(x, weights_.data());
+        const Vec2 e = unit(psi), root = unit(xi_[0]);
+        p.r = radius_ * root + Vec2{weights_.dot(cos_), weights_.dot(sin_)};
+        p.r1 = e;
+        p.r2 = curvature * perp(e);
+        p.v = radius_ * rate_[0] * perp(root) +
+              Vec2{-weights_.dot(sin_.cwiseProduct(spin_)), weights_.dot(cos_.cwiseProduct(spin_))};
+        p.v1 = psi_rate * perp(e);
+    }
+
+    void jacobian(double x, double* jx, double* jy, double* jchi) const override {
+        double value[kMaxModes], slope[kMaxModes];
+        shape(x, value, slope);
+        integral_.weights(x, weights_.data());
+        const Vec2 root = perp(unit(xi_[0]));
+        jx[0] = radius_ * root.x - weights_.dot(sin_);
+        jy[0] = radius_ * root.y + weights_.dot(cos_);
+        jchi[0] = 1;
+        for (int i = 0; i < modes_; ++i) {
+            double sx = 0, sy = 0;
+            for (Eigen::Index k = 0; k < eta_.rows(); ++k) {
+                sx -= weights_[k] * sin_[k] * eta_(k, i);
+                sy += weights_[k] * cos_[k] * eta_(k, i);
+            }
+            jx[1 + i] = sx;
+            jy[1 + i] = sy;
+            jchi[1 + i] = value[i];
+        }
+    }
+
+    Vec2 convective(double x) const override {
+        integral_.weights(x, weights_.data());
+        const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())),
+                         weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
+        return -radius_ * rate_[0] * rate_[0] * unit(xi_[0]) - inner;  // (S19)
+    }
+
+    double bending_moment(double x) const override {
+        double value[kMaxModes], slope[kMaxModes];
+        shape(x, value, slope);
+        double curvature = 0;
+        for (int i = 0; i < modes_; ++i) curvature += slope[i] * xi_[1 + i];
+        return stiffness_ * curvature;
+    }
+
+  private:
+    // η_j and dη_j/dx, j = 1…N.
+    void shape(double x, double* value, double* slope) const {
+        double p[kMaxModes + 1];
+        const double z = 2 * x / length_ - 1;
+        legendre(z, modes_ + 1, p);
+        double before = 0, here = 1;  // P′_{j−1}, P′_j from P′_{j+1} = P′_{j−1} + (2j+1)P_j
+        for (int j = 1; j <= modes_; ++j) {
+            value[j - 1] = p[j] - (j % 2 ? -1.0 : 1.0);
+            slope[j - 1] = here * 2 / length_;
+            const double after = before + (2 * j + 1) * p[j];
+            before = here;
+            here = after;
+        }
+    }
+
+    void state_changed() override {
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
+        scratch_.noalias() = eta_ * q;
+        spin_.noalias() = eta_ * dq;
+        spin_.array() += rate_[0];
+        for (Eigen::Index k = 0; k < scratch_.size(); ++k) {
+            cos_[k] = std::cos(xi_[0] + scratch_[k]);
+            sin_[k] = std::sin(xi_[0] + scratch_[k]);
+        }
+    }
+
+    void columns() override {
+        const Vec2 root = unit(xi_[0]);
+        turned_.col(0) = sin_;
+        for (int i = 0; i < modes_; ++i) turned_.col(1 + i) = sin_.cwiseProduct(eta_.col(i));
+        cx_.noalias() = -(primitive_ * turned_);
+        turned_.col(0) = cos_;
+        for (int i = 0; i < modes_; ++i) turned_.col(1 + i) = cos_.cwiseProduct(eta_.col(i));
+        cy_.noalias() = primitive_ * turned_;
+        cx_.col(0).array() -= radius_ * root.y;
+        cy_.col(0).array() += radius_ * root.x;
+        // r̈ at ξ̈ = 0: −aθ̇² e(θ) − ∫ψ̇² e(ψ)                                               (S19)
+        const double pull = radius_ * rate_[0] * rate_[0];
+        scratch_ = spin_.array().square() * cos_.array();
+        bias_x_.noalias() = -(primitive_ * scratch_);
+        scratch_ = spin_.array().square() * sin_.array();
+        bias_y_.noalias() = -(primitive_ * scratch_);
+        bias_x_.array() -= pull * root.x;
+        bias_y_.array() += gravity_ - pull * root.y;
+    }
+
+    void node_kinematics() const override {
+        const Vec2 root = unit(xi_[0]);
+        y_.noalias() = primitive_ * sin_;
+        y_.array() += radius_ * root.y;
+        scratch_ = spin_.cwiseProduct(sin_);
+        vx_.noalias() = -(primitive_ * scratch_);
+        vx_.array() -= radius_ * rate_[0] * root.y;
+        scratch_ = spin_.cwiseProduct(cos_);
+        vy_.noalias() = primitive_ * scratch_;
+        vy_.array() += radius_ * rate_[0] * root.x;
+    }
+
+    Eigen::MatrixXd eta_, turned_;
+    Eigen::VectorXd cos_, sin_, spin_;
+};
+
+}  // namespace
+
+std::unique_ptr<Model> make_quadrature_model(const Problem& problem) {
+    if (problem.beam.model == ModelKind::exact) return std::make_unique<ExactModel>(problem);
+    return std::make_unique<SecondOrderModel>(problem);
+}
+
+}  // namespace beamcam::sim

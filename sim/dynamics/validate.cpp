@@ -1,0 +1,250 @@
+// What a problem may not be, and what it should not be: every finding at once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dynamics/initial.hpp"
+#include "sim/dynamics/system.hpp"
+#include "sim/problem/keys.hpp"
+#include "sim/problem/problem.hpp"
+#include "sim/problem/scales.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// No number of a mechanism is larger, in SI; squares and products of a few such numbers stay far from overflow.
+constexpr double kLargest = 1e30;
+
+class Findings {
+  public:
+    void refuse(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), true}); }
+    void warn(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), false}); }
+    std::vector<Finding> list;
+};
+
+// Whether each number is within the range that its key has.
+class RangeCheck final : public Visitor {
+  public:
+    RangeCheck(Findings& out, std::string path) : out_(out), path_(std::move(path)) {}
+
+    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) override {
+        judge(key, value, unit, range);
+    }
+    void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char*,
+                const char*) override {
+        if (value) judge(key, *value, unit, range);
+    }
+    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range, const Length&,
+                 const char*) override {
+        (void)std::all_of(values.begin(), values.end(), [&](double x) { return judge(key, x, unit, range); });
+    }
+    void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
+        if (value && (*value < least || *value > most))
+            out_.refuse(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
+    }
+    void truth(const Key&, bool&, const char*) override {}
+    void text(const Key&, std::string&, const char*) override {}
+    void word(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
+    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
+        RangeCheck inside(out_, path(key) + ".");
+        if (!present || *present) fields(inside);
+    }
+    void alternatives(const std::vector<Alternative>& all) override {
+        for (const Alternative& each : all)
+            if (each.chosen) return each.fields(*this);
+    }
+
+  private:
+    std::string path(const Key& key) const { return path_ + key.name; }
+
+    bool judge(const Key& key, double value, const Unit& unit, const Range& range) {
+        const bool finite = std::isfinite(value);
+        const bool bounded = std::isfinite(range.most);
+        if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargest)) return true;
+        out_.refuse(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
+        return false;
+    }
+    static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
+        if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.least, range.most, value);
+        if (finite && range.contains(value))
+            return fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers", kLargest,
+                               value);
+        if (!std::isfinite(range.least)) return fmt::format("must be a finite number, is {:g}", value);
+        if (!range.without_least) return fmt::format("must not be negative, is {:g}", value);
+        return fmt::format("must be a positive number of {}, is {:g}", in_words(unit), value);
+    }
+    static std::string in_words(const Unit& unit) {
+        const std::string symbol = unit.symbol();
+        return symbol == "m" ? "metres" : symbol == "s" ? "seconds" : symbol;
+    }
+
+    Findings& out_;
+    std::string path_;
+};
+
+void check_table(Findings& out, const char* t_path, const char* v_path, const std::vector<double>& t,
+                 const std::vector<double>& v, std::size_t least) {
+    if (t.size() < least)
+        return out.refuse(t_path,
+                          fmt::format("needs at least {} point{}, has {}", least, least == 1 ? "" : "s", t.size()));
+    if (t.size() != v.size())
+        out.refuse(v_path, fmt::format("must have as many values as the times ({}), has {}", t.size(), v.size()));
+    for (std::size_t i = 1; i < t.size(); ++i)
+        if (!(t[i] > t[i - 1])) {
+            out.refuse(t_path, fmt::format("times must increase: {:g} follows {:g}", t[i], t[i - 1]));
+            break;
+        }
+}
+
+void check_hub(Findings& out, const Problem& p) {
+    if (p.beam.length > 0 && std::isfinite(p.hub.radius) && !(p.hub.radius > -p.beam.length))
+        out.refuse("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
+                                             -p.beam.length, p.hub.radius));
+    if (const auto* d = std::get_if<TorqueTable>(&p.hub.drive))
+        check_table(out, "hub.drive.t", "hub.drive.torque", d->t, d->torque, 1);
+    if (const auto* d = std::get_if<AngleTable>(&p.hub.drive))
+        check_table(out, "hub.drive.t", "hub.drive.theta", d->t, d->theta, 2);
+}
+
+void check_beam(Findings& out, const Problem& p) {
+    const Beam& b = p.beam;
+    if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
+        out.refuse("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
+                                                     b.modes, b.damping_ratio.size()));
+    if (b.kelvin_voigt && std::any_of(b.damping_ratio.begin(), b.damping_ratio.end(), [](double z) { return z != 0; }))
+        out.refuse("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
+    if (b.basis == Basis::hub_beam && is_prescribed(p.hub.drive))
+        out.refuse("beam.basis",
+                   "hub-beam shapes are those of a freely turning hub; with a prescribed drive use \"cantilever\" or "
+                   "\"auto\"");
+    if (b.basis == Basis::hub_beam && b.model == ModelKind::paper)
+        out.refuse("beam.basis",
+                   "the paper's equation (4) is written in the hub's frame; use \"cantilever\" or \"auto\"");
+}
+
+void check_contact(Findings& out, const Problem& p) {
+    const Contact& c = p.contact;
+    const bool singular = c.damping == DampingLaw::gonthier || c.damping == DampingLaw::flores ||
+                          c.damping == DampingLaw::hu_guo || c.damping == DampingLaw::zhang_sharf;
+    if (c.model == ContactModel::compliant && singular && c.restitution < 0.01)
+        out.refuse(
+            "contact.restitution",
+            fmt::format("the law {} has no finite damping at 0: give at least 0.01 (is {:g}) or use hunt-crossley, "
+                        "lankarani-nikravesh, herbert-mcwhannell or lee-wang",
+                        name(c.damping), c.restitution));
+    if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
+        if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
+            out.refuse(
+                "contact.friction.static_coefficient",
+                fmt::format("must be at least the coefficient {:g}, is {:g}", f->coefficient, *f->static_coefficient));
+}
+
+void check_cam(Findings& out, const Problem& p) {
+    const Cam& cam = *p.cam;
+    if (cam.radius > 0 && !(cam.eccentricity < cam.radius))
+        out.refuse(
+            "cam.eccentricity",
+            fmt::format("must be smaller than the cam's radius {:g} m, is {:g} m: the axis would lie outside the disc",
+                        cam.radius, cam.eccentricity));
+}
+
+// Where cam and beam are to each other; every number is known to be sane.
+struct StartGap {
+    double gap, x;  // [m]
+};
+// Of a straight beam: the distance of a segment and a disc.
+StartGap straight_gap(const Problem& p) {
+    const Cam& cam = *p.cam;
+    double angle = p.initial.angle;
+    if (is_prescribed(p.hub.drive)) angle = DriveLaw(p.hub.drive, angle).motion(0).angle;
+    const Vec2 along = unit(angle), disc = cam.centre + cam.eccentricity * unit(cam.phase);
+    const double x = std::clamp(dot(disc, along) - p.hub.radius, 0.0, p.beam.length);
+    return {norm((p.hub.radius + x) * along - disc) - cam.radius - contact_offset(p), x};
+}
+StartGap gap_at_start(const Problem& p) {
+    System system(p);
+    const InitialState start = initial_state(system);
+    const ContactState c = system.contact(0, start.y.data(), true);
+    return {c.gap, c.x};
+}
+
+void check_geometry(Findings& out, const Problem& p) {
+    const Cam& cam = *p.cam;
+    const double d = contact_offset(p), away = norm(cam.centre), a = p.hub.radius;
+    const double nearest_axis = away - cam.eccentricity - cam.radius;
+    if (nearest_axis <= 0) {
+        out.refuse("cam.centre", fmt::format("the cam passes over the hub's axis: its centre is {:g} m away, "
+                                             "eccentricity and radius make {:g} m; move it away",
+                                             away, cam.eccentricity + cam.radius));
+        return;
+    }
+    if (a > nearest_axis) {
+        out.refuse(
+            "hub.radius",
+            fmt::format(
+                "the hub reaches {:g} m from its axis, into the circle that the cam sweeps, which comes as near as "
+                "{:g} m; make it smaller or move the cam away",
+                a, nearest_axis));
+        return;
+    }
+    const double reach = a + p.beam.length + d;
+    if (nearest_axis > reach) {
+        out.warn(
+            "cam.centre",
+            fmt::format("the beam reaches {:g} m from the axis, the cam comes no nearer than {:g} m: they never touch",
+                        reach, nearest_axis));
+        return;
+    }
+    const bool rigid = p.beam.model == ModelKind::rigid || p.beam.modes == 0;
+    if (rigid && is_prescribed(p.hub.drive) && p.contact.model == ContactModel::restitution) {
+        out.refuse("contact.model",
+                   "nothing gives way to an impulse when a rigid beam meets the cam at a prescribed angle; use "
+                   "\"compliant\" contact, a flexible beam, or a torque instead of the angle");
+        return;
+    }
+    if (p.initial.shape == InitialShape::resting) return;
+    try {
+        const auto [gap, x] = p.initial.shape == InitialShape::straight ? straight_gap(p) : gap_at_start(p);
+        if (gap < -1e-12 * std::max(1.0, p.beam.length))
+            out.refuse("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
+                                                    "the beam); raise the angle, turn cam.phase, "
+                                                    "or use \"shape\": \"resting\"",
+                                                    -gap, x));
+    } catch (const StepFailure& failure) {
+        out.refuse("initial.shape", failure.what());
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> validate(const Problem& problem) {
+    Findings out;
+    Problem visited = problem;  // visitors may write; this one does not
+    RangeCheck ranges(out, "");
+    visit(ranges, visited);
+    check_hub(out, problem);
+    check_beam(out, problem);
+    check_contact(out, problem);
+    if (problem.cam) check_cam(out, problem);
+    if (problem.initial.shape == InitialShape::resting) {
+        if (!problem.cam)
+            out.refuse("initial.shape", "a beam cannot rest on a cam that is not there; give a cam or another shape");
+        if (is_prescribed(problem.hub.drive))
+            out.refuse("initial.shape",
+                       "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
+    }
+    bool sane = out.list.empty();
+    if (sane) {
+        out.list = beyond_arithmetic(problem);
+        sane = out.list.empty();
+    }
+    if (sane && problem.cam) check_geometry(out, problem);
+    if (sane && problem.beam.model == ModelKind::paper)
+        out.warn("beam.model",
+                 "the paper's equation (4) does not conserve energy (its stiffening uses L cos θ); compare with "
+                 "\"first-order\"");
+    return std::move(out.list);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,36 @@
+// Gauss collocation with eight nodes on [0, 1]: nodes, weights, integration to the nodes, and derivatives of the
+// interpolation polynomial. Constants, worked out once. MODEL.md §12.
+//
+// Sources: Hairer, Nørsett & Wanner II.7; derivatives by Legendre coefficients (Trefethen, "Spectral Methods").
+#pragma once
+
+#include <array>
+
+#include "sim/base/lanes.hpp"
+
+namespace beamcam::sim {
+
+struct Collocation {
+    static const Collocation& get();
+
+    Lanes c;                              // nodes, ascending
+    Lanes b;                              // weights, sum 1
+    std::array<Lanes, kNodes> integrate;  // [l][k]: ∫₀^{c_k} ℓ_l
+    std::array<Lanes, kNodes> integrate_twice;
+    // Points where expansions start: 0, then the nodes. derive[i][j][l] = ℓ_l^{(j)} at point i.
+    std::array<double, kNodes + 1> point;
+    std::array<std::array<Lanes, kNodes>, kNodes + 1> derive;
+    // legendre[j][l]: nodal values to the coefficient of P_j(2s − 1).
+    std::array<Lanes, kNodes> legendre;
+    std::array<Lanes, kNodes> slope;  // [l][k]: ℓ_l′(c_k)
+    // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
+    std::array<Lanes, kNodes> monomial;
+
+    // w[l] = ∫₀ˢ ℓ_l, for any s.
+    void weights_to(double s, Lanes& w) const;
+
+  private:
+    Collocation();
+};
+
+}  // namespace beamcam::sim

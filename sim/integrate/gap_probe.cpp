@@ -1,0 +1,67 @@
+#include "sim/integrate/gap_probe.hpp"
+
+#include <cmath>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kCorrections = 3;    // of the foot in a look: Newton's method, from the foot of the look before
+constexpr int kMostCentres = 8;    // until the expansion is where the foot is
+constexpr double kSettled = 3e-3;  // of the length: corrections that move the foot no further have converged
+
+}  // namespace
+
+GapProbe::GapProbe(System& system) : system_(system) {
+    auto form = ModalForm::of(system);
+    if (!form || !system.has_cam()) return;
+    hq_.resize(static_cast<std::size_t>(form->n));
+    expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
+}
+
+ContactState GapProbe::look(double t, const double* y, bool search) {
+    ContactState c;
+    if (expansion_ && expanded(t, y, search, c)) {
+        ++system_.gap_evaluations;
+        return c;
+    }
+    c = system_.contact(t, y, true);
+    x_ = c.at_end ? -1 : c.x;
+    return c;
+}
+
+bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c) {
+    const double length = system_.model().length();
+    const int n = system_.coordinates();
+    const CamPose pose = system_.cam(t);
+    double hub = y[0], rate = y[n];
+    if (system_.drive().prescribed()) {
+        const HubMotion motion = system_.drive().motion(t);
+        hub = motion.angle;
+        rate = motion.rate;
+    }
+    const Frame<double> frame{std::sin(hub), std::cos(hub),   rate,           pose.disc.x,
+                              pose.disc.y,   pose.velocity.x, pose.velocity.y};
+    if (!system_.nearly_straight(y + 1)) return false;
+    if (search || x_ < 0) {
+        x_ = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
+    }
+    Touch<double> touch;
+    for (int i = 0; i < kMostCentres; ++i) {
+        if (!(x_ > 0 && x_ < length)) break;
+        expansion_->centre(x_);
+        touch.dx = x_ - expansion_->at();
+        const double guess = x_;
+        expansion_->look(y + 1, y + n + 1, frame, system_.phase().gap_offset, hq_.data(), touch, kCorrections);
+        x_ = expansion_->at() + touch.dx;
+        if (!(std::fabs(touch.dx) < expansion_->range()) || !(std::fabs(x_ - guess) < kSettled * length)) continue;
+        if (!(x_ > 0 && x_ < length)) break;
+        c.x = x_;
+        c.gap = touch.gap;
+        c.gap_rate = touch.gap_rate;
+        return true;
+    }
+    x_ = -1;
+    return false;
+}
+
+}  // namespace beamcam::sim

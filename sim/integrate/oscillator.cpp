@@ -1,0 +1,205 @@
+#include "sim/integrate/oscillator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/integrate/lane_kernels.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// [rad/s] Slower oscillators hardly have a period: their inverse frequencies are best left alone.
+constexpr double kStill = 1e-6;
+
+// From here on (ζ) the two decays are told apart; below, they are too near each other for that.
+constexpr double kApart = 1.02;
+// What the oscillators of a group may have in common to be answered in lanes (ζ).
+constexpr double kMostInLanes = 0.5;
+constexpr double kSeries = 2;  // radians or decays that the series below serve
+
+// The responses downwards from the series of the last two: g_j = Σ_k a_k τ^{j+2+k}/(j+2+k)!, a₀ = 1, a₁ = −2γ,
+// a_k = −2γ a_{k−1} − ω² a_{k−2}; carried as a_k τᵏ, which stays small where a_k alone would overflow.
+void descend(double w2, double damping, double tau, const double* power, double* r) {
+    for (const int j : {kNodes - 1, kNodes - 2}) {
+        double term = power[j + 2], before = 0, a = 1, total = 0;
+        for (int k = 0; k < 24; ++k) {
+            total += a * term;
+            const double next = -(damping * tau) * a - (w2 * tau) * tau * before;
+            before = a;
+            a = next;
+            term /= j + 3 + k;
+            if (std::fabs(a * term) + std::fabs(before * term) <= 1e-18 * std::fabs(total)) break;
+        }
+        r[2 + j] = total;
+    }
+    for (int j = kNodes - 2; j > 0; --j) r[1 + j] = power[j + 1] - damping * r[2 + j] - w2 * r[3 + j];
+}
+
+// ∫₀^τ e^{−r(τ−u)} u^{k−1}/(k−1)! du = ψ_k(rτ) τᵏ/k!, k = 1…8: ψ₁(x) = (1 − e^{−x})/x, ψ_{k+1} = (k+1)(1 − ψ_k)/x,
+// upwards where x is large and downwards, from the series of the last, where it is small.
+void decay_shares(double x, double* psi) {
+    if (x >= kSeries) {
+        psi[0] = -std::expm1(-x) / x;
+        for (int k = 1; k < kNodes; ++k) psi[k] = (k + 1) * (1 - psi[k - 1]) / x;
+        return;
+    }
+    double total = 0, term = 1;
+    for (int k = 1; k < 24; ++k) {
+        total += term;
+        term *= -x / (kNodes + k);
+    }
+    psi[kNodes - 1] = total;
+    for (int k = kNodes - 1; k > 0; --k) psi[k - 1] = 1 - x * psi[k] / (k + 1);
+}
+
+// The responses as the difference of two decays.                                                          (S52a)
+void respond_by_decays(const Decays& d, const double* power, double tau, double* r) {
+    double slow[kNodes], fast[kNodes];
+    decay_shares(d.slow * tau, slow);
+    decay_shares(d.fast * tau, fast);
+    for (int j = 0; j < kNodes; ++j) r[2 + j] = power[j + 1] * (slow[j] - fast[j]) / d.apart();
+}
+
+}  // namespace
+
+bool decays(const Oscillator& o) { return o.gamma > kApart * o.omega; }
+
+Decays decays_of(const Oscillator& o) {
+    const double fast = o.gamma + std::sqrt((o.gamma - o.omega) * (o.gamma + o.omega));
+    return {o.omega * (o.omega / fast), fast};
+}
+
+// With g_j the responses (g₋₁ = s, g₋₂ = ṡ, ġ_j = g_{j−1}) the equation of motion itself is the recursion     (S52)
+//   g_{j−1} + 2γ g_j + ω² g_{j+1} = τ^{j+1}/(j+1)!,
+// stable upwards where ωτ is large and downwards, from the series of the last two, where it is small.
+void respond(const Oscillator& o, double tau, double* r) {
+    const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+    const double turning = o.gamma == 0 ? o.omega : std::sqrt(std::fabs(w2 - o.gamma * o.gamma));
+    const bool vibrates = o.gamma <= o.omega, apart = decays(o);
+    double s, ds;
+    if (!apart && turning * tau < 1e-4) {
+        // Down to no stiffness at all: decay is as slow.
+        const double z = turning * tau, decay = std::exp(-o.gamma * tau), z2 = vibrates ? z * z : -z * z;
+        s = tau * (1 - z2 / 6) * decay;
+        ds = (1 - 0.5 * z2) * decay - o.gamma * s;
+    } else if (vibrates) {
+        const double decay = o.gamma == 0 ? 1 : std::exp(-o.gamma * tau);
+        s = decay * std::sin(turning * tau) / turning;
+        ds = decay * std::cos(turning * tau) - o.gamma * s;
+    } else {
+        const Decays d = decays_of(o);
+        const double slow = std::exp(-d.slow * tau);
+        s = -slow * std::expm1(-d.apart() * tau) / d.apart();
+        ds = (d.fast * std::exp(-d.fast * tau) - d.slow * slow) / d.apart();
+    }
+    r[0] = ds;
+    r[1] = s;
+    double power[kNodes + 3];  // τʲ/j!
+    power[0] = 1;
+    for (int j = 1; j < kNodes + 3; ++j) power[j] = power[j - 1] * (tau / j);
+    const double reach = (apart ? decays_of(o).fast : o.omega) * tau;
+    // Near critical damping the recursion upwards loses more.
+    if (reach < (!apart && o.gamma > kMostInLanes * o.omega ? 2 * kSeries : kSeries))
+        return descend(w2, damping, tau, power, r);
+    if (apart) return respond_by_decays(decays_of(o), power, tau, r);
+    const double inverse = 1 / w2;
+    for (int j = -1; j + 1 < kNodes; ++j) r[3 + j] = (power[j + 1] - damping * r[2 + j] - r[1 + j]) * inverse;
+}
+
+std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators) {
+    std::vector<OscillatorLanes> groups((oscillators.size() + kNodes - 1) / kNodes);
+    for (std::size_t i = 0; i < groups.size() * kNodes; ++i) {
+        const Oscillator& o = oscillators[std::min(i, oscillators.size() - 1)];
+        OscillatorLanes& group = groups[i / kNodes];
+        const int lane = static_cast<int>(i % kNodes);
+        const double w2 = o.omega * o.omega;
+        group.omega[lane] = o.omega;
+        group.square[lane] = w2;
+        group.inverse_square[lane] = 1 / w2;
+        group.gamma[lane] = o.gamma;
+        group.damping[lane] = 2 * o.gamma;
+        group.turning[lane] = o.gamma == 0 ? o.omega : std::sqrt(std::fabs(w2 - o.gamma * o.gamma));
+        group.inverse_turning[lane] = 1 / group.turning[lane];
+        group.slowest = lane == 0 ? o.omega : std::min(group.slowest, o.omega);
+        group.fastest = std::max(group.fastest, o.omega);
+        group.damped = group.damped || o.gamma > 0;
+        group.alone = group.alone || o.gamma > kMostInLanes * o.omega;
+    }
+    return groups;
+}
+
+void respond(const OscillatorLanes& group, double tau, Lanes* r) {
+    if (group.alone || !(group.fastest * tau < kMostRadians && group.slowest > kStill)) {
+        for (int k = 0; k < kNodes; ++k) {
+            double one[kResponse];
+            respond(Oscillator{group.omega[k], group.gamma[k]}, tau, one);
+            for (int j = 0; j < kResponse; ++j) r[j][k] = one[j];
+        }
+        return;
+    }
+    Lanes decay = Lanes{} + 1.0;
+    if (group.damped)
+        for (int k = 0; k < kNodes; ++k) decay[k] = std::exp(-group.gamma[k] * tau);
+    lane_kernels().respond(group, tau, decay, r);
+}
+
+void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups,
+                      double length) {
+    const Collocation& gauss = Collocation::get();
+    h = length;
+    rows.resize(oscillators.size());
+    // Scaled derivatives: derive/hʲ times the responses.
+    double inverse[kNodes];
+    inverse[0] = 1;
+    for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    responses_.resize(groups.size() * (kNodes + 1) * kResponse);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t k = 0; k <= kNodes; ++k) {
+            const double to = k < kNodes ? gauss.c[static_cast<int>(k)] : 1;
+            respond(groups[g], (to - gauss.point[k]) * h, responses_.data() + (g * (kNodes + 1) + k) * kResponse);
+        }
+    for (std::size_t i = 0; i < oscillators.size(); ++i) {
+        const Oscillator& o = oscillators[i];
+        Row& row = rows[i];
+        const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+        // From point to point, each by the expansion at its start.
+        double qq = 1, qv = 0, vq = 0, vv = 1;
+        Lanes q{}, v{};
+        for (std::size_t k = 0; k <= kNodes; ++k) {
+            const Lanes* all = responses_.data() + (i / kNodes * (kNodes + 1) + k) * kResponse;
+            double r[kResponse];
+            for (int j = 0; j < kResponse; ++j) r[j] = all[j][static_cast<int>(i % kNodes)];
+            const double a = r[0] + damping * r[1], b = r[1], c = -w2 * r[1], d = r[0];
+            Lanes q1 = a * q + b * v, v1 = c * q + d * v;
+            for (std::size_t j = 0; j < kNodes; ++j) {
+                q1 += (inverse[j] * r[2 + j]) * gauss.derive[k][j];
+                v1 += (inverse[j] * r[1 + j]) * gauss.derive[k][j];
+            }
+            q = q1;
+            v = v1;
+            const double qq1 = a * qq + b * vq, qv1 = a * qv + b * vv;
+            vq = c * qq + d * vq;
+            vv = c * qv + d * vv;
+            qq = qq1;
+            qv = qv1;
+            if (k == kNodes) break;
+            const int lane = static_cast<int>(k);
+            row.qq[lane] = qq;
+            row.qv[lane] = qv;
+            row.vq[lane] = vq;
+            row.vv[lane] = vv;
+            for (std::size_t l = 0; l < kNodes; ++l) {
+                row.q[l][lane] = q[static_cast<int>(l)];
+                row.v[l][lane] = v[static_cast<int>(l)];
+            }
+        }
+        row.end_q = q;
+        row.end_v = v;
+        row.end_qq = qq;
+        row.end_qv = qv;
+        row.end_vq = vq;
+        row.end_vv = vv;
+    }
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,59 @@
+// The exact response of q̈ + 2γq̇ + ω²q = f(t), however much damped, to a forcing that is a polynomial: at one instant,
+// and tabulated at the nodes of a collocation step for a forcing given by its nodal values. MODEL.md §12.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/integrate/collocation.hpp"
+
+namespace beamcam::sim {
+
+struct Oscillator {
+    double omega = 0;  // ω [rad/s], >= 0
+    double gamma = 0;  // γ [1/s], >= 0
+};
+
+// Well beyond critical damping q is the sum of two decays, ẋ = −rx ± f/(fast − slow), told apart by
+// x_slow = (q̇ + fast q)/(fast − slow), x_fast = −(q̇ + slow q)/(fast − slow).                              (S52a)
+struct Decays {
+    double slow = 0, fast = 0;  // [1/s]
+    double apart() const { return fast - slow; }
+};
+bool decays(const Oscillator& oscillator);       // rather than vibrates
+Decays decays_of(const Oscillator& oscillator);  // of one that does
+
+// r[0] = ṡ, r[1] = s, r[2+j] = ∫₀^τ s(τ−u) uʲ/j! du for j = 0…7, where s is the response to a unit impulse (S52).
+inline constexpr int kResponse = 2 + kNodes;
+void respond(const Oscillator& oscillator, double tau, double* r);
+
+// Eight oscillators side by side; a group that is not full repeats its last.
+struct OscillatorLanes {
+    Lanes omega, square, inverse_square, damping, gamma;  // ω, ω², 1/ω², 2γ, γ
+    Lanes turning, inverse_turning;                       // √(ω² − γ²) and its inverse
+    double slowest = 0, fastest = 0;                      // of the group [rad/s]
+    bool damped = false;
+    bool alone = false;  // one is damped beyond half of the critical: each answers by itself
+};
+std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators);
+// The same of a whole group: r[kResponse], in lanes over oscillators.
+void respond(const OscillatorLanes& group, double tau, Lanes* r);
+
+// What a step of length h does to the oscillators: rows for the eight nodes, and for the end.
+struct StepTable {
+    struct Row {  // of one oscillator: q ← qq q₀ + qv v₀ + Σ f_l q[l],  v ← vq q₀ + vv v₀ + Σ f_l v[l]
+        Lanes qq, qv, vq, vv;
+        std::array<Lanes, kNodes> q, v;
+        Lanes end_q, end_v;  // over l
+        double end_qq, end_qv, end_vq, end_vv;
+    };
+    double h = 0;
+    std::vector<Row> rows;
+    // `groups`: the same oscillators side by side.
+    void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
+
+  private:
+    std::vector<Lanes> responses_;  // kept for its memory
+};
+
+}  // namespace beamcam::sim

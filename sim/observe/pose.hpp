@@ -1,0 +1,37 @@
+// Where everything is at one instant: what a picture needs to know of the mechanics, in metres.
+// True geometry, never exaggerated.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/base/vec2.hpp"
+
+namespace beamcam::sim {
+
+// The foot of the perpendicular from the cam centre B on the centre line (PHYSICS "Geometry").
+struct Nearest {
+    double x = 0;         // arc position on the beam, 0…L [m]
+    double s = 0;         // arc on the disc, counter-clockwise from its mark [m], 0…2πR
+    Vec2 point;           // on the disc's surface, n·R from B [m]
+    Vec2 normal;          // n, from the cam to the beam
+    double gap = 0;       // < 0: penetration [m]
+    double force = 0;     // normal contact force N >= 0 [N]; 0 when apart
+    double friction = 0;  // force on the beam along t (n turned by −90°) [N]
+    bool touching = false;
+};
+
+struct Pose {
+    double t = 0;                    // [s]
+    double theta = 0;                // hub angle [rad]
+    double theta_dot = 0;            // [rad/s]
+    std::vector<Vec2> centreline;    // equally spaced in arc position, root first, tip last [m]
+    std::vector<double> moment;      // bending moment EI κ at the same stations [N m]
+    double root_slope = 0;           // angle of the tangent at the root; equals theta [rad]
+    Vec2 cam_centre;                 // C (axis) [m]; meaningless without a cam
+    Vec2 disc_centre;                // B [m]
+    double cam_angle = 0;            // ψ, unwrapped [rad]; the mark is the ray C→B
+    std::optional<Nearest> nearest;  // absent without a cam
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,63 @@
+// Instants at which a plane curve that is known at any time is looked at, so that straight pieces between them follow
+// it: a piece is halved until the curve stays near it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/vec2.hpp"
+
+namespace beamcam::sim {
+
+class CurveRefiner {
+  public:
+    // Between the instants a < b. `at(t)` is the curve; `keep(t)` takes the instants to be added, in order.
+    template <class At, class Keep>
+    void refine(double a, double b, At&& at, Keep&& keep) {
+        halve(a, seen(at(a)), b, seen(at(b)), kMostHalvings, at, keep);
+    }
+
+  private:
+    static constexpr double kStray =
+        0.01;  // of the range so far, from the piece; a spline through the rows strays less
+    static constexpr int kMostHalvings = 8;
+    static constexpr long kMostAdded = 400'000;  // 10 MB of three channels; more would be solid ink
+    static constexpr double kAside = 0.31;       // beside the middle: no vibration has a node at both
+
+    template <class At, class Keep>
+    void halve(double a, Vec2 from, double b, Vec2 to, int halvings, At& at, Keep& keep) {
+        const double middle = 0.5 * (a + b);
+        if (halvings == 0 || added_ >= kMostAdded || !(middle > a && middle < b)) return;
+        const Vec2 aside = seen(at(a + kAside * (b - a))), centre = seen(at(middle));
+        if (std::max(stray(centre, from, to), stray(aside, from, to)) <= kStray) return;
+        halve(a, from, middle, centre, halvings - 1, at, keep);
+        ++added_;
+        keep(middle);
+        halve(middle, centre, b, to, halvings - 1, at, keep);
+    }
+
+    Vec2 seen(Vec2 p) {
+        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+        return p;
+    }
+
+    // Distance of p from the piece, each direction by its range.
+    double stray(Vec2 p, Vec2 from, Vec2 to) const {
+        const Vec2 range = high_ - low_;
+        const auto scaled = [&](Vec2 v) {
+            return Vec2{range.x > 0 ? v.x / range.x : 0, range.y > 0 ? v.y / range.y : 0};
+        };
+        const Vec2 along = scaled(to - from), off = scaled(p - from);
+        const double length = dot(along, along),
+                     share = length > 0 ? std::clamp(dot(off, along) / length, 0.0, 1.0) : 0;
+        return norm(off - along * share);
+    }
+
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec2 low_{kInfinity, kInfinity}, high_{-kInfinity, -kInfinity};
+    long added_ = 0;
+};
+
+}  // namespace beamcam::sim

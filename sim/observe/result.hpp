@@ -1,0 +1,89 @@
+// What is found of a motion: samples, poses, impacts, extrema, the balance of energy.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/observe/channels.hpp"
+#include "sim/observe/pose.hpp"
+
+namespace beamcam::sim {
+
+// One touch, from approach to release. Speeds: v_n < 0 approaches; v_t is beam minus cam material.
+struct Impact {
+    double t_start = 0;                          // [s]
+    std::optional<double> t_end;                 // absent: still touching at the end of the run
+    double x = 0;                                // contact_x at touch [m]
+    double cam_angle = 0;                        // ψ at touch [rad]
+    double v_n_before = 0, v_t_before = 0;       // at touch [m/s]
+    std::optional<double> v_n_after, v_t_after;  // at release [m/s]
+    std::optional<double> duration;              // [s]
+    std::optional<double> force_peak;            // [N]; absent: a pure impulse has no finite force
+    double penetration_peak = 0;                 // [m]
+    double impulse_n = 0, impulse_t = 0;         // [N s]
+    std::optional<double> restitution;           // −v_n_after / v_n_before
+    double energy_lost = 0;                      // contact + friction losses between touch and release [J]
+    int collision = 0;                           // 0-based index into the collisions
+};
+
+// Impacts closer than contact.collision_gap.
+struct Collision {
+    double t_start = 0;
+    std::optional<double> t_end;
+    int count = 0;  // of impacts
+    double x = 0, v_n_before = 0;
+    std::optional<double> v_n_after, restitution;
+    std::optional<double> force_peak;  // [N]
+    double energy_lost = 0;
+};
+
+struct ZeroCrossing {
+    double t = 0, theta_dot = 0;
+};
+struct Apex {  // a maximum of theta, ripple included
+    double t = 0, theta = 0;
+};
+struct Extremum {
+    double min = 0, t_min = 0, max = 0, t_max = 0;
+};
+
+// From the last instant before it; no end: up to that of the run.
+struct Interval {
+    double from = 0;
+    std::optional<double> to;
+};
+
+struct Counters {
+    long steps = 0;  // accepted
+    long rejected = 0;
+    long rhs_evaluations = 0;
+    long gap_evaluations = 0;
+    long jacobians = 0;
+};
+
+struct Result {
+    double end_time = 0;                    // reached [s]
+    std::vector<Table> tables;              // one per TableRequest
+    std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times, then those in contact
+    std::vector<std::vector<Vec2>> points;  // one per PointRequest [m]
+    std::vector<Impact> impacts;
+    std::vector<Collision> collisions;
+    std::vector<ZeroCrossing> theta_zero;
+    std::vector<Apex> apexes;
+    std::vector<Extremum> extrema;   // one per Request::extrema
+    double energy_residual_max = 0;  // [J]
+    double energy_scale = 0;         // [J]
+    // With Request::horizon:
+    std::optional<double> reproducible_until;       // the first loss, or the end [s]
+    std::vector<Interval> not_reproducible;         // [s]
+    std::optional<double> reproducible_again_from;  // after the last of these, where it ends before the run [s]
+    std::string compared_with;                      // method and tolerance of the second run
+    std::string reproducibility;                    // all of it in a sentence
+    Counters counters;
+    double wall_seconds = 0;
+    bool beyond_model = false;          // it bends through angles that its model does not hold for
+    std::vector<std::string> warnings;  // in the user's terms
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,68 @@
+// A trajectory taken down as plain numbers: every accepted segment with its phase, every event, and the
+// notes that do not depend on what is asked for. Any request that ends where it ends, or before, is
+// answered from it with the bits of the direct run.
+//
+// The numbers are doubles in memory order, for this machine and this version of the program; who
+// stores them must see to it that no other reads them, and that none is damaged.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/observe/observe.hpp"
+
+namespace beamcam::sim {
+
+class TrajectoryWriter {
+  public:
+    // Hands numbers on in pieces, in order.
+    using Sink = std::function<void(std::span<const double>)>;
+    explicit TrajectoryWriter(Sink sink) : sink_(std::move(sink)) {}
+
+    void begin(const Phase& phase, const std::vector<double>& y);
+    void stretch(const Segment& segment, double from, double to, bool event, const Tally& tally, const Notes* notes);
+    void touch(double t, const std::vector<double>& y, const ContactState& contact);
+    void release(double t, const std::vector<double>& y, const ContactState& contact);
+    void resume(double t, const std::vector<double>& y, const Phase& phase, const Tally& tally);
+    void end(double t);
+
+    // False once a segment was more than numbers: then nothing more is handed on and the rest is worthless.
+    bool complete() const { return ended_ && !broken_; }
+    long steps() const { return steps_; }
+
+  private:
+    void put_event(int kind, double t, const std::vector<double>& y, const ContactState& contact);
+    void flush();
+
+    Sink sink_;
+    std::vector<double> buffer_;
+    long steps_ = 0;
+    bool broken_ = false, ended_ = false;
+};
+
+// Numbers in their order, wherever they are kept.
+class NumberSource {
+  public:
+    virtual ~NumberSource() = default;
+    virtual std::uint64_t size() const = 0;
+    virtual void read(std::uint64_t from, std::span<double> into) const = 0;  // all of them, or throws
+};
+
+class Trajectory {
+  public:
+    // Throws std::invalid_argument when they are no whole trajectory of this problem.
+    Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
+    Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
+    double end() const { return end_; }
+    // Tells it again, as far as the audience looks: at most to `end`. Few of the numbers are held at once.
+    void play(const Problem& problem, Audience& audience) const;
+
+  private:
+    std::shared_ptr<const NumberSource> numbers_;
+    double end_ = 0;
+};
+
+}  // namespace beamcam::sim

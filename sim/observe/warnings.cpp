@@ -1,0 +1,125 @@
+#include "sim/observe/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kRounding = 1e-12;    // of the energy scale
+constexpr double kToldGap = 1e-10;     // of the length, left at an event: a thousand times what rounding leaves
+constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+
+void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
+    if (tally.chatters == 0) return;
+    const double speed = kSummedShare * problem.contact.approach_floor.value;
+    out.push_back(fmt::format(
+        "chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
+        "times {:g}) are summed up at its end instead of listed",
+        tally.chatters, tally.chatters == 1 ? "" : "s", speed, kSummedShare));
+}
+
+// Ten times what was asked for is the promise of `auto`; whatever misses it says so.
+void tell_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+    const double limit = 10 * problem.solver.rtol * result.energy_scale;
+    if (problem.beam.model == ModelKind::paper || !(result.energy_residual_max > limit)) return;
+    out.push_back(
+        fmt::format("the energy ledger closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
+                    "tighten solver.rtol{}",
+                    result.energy_residual_max, result.energy_scale, problem.solver.rtol,
+                    problem.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
+}
+
+// ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape [rad].
+double slope_bound(const Problem& problem, double largest_elastic) {
+    const Beam& beam = problem.beam;
+    return std::sqrt(2 * largest_elastic * beam.length / beam.bending_stiffness());
+}
+
+void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
+    const double slope = slope_bound(problem, largest_elastic);
+    if (bends_beyond(problem, largest_elastic))
+        out.push_back(
+            fmt::format("the beam bends through angles up to about {:.2g} rad; {} holds for small ones: use "
+                        "\"model\": \"exact\"",
+                        slope, name(problem.beam.model)));
+}
+
+// Newton's law creates energy where friction turns the slip around during an impact (Kane & Levinson 1985).
+void tell_gains(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+    if (problem.contact.model != ContactModel::restitution) return;
+    double gained = 0;
+    long count = 0;
+    for (const Impact& impact : result.impacts)
+        if (impact.v_n_before < 0 && impact.energy_lost < -kRounding * result.energy_scale)
+            ++count, gained -= impact.energy_lost;
+    if (count > 0)
+        out.push_back(fmt::format(
+            "the impact law {} with friction created {:.2g} J in {} of {} impacts; the law \"stronge\" never "
+            "creates any",
+            name(problem.contact.law), gained, count, result.impacts.size()));
+}
+
+void tell_floor(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
+    if (tally.floored > 0)
+        out.push_back(
+            fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
+                        "dissipation uses that floor",
+                        tally.floored, result.impacts.size(), problem.contact.approach_floor.value));
+}
+
+// What was done in another way than asked for, or left unresolved.
+void tell_fallbacks(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
+    const Fallbacks& f = tally.fallbacks;
+    const auto times = [](long n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); };
+    if (f.handed_over > 0)
+        out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
+                                  times(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
+    if (f.left_behind > 0)
+        out.push_back(
+            "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
+            "without inertia and may leave the cam");
+    if (f.grips > 0)
+        out.push_back(
+            fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "
+                        "as it was: tighten solver.rtol, or give contact.friction a damping",
+                        times(f.grips, "step")));
+    if (f.strikes > 0)
+        out.push_back(
+            fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "
+                        "solver.rtol",
+                        times(f.strikes, "strike")));
+    if (f.coarse > 0)
+        out.push_back(
+            fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
+                        "fewer modes or tighten solver.rtol",
+                        times(f.coarse, "step")));
+    if (f.gap > kToldGap * problem.beam.length)
+        out.push_back(
+            fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "
+                        "solver.rtol",
+                        f.gap));
+}
+
+}  // namespace
+
+bool bends_beyond(const Problem& problem, double largest_elastic) {
+    const ModelKind model = problem.beam.model;
+    return model != ModelKind::exact && model != ModelKind::rigid &&
+           slope_bound(problem, largest_elastic) > kLargestSlope;
+}
+
+std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
+                                  double largest_elastic) {
+    std::vector<std::string> out;
+    tell_chatter(problem, tally, out);
+    tell_gains(problem, result, out);
+    tell_ledger(problem, result, out);
+    tell_slopes(problem, largest_elastic, out);
+    tell_floor(problem, result, tally, out);
+    tell_fallbacks(problem, result, tally, out);
+    return out;
+}
+
+}  // namespace beamcam::sim

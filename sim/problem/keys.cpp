@@ -1,0 +1,186 @@
+#include "sim/problem/keys.hpp"
+
+namespace beamcam::sim {
+
+namespace dim = dimension;
+
+// ---- hub and its drive -----------------------------------------------------------------------
+
+static void visit(Visitor&, FreeDrive&) {}
+
+static void visit(Visitor& v, ConstantTorque& d) {
+    v.number(required("value", "\"0.5 N m\""), d.value, dim::kTorque, kAny, "Torque, positive counter-clockwise.");
+}
+
+static void visit(Visitor& v, HarmonicTorque& d) {
+    v.number(required("amplitude", "0.5"), d.amplitude, dim::kTorque, kAny, "Amplitude of the torque.");
+    v.number(required("frequency", "\"2 Hz\""), d.frequency, dim::kFrequency, kNotNegative, "Frequency.");
+    v.number("phase", d.phase, dim::kAngle, kAny, "Phase at t = 0.");
+}
+
+static void visit(Visitor& v, TorqueTable& d) {
+    v.numbers(required("t", "[0, 1]"), d.t, dim::kTime, kAny, {1}, "Instants, increasing.");
+    v.numbers(required("torque", "[0, 0.5]"), d.torque, dim::kTorque, kAny, {1}, "Torque at each instant.");
+}
+
+static void visit(Visitor& v, ConstantSpeed& d) {
+    v.number(required("speed", "\"30 rpm\""), d.speed, dim::kAngularSpeed, kAny,
+             "Angular speed, positive counter-clockwise.");
+}
+
+static void visit(Visitor& v, SpinUp& d) {
+    v.number(required("speed", "4"), d.speed, dim::kAngularSpeed, kAny, "Final angular speed Ω.");
+    v.number(required("duration", "15"), d.duration, dim::kTime, kPositive, "Duration T of the spin-up.");
+}
+
+static void visit(Visitor& v, AngleTable& d) {
+    v.numbers(required("t", "[0, 1, 2]"), d.t, dim::kTime, kAny, {2}, "Instants, increasing.");
+    v.numbers(required("theta", "[0, 0.5, 0]"), d.theta, dim::kAngle, kAny, {2}, "Hub angle at each instant.");
+}
+
+static void visit(Visitor& v, Drive& drive) {
+    v.alternatives(
+        {alternative<FreeDrive>(drive, {{"type", "free"}}, "The hub turns freely."),
+         alternative<ConstantTorque>(drive, {{"type", "torque"}}, "A constant torque."),
+         alternative<HarmonicTorque>(drive, {{"type", "torque"}},
+                                     "A harmonic torque: amplitude · sin(2π · frequency · t + phase)."),
+         alternative<TorqueTable>(drive, {{"type", "torque"}},
+                                  "A torque by points: linear between them, constant outside."),
+         alternative<ConstantSpeed>(drive, {{"type", "prescribed"}, {"law", "constant"}}, "Constant angular speed."),
+         alternative<SpinUp>(drive, {{"type", "prescribed"}, {"law", "spin-up"}},
+                             "Smooth spin-up: the speed is (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω."),
+         alternative<AngleTable>(drive, {{"type", "prescribed"}, {"law", "table"}},
+                                 "Hub angle by points: a natural cubic spline, continued at the end speeds outside.")});
+}
+
+static void visit(Visitor& v, Hub& hub) {
+    v.number("radius", hub.radius, dim::kLength, kAny,
+             "Distance from the fixed axis O to the root of the beam; negative: the root lies beyond the axis.");
+    v.number("inertia", hub.inertia, dim::kInertia, kNotNegative, "Moment of inertia about O.");
+    v.object("drive", hub.drive, "What turns the hub.");
+}
+
+// ---- beam ------------------------------------------------------------------------------------
+
+constexpr Range kPoissonRatio{-1, 0.5, true, true, nullptr};
+
+static void visit(Visitor& v, Beam& beam) {
+    v.number("length", beam.length, dim::kLength, kPositive, "Length L.");
+    v.number("area", beam.area, dim::kArea, kPositive, "Cross-section area A.");
+    v.number("second_moment", beam.second_moment, dim::kSecondMoment, kPositive, "Second moment of area I.");
+    v.number("density", beam.density, dim::kDensity, kPositive, "Density ρ.");
+    v.number("youngs_modulus", beam.youngs_modulus, dim::kPressure, kPositive, "Young's modulus E.");
+    v.number("poisson_ratio", beam.poisson_ratio, dim::kNone, kPoissonRatio,
+             "Poisson's ratio ν; used by the Hertz stiffness only.");
+    v.number("depth", beam.depth, dim::kLength, kPositive,
+             "Depth h of the cross-section; drawn, and used by the contact offset \"half-depth\".");
+    v.choice("model", beam.model, "Beam model, from rigid to the exact elastica.");
+    v.choice("basis", beam.basis,
+             "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
+    v.whole("modes", beam.modes, 1, 40, "Number N of shape functions.");
+    v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.or_one_number = true},
+              "Modal damping ratio ζ: one number for all modes, or one for each; none when left out. Excludes "
+              "kelvin_voigt.");
+    v.number("kelvin_voigt", beam.kelvin_voigt, dim::kTime, kNotNegative,
+             "Kelvin–Voigt relaxation time η; none when left out. Excludes damping_ratio.");
+}
+
+// ---- cam -------------------------------------------------------------------------------------
+
+static void visit(Visitor& v, Cam& cam) {
+    v.numbers("centre", cam.centre, dim::kLength, "C = [x, y], the fixed axis of rotation.");
+    v.number("radius", cam.radius, dim::kLength, kPositive, "Radius R of the disc.");
+    constexpr Range kEccentricity{0, Range::kInfinity, false, false, nullptr, "; turn the phase by 180 deg instead"};
+    v.number("eccentricity", cam.eccentricity, dim::kLength, kEccentricity,
+             "Distance e of the disc's centre from C, less than R.");
+    v.number("phase", cam.phase, dim::kAngle, kAny, "Counter-clockwise angle of the disc's centre about C at t = 0.");
+    v.number("speed", cam.speed, dim::kAngularSpeed, kAny, "Angular speed ω, positive clockwise.");
+    v.number("poisson_ratio", cam.poisson_ratio, dim::kNone, kPoissonRatio,
+             "Poisson's ratio; used by the Hertz stiffness only.");
+    v.number("youngs_modulus", cam.youngs_modulus, dim::kPressure, kPositive,
+             "Young's modulus, for the Hertz stiffness; the beam's when left out.");
+}
+
+// ---- contact ---------------------------------------------------------------------------------
+
+static void visit(Visitor&, NoFriction&) {}
+
+static void visit(Visitor& v, CoulombFriction& f) {
+    v.number("coefficient", f.coefficient, dim::kNone, kNotNegative, "Coefficient of friction μ.");
+    v.number("slip_speed", f.slip_speed, dim::kSpeed, kPositive,
+             "Slip speed v_s over which friction builds up in compliant contact.");
+}
+
+static void visit(Visitor& v, StickSlipFriction& f) {
+    v.number("coefficient", f.coefficient, dim::kNone, kNotNegative, "Kinetic coefficient of friction μ.");
+    v.number("static_coefficient", f.static_coefficient, dim::kNone, kNotNegative,
+             "Static coefficient of friction μ_s, at least μ; μ when left out.");
+    v.number("stiffness", f.stiffness, dim::kSpringStiffness, kPositive,
+             "Stiffness of the bristle; derived from the contact when left out.");
+    v.number("damping", f.damping, dim::kSpringDamping, kNotNegative,
+             "Damping of the bristle; derived from its stiffness when left out.");
+}
+
+static void visit(Visitor& v, Friction& friction) {
+    v.alternatives(
+        {alternative<NoFriction>(friction, {{"type", "none"}}, "No friction."),
+         alternative<CoulombFriction>(friction, {{"type", "coulomb"}}, "Coulomb friction, regularized near zero slip."),
+         alternative<StickSlipFriction>(friction, {{"type", "stick-slip"}},
+                                        "A bristle that sticks, slips and reverses.")});
+}
+
+static void visit(Visitor& v, ApproachFloor& floor) {
+    v.choice("policy", floor.policy,
+             "value: this speed; first-touch: the approach speed of the first touch of the collision.");
+    v.number("value", floor.value, dim::kSpeed, kPositive, "Smallest approach speed.");
+}
+
+static void visit(Visitor& v, Contact& contact) {
+    v.choice("model", contact.model, "compliant: a force over the penetration; restitution: impulses.");
+    v.number("stiffness", contact.stiffness, of_contact_stiffness(contact.exponent), kPositive,
+             "Contact stiffness K in F = K δⁿ; \"hertz\": from the materials.", "hertz");
+    v.number("exponent", contact.exponent, dim::kNone, between(1, 2), "Exponent n in F = K δⁿ.");
+    v.choice("damping", contact.damping, "Dissipation law of the model compliant.");
+    v.number("restitution", contact.restitution, dim::kNone, between(0, 1),
+             "Coefficient of restitution that the dissipation or impact law is set to.");
+    v.choice("law", contact.law, "Impact law of the model restitution.");
+    v.object("friction", contact.friction, "Friction between beam and cam.");
+    v.number("offset", contact.offset, dim::kLength, kNotNegative,
+             "Distance d of the touching face from the centre line; \"half-depth\": half the beam's depth.",
+             "half-depth");
+    v.object("approach_floor", contact.approach_floor,
+             "Dissipation laws divide by the approach speed of a touch; this replaces a tiny one.");
+    v.number("collision_gap", contact.collision_gap, dim::kTime, kNotNegative,
+             "Impacts closer in time than this form one collision.");
+}
+
+// ---- initial state, solver -------------------------------------------------------------------
+
+static void visit(Visitor& v, Initial& initial) {
+    v.number("angle", initial.angle, dim::kAngle, kAny, "Hub angle θ(0), counter-clockwise from the horizontal.");
+    v.number("angular_velocity", initial.angular_velocity, dim::kAngularSpeed, kAny,
+             "Angular velocity of the given shape.");
+    v.choice("shape", initial.shape,
+             "straight; static: in equilibrium with the hub held; resting: in equilibrium on the cam.");
+}
+
+static void visit(Visitor& v, Solver& solver) {
+    v.choice("method", solver.method, "Integrator.");
+    v.number("rtol", solver.rtol, dim::kNone, between(1e-13, 1e-2), "Relative tolerance.");
+    // Below 1e-40 nothing moves by as much: a tolerance of zero by another name.
+    v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
+    v.whole("max_steps", solver.max_steps, 1, 2'000'000'000,
+            "Steps that a run may try before it stops with an error (exit code 4).");
+}
+
+void visit(Visitor& v, Problem& problem) {
+    v.object("hub", problem.hub, "The hub, which turns about the fixed axis O.");
+    v.object("beam", problem.beam, "The uniform beam, clamped radially to the hub.");
+    v.object("cam", problem.cam, "The cam, a disc that rotates about an axis off its centre; null: no cam.");
+    v.object("contact", problem.contact, "Contact between beam and cam.");
+    v.number("gravity", problem.gravity, dim::kAcceleration, kAny, "Acceleration of gravity, downwards.");
+    v.object("initial", problem.initial, "State at t = 0.");
+    v.object("solver", problem.solver, "Numerical integration.");
+}
+
+}  // namespace beamcam::sim

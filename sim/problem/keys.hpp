@@ -1,0 +1,178 @@
+// Every key that describes a problem, once: its name, unit, range and meaning. What reads, writes, checks or explains
+// problems is a Visitor and visits the keys; a new key is one line in `visit` of its struct.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "sim/problem/dimension.hpp"
+#include "sim/problem/problem.hpp"
+
+namespace beamcam::sim {
+
+struct Key {
+    const char* name;
+    const char* example = nullptr;  // of a key that must be given; absent: it may be left out
+    bool written = true;            // false: the value means nothing here and is not written
+    bool derived = false;           // the default follows from other keys
+
+    // NOLINTNEXTLINE(google-explicit-constructor): most keys are a name alone
+    constexpr Key(const char* key) : name(key) {}
+    constexpr Key(const char* key, const char* needed, bool write) : name(key), example(needed), written(write) {}
+};
+constexpr Key required(const char* name, const char* example) { return {name, example, true}; }
+constexpr Key written_if(bool condition, const char* name) { return {name, nullptr, condition}; }
+constexpr Key derived(const char* name) {
+    Key key(name);
+    key.derived = true;
+    return key;
+}
+
+struct Unit {
+    Dimension dimension;
+    const double* exponent = nullptr;  // n of a stiffness in N/m^n, which another key gives
+    bool plain = false;                // a number in JSON alone, never a text
+
+    // NOLINTNEXTLINE(google-explicit-constructor): most units are a dimension alone
+    constexpr Unit(const Dimension& of) : dimension(of) {}
+    constexpr Unit(const Dimension& of, const double* n, bool number) : dimension(of), exponent(n), plain(number) {}
+    Dimension resolved() const { return exponent ? dimension::contact_stiffness(*exponent) : dimension; }
+    std::string symbol() const { return exponent ? "N/m^n" : si_unit(dimension); }
+};
+constexpr Unit of_contact_stiffness(const double& exponent) { return {dimension::kSpringStiffness, &exponent, false}; }
+inline constexpr Unit kPlainNumber{dimension::kNone, nullptr, true};
+
+struct Range {
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+    double least = -kInfinity, most = kInfinity;
+    bool without_least = false, without_most = false;  // the bound itself is outside
+    // What a message says after "KEY = VALUE", where "is outside LEAST … MOST" would not be plain.
+    const char* complaint = nullptr;
+    const char* remedy = "";  // what it says at its end
+
+    bool contains(double value) const {
+        return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
+    }
+};
+constexpr Range between(double least, double most, const char* complaint = nullptr) {
+    return {least, most, false, false, complaint};
+}
+inline constexpr Range kAny{};
+inline constexpr Range kPositive{0, Range::kInfinity, true, false, "must be positive"};
+inline constexpr Range kNotNegative{0, Range::kInfinity, false, false, "must not be negative"};
+
+template <class Enum>
+struct Named {
+    Enum value;
+    const char* name;
+};
+// The names of a closed set, in the order of its documentation.
+std::span<const Named<ModelKind>> names(ModelKind);
+std::span<const Named<Basis>> names(Basis);
+std::span<const Named<DampingLaw>> names(DampingLaw);
+std::span<const Named<ImpactLaw>> names(ImpactLaw);
+std::span<const Named<ContactModel>> names(ContactModel);
+std::span<const Named<ApproachFloorPolicy>> names(ApproachFloorPolicy);
+std::span<const Named<InitialShape>> names(InitialShape);
+std::span<const Named<Method>> names(Method);
+
+class Visitor;
+
+// One of the shapes that an object may have. Tags are keys with a fixed word, and tell the shapes apart.
+struct Alternative {
+    std::vector<std::pair<const char*, const char*>> tags;
+    const char* meaning;
+    bool chosen;                           // the value has this shape
+    std::function<void(Visitor&)> fields;  // gives the value this shape if it has another
+};
+template <class Shape, class... Shapes>
+Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<const char*, const char*>> tags,
+                        const char* meaning);
+
+// How many numbers a list has. Of a list of `modes`, one number may stand alone.
+struct Length {
+    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
+    bool or_one_number = false;
+};
+
+class Visitor {
+  public:
+    virtual ~Visitor() = default;
+
+    virtual void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) = 0;
+    // Absent: nothing is written, or `word` where there is one.
+    virtual void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
+                        const char* meaning, const char* word = nullptr) = 0;
+    virtual void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
+                         const Length& length, const char* meaning) = 0;
+    virtual void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) = 0;
+    virtual void truth(const Key& key, bool& value, const char* meaning) = 0;
+    virtual void text(const Key& key, std::string& value, const char* meaning) = 0;
+    virtual void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
+                      const char* meaning) = 0;
+    // An object; `present` where null may stand for it, and says whether it does not.
+    virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
+                        bool* present = nullptr) = 0;
+    // The object that is visited is one of these.
+    virtual void alternatives(const std::vector<Alternative>& all) = 0;
+
+    // ---- of those above ----
+    void whole(const Key& key, int& value, int least, int most, const char* meaning) {
+        std::optional<int> some = value;
+        whole(key, some, least, most, meaning);
+        value = some.value_or(value);
+    }
+    void numbers(const Key& key, Vec2& value, const Unit& unit, const char* meaning) {
+        std::vector<double> both{value.x, value.y};
+        numbers(key, both, unit, kAny, {2, 2, false}, meaning);
+        if (both.size() == 2) value = {both[0], both[1]};
+    }
+    template <class Enum>
+    void choice(const Key& key, Enum& value, std::span<const Named<Enum>> among, const char* meaning) {
+        std::vector<std::string> words;
+        std::size_t chosen = 0;
+        for (const Named<Enum>& each : among) {
+            if (each.value == value) chosen = words.size();
+            words.emplace_back(each.name);
+        }
+        word(key, words, chosen, meaning);
+        value = among[chosen].value;
+    }
+    template <class Enum>
+    void choice(const Key& key, Enum& value, const char* meaning) {
+        choice<Enum>(key, value, names(Enum{}), meaning);
+    }
+    template <class Struct>
+    void object(const Key& key, Struct& value, const char* meaning) {
+        object(
+            key, [&value](Visitor& inside) { visit(inside, value); }, meaning, nullptr);
+    }
+    template <class Struct>
+    void object(const Key& key, std::optional<Struct>& value, const char* meaning) {
+        Struct some = value.value_or(Struct{});
+        bool present = value.has_value();
+        object(
+            key, [&some](Visitor& inside) { visit(inside, some); }, meaning, &present);
+        value = present ? std::optional(some) : std::nullopt;
+    }
+};
+
+template <class Shape, class... Shapes>
+Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<const char*, const char*>> tags,
+                        const char* meaning) {
+    return {std::move(tags), meaning, std::holds_alternative<Shape>(value), [&value](Visitor& v) {
+                if (!std::holds_alternative<Shape>(value)) value.template emplace<Shape>();
+                visit(v, std::get<Shape>(value));
+            }};
+}
+
+void visit(Visitor& v, Problem& problem);
+
+}  // namespace beamcam::sim

@@ -1,0 +1,193 @@
+// The mechanical problem that one simulation solves: hub, beam, cam, contact law, drive, initial
+// state, solver settings. Plain numbers, SI throughout; MODEL.md defines every symbol.
+//
+// A Problem says nothing about files, pictures or JSON. `validate` returns every impossible or
+// pointless value at once, each with the scene key it belongs to; nothing here throws.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/base/vec2.hpp"
+
+namespace beamcam::sim {
+
+// ---- hub and its drive -----------------------------------------------------------------------
+
+struct FreeDrive {};
+struct ConstantTorque {
+    double value = 0;  // [N m], positive counter-clockwise
+};
+struct HarmonicTorque {    // amplitude · sin(2π·frequency·t + phase)
+    double amplitude = 0;  // [N m]
+    double frequency = 0;  // [Hz], >= 0
+    double phase = 0;      // [rad]
+};
+struct TorqueTable {             // linear between the points, held constant outside them
+    std::vector<double> t;       // [s], strictly increasing, at least one
+    std::vector<double> torque;  // [N m]
+};
+struct ConstantSpeed {
+    double speed = 0;  // [rad/s], positive counter-clockwise
+};
+struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω   (Kane, Ryan & Banerjee 1987)
+    double speed = 0;     // Ω [rad/s]
+    double duration = 1;  // T [s], > 0
+};
+struct AngleTable {         // natural cubic spline through the points (C²), outside them straight on at the end speeds
+    std::vector<double> t;  // [s], strictly increasing, at least two
+    std::vector<double> theta;  // [rad]
+};
+using Drive = std::variant<FreeDrive, ConstantTorque, HarmonicTorque, TorqueTable, ConstantSpeed, SpinUp, AngleTable>;
+
+// True when the law gives θ(t) and only the beam is integrated.
+bool is_prescribed(const Drive& drive);
+
+struct Hub {
+    double radius = 0;   // a [m]; may be negative (root beyond the axis), a > −length
+    double inertia = 0;  // I_h [kg m²], >= 0
+    Drive drive;
+};
+
+// ---- beam ------------------------------------------------------------------------------------
+
+enum class ModelKind { rigid, zeroth_order, first_order, paper, second_order, exact };
+enum class Basis { automatic, cantilever, hub_beam };
+
+struct Beam {
+    double length = 1;                  // L [m], > 0
+    double area = 7.2968e-5;            // A [m²], > 0
+    double second_moment = 8.2189e-9;   // I [m⁴], > 0
+    double density = 2766.7;            // ρ [kg/m³], > 0
+    double youngs_modulus = 6.8952e10;  // E [Pa], > 0
+    double poisson_ratio = 0.3;         // ν [–], −1 < ν < 0.5; Hertz stiffness only
+    double depth = 0.0368;              // h [m], > 0; drawn, and the contact offset "half-depth"
+    ModelKind model = ModelKind::first_order;
+    Basis basis = Basis::automatic;      // automatic: cantilever for prescribed drive and `paper`, else hub-beam
+    int modes = 2;                       // N, 1…40; ignored by `rigid`
+    std::vector<double> damping_ratio;   // ζ_i [–], >= 0; empty: none; one value: all modes; else one per mode
+    std::optional<double> kelvin_voigt;  // η [s], >= 0; excludes damping_ratio
+
+    double line_density() const { return density * area; }                       // ρA [kg/m]
+    double bending_stiffness() const { return youngs_modulus * second_moment; }  // EI [N m²]
+};
+
+// ---- cam -------------------------------------------------------------------------------------
+
+struct Cam {
+    Vec2 centre{0.25, 0};                  // C, the axis of rotation [m]
+    double radius = 0.1;                   // R [m], > 0
+    double eccentricity = 0.02;            // e [m], 0 <= e < R
+    double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
+    double speed = 1;                      // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
+    std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; the beam's when absent
+    double poisson_ratio = 0.3;            // [–]
+};
+
+// ---- contact ---------------------------------------------------------------------------------
+
+enum class ContactModel { compliant, restitution };
+enum class DampingLaw {
+    none,
+    hunt_crossley,
+    lankarani_nikravesh,
+    herbert_mcwhannell,
+    lee_wang,
+    gonthier,
+    flores,
+    hu_guo,
+    zhang_sharf
+};
+enum class ImpactLaw { newton, poisson, stronge };
+
+struct NoFriction {};
+struct CoulombFriction {
+    double coefficient = 0.2;  // μ [–], >= 0
+    double slip_speed = 1e-3;  // v_s [m/s], > 0: regularization of compliant contact
+};
+struct StickSlipFriction {
+    double coefficient = 0.2;                  // μ, kinetic [–], >= 0
+    std::optional<double> static_coefficient;  // μ_s >= μ; μ when absent
+    std::optional<double> stiffness;           // bristle [N/m], > 0; MODEL.md states the default
+    std::optional<double> damping;             // bristle [N s/m], >= 0; MODEL.md states the default
+};
+using Friction = std::variant<NoFriction, CoulombFriction, StickSlipFriction>;
+
+enum class ApproachFloorPolicy { value, first_touch };
+struct ApproachFloor {
+    ApproachFloorPolicy policy = ApproachFloorPolicy::value;
+    double value = 1e-3;  // [m/s], > 0
+};
+
+struct Contact {
+    ContactModel model = ContactModel::compliant;
+    std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: "hertz", from the materials
+    double exponent = 1.5;                  // n [–], 1…2
+    DampingLaw damping = DampingLaw::lankarani_nikravesh;
+    double restitution = 0.7;           // c_r [–], 0…1
+    ImpactLaw law = ImpactLaw::newton;  // of the model `restitution`
+    Friction friction;
+    std::optional<double> offset = 0.0;  // d [m], >= 0, of the contact face; absent: "half-depth"
+    ApproachFloor approach_floor;
+    double collision_gap = 0.02;  // [s]: impacts closer than this form one collision
+};
+
+// ---- initial state, solver -------------------------------------------------------------------
+
+enum class InitialShape { straight, static_equilibrium, resting };
+struct Initial {
+    double angle = 0.78539816339744830962;  // θ(0) [rad], of the hub
+    double angular_velocity = 0;            // [rad/s], rigid rotation of the given shape
+    InitialShape shape = InitialShape::straight;
+};
+
+enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
+struct Solver {
+    Method method = Method::automatic;
+    double rtol = 1e-8;           // 1e-13…1e-2
+    double atol = 1e-11;          // > 0
+    int max_steps = 100'000'000;  // steps that a run may try, 1…2e9
+};
+
+struct Problem {
+    Hub hub;
+    Beam beam;
+    std::optional<Cam> cam = Cam{};
+    Contact contact;
+    double gravity = 9.81;  // g [m/s²], along −Y
+    Initial initial;
+    Solver solver;
+};
+
+// ---- derived ---------------------------------------------------------------------------------
+
+Basis resolved_basis(const Problem& problem);      // never `automatic`
+double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
+double contact_offset(const Problem& problem);     // d [m]
+// Dissipation factor D_c of F = Kδⁿ(1 + D_c δ̇/δ̇₋) for a pre-set restitution c.
+double damping_factor(DampingLaw law, double restitution);
+// The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].
+double effective_restitution(double damping_factor);
+
+// Names as scenes spell them ("first-order", "hub-beam", "lankarani-nikravesh", …).
+const char* name(ModelKind);
+const char* name(Basis);
+const char* name(DampingLaw);
+const char* name(ImpactLaw);
+const char* name(ContactModel);
+const char* name(InitialShape);
+const char* name(Method);
+
+struct Finding {
+    std::string path;     // scene key, "cam.eccentricity"
+    std::string message;  // what, which value, what to do
+    bool fatal = true;    // false: a warning (pointless, not impossible)
+};
+// Every violated range of the comments above, and every impossible combination (cam over the hub,
+// overlap at the start, e >= R, hub-beam basis with a prescribed drive, …); also warnings such as a
+// cam that the beam cannot reach. Cheap: no simulation.
+std::vector<Finding> validate(const Problem& problem);
+
+}  // namespace beamcam::sim

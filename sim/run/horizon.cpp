@@ -1,0 +1,141 @@
+#include "sim/run/horizon.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dynamics/system.hpp"
+#include "sim/integrate/modal_form.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kError = 1e-6;       // [rad], relative to the angle's size, 1 at least
+constexpr double kRate = 1000;        // [Hz] of comparison
+constexpr double kChance = 0.1;       // [s] a briefer agreement of two different motions is a crossing
+constexpr double kTighter = 1e-2;     // of the asked tolerance, for the comparison
+constexpr double kTightest = 1e-13;   // of rtol
+constexpr double kMostSteps = 500e3;  // of an explicit method: some seconds
+constexpr double kRadians = 2;        // that such a step spans of the fastest vibration
+
+Problem at_tolerance(const Problem& problem) {
+    Problem out = problem;
+    out.solver.rtol = std::max(kTightest, kTighter * problem.solver.rtol);
+    out.solver.atol = kTighter * problem.solver.atol;
+    return out;
+}
+
+// `auto` is Runge–Kutta's method where the equations are no modal form.
+Method other_method(const Problem& problem, System& system) {
+    switch (problem.solver.method) {
+        case Method::automatic:
+        case Method::exponential:
+            return ModalForm::of(system) ? Method::rk8 : Method::cvode_adams;
+        case Method::rk8:
+            return Method::cvode_adams;
+        case Method::cvode_adams:
+        case Method::cvode_bdf:
+        case Method::arkode_erk:
+            break;
+    }
+    return Method::rk8;
+}
+
+// The fastest rate that explicit steps must resolve [1/s]: of vibration, or of its decay.
+double fastest_rate(const Problem& problem, const System& system) {
+    const double fastest = system.highest_frequency();
+    double ratio = 0.5 * problem.beam.kelvin_voigt.value_or(0) * fastest;
+    for (const double z : problem.beam.damping_ratio) ratio = std::max(ratio, z);
+    return fastest * std::max(1.0, 2 * ratio);
+}
+
+std::string sentence(const Result& result) {
+    const auto until = [](const Interval& lost) {
+        return lost.to ? fmt::format("from {:.4g} s to {:.4g} s", lost.from, *lost.to)
+                       : fmt::format("from {:.4g} s on", lost.from);
+    };
+    if (result.not_reproducible.empty())
+        return fmt::format("reproducible to {:g} rad all along, compared with {}", kError, result.compared_with);
+    std::vector<std::string> lost;
+    for (const Interval& interval : result.not_reproducible) lost.push_back(until(interval));
+    const std::string again =
+        result.reproducible_again_from ? fmt::format(", again from {:.4g} s on", *result.reproducible_again_from) : "";
+    return fmt::format("reproducible to {:g} rad until {:.4g} s, not {}{}, compared with {}", kError,
+                       *result.reproducible_until, fmt::join(lost, ", nor "), again, result.compared_with);
+}
+
+}  // namespace
+
+Request horizon_request(const Problem& problem, double end) {
+    TableRequest table;
+    table.channels = {compared_angle(problem).channel};
+    const auto rows = static_cast<long>(std::floor(end * kRate));
+    for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kRate);
+    table.times.push_back(end);
+    Request request;
+    request.turning_points = false;
+    request.tables.push_back(std::move(table));
+    return request;
+}
+
+Comparison comparison(const Problem& problem, double end) {
+    System system(problem);
+    Comparison out{at_tolerance(problem), false};
+    if (fastest_rate(problem, system) * end > kRadians * kMostSteps) return tighter_comparison(problem);
+    out.problem.solver.method = other_method(problem, system);
+    out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMostSteps));
+    return out;
+}
+
+Comparison tighter_comparison(const Problem& problem) { return {at_tolerance(problem), true}; }
+
+void tell_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
+                          const Comparison& compared, Result& result) {
+    const double scale = compared_angle(problem).scale;
+    const std::vector<double>&times = angle.tables[0].times, &ours = plain.tables[0].values[0],
+          &theirs = other.tables[0].values[0];
+    const auto agree = [&](std::size_t i) {
+        const double a = scale * ours[i], b = scale * theirs[i];
+        return std::fabs(a - b) <= kError * std::max(1.0, std::fabs(b));
+    };
+    const double end = result.end_time;
+    result.not_reproducible.clear();
+    result.reproducible_again_from.reset();
+    double agreed = 0;  // the last instant that did
+    bool lost = false;
+    double back = 0;  // since when it agrees again
+    for (std::size_t i = 0; i < times.size() && times[i] <= end; ++i) {
+        const double t = times[i];
+        if (!agree(i)) {
+            const bool crossing =
+                !lost && !result.not_reproducible.empty() && agreed - *result.not_reproducible.back().to < kChance;
+            if (crossing)
+                result.not_reproducible.back().to.reset();
+            else if (!lost)
+                result.not_reproducible.push_back({agreed, std::nullopt});
+            lost = true;
+            continue;
+        }
+        if (lost) {
+            back = t;
+            result.not_reproducible.back().to = back;
+        }
+        lost = false;
+        agreed = t;
+    }
+    if (!result.not_reproducible.empty() && !lost) {
+        if (agreed - back < kChance)
+            result.not_reproducible.back().to.reset();
+        else
+            result.reproducible_again_from = back;
+    }
+    result.reproducible_until = result.not_reproducible.empty() ? end : result.not_reproducible.front().from;
+    const Solver& solver = compared.problem.solver;
+    result.compared_with = fmt::format("{} at rtol {:g}{}", name(solver.method), solver.rtol,
+                                       compared.same_method ? " (the same method: others take too many steps)" : "");
+    result.reproducibility = sentence(result);
+}
+
+}  // namespace beamcam::sim

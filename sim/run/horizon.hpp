@@ -1,0 +1,30 @@
+// During which intervals the motion is reproducible: where a run agrees with another computation of the same motion, by
+// another integration method at a tighter tolerance. Impacts multiply small differences, and a motion that settles
+// loses them again, so agreement may end and come back. MODEL.md §16.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::sim {
+
+// Asks for the compared angle (channels.hpp) at 1 kHz up to `end` [s], and there.
+Request horizon_request(const Problem& problem, double end);
+
+// The computation to compare with. `same_method`: another method would take too many steps for this problem.
+struct Comparison {
+    Problem problem;
+    bool same_method = false;
+};
+Comparison comparison(const Problem& problem, double end);
+// The same method at a tighter tolerance.
+Comparison tighter_comparison(const Problem& problem);
+
+// Fills in what a result says of its reproducibility. `angle` is `horizon_request`; `plain` and `other` are its results
+// by the run and by the comparison. Instants that the other did not reach count as not reproducible.
+void tell_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
+                          const Comparison& compared, Result& result);
+
+}  // namespace beamcam::sim

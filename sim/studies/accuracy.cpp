@@ -1,0 +1,412 @@
+#include "sim/studies/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kInstants = 1000;  // at which motions are compared
+constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
+constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
+constexpr double kSpare = 50;           // the reference may take this many times the longest run
+constexpr int kModelShapes = 6;         // models are compared with at least so many shapes
+constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// One simulation with the compared angle at the instants.
+struct Run {
+    std::vector<double> angle;
+    Result result;
+    double seconds = 0;
+};
+
+struct TooLong {};
+
+class Assessment {
+  public:
+    using Tell = std::function<bool(const std::string&, double)>;
+
+    Assessment(const Problem& problem, const AccuracyRequest& request, const Tell& tell)
+        : problem_(problem), request_(request), tell_(tell), angle_(compared_angle(problem)) {
+        out_.of_tip = angle_.of_tip();
+        out_.end_time = request.end_time;
+        out_.target = request.target;
+        if (request_.rtols.empty())
+            for (int digits = 3; digits <= 12; ++digits) request_.rtols.push_back(std::pow(10.0, -digits));
+        if (request_.methods.empty())
+            request_.methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
+                                Method::arkode_erk};
+        if (request_.modes.empty()) request_.modes.assign(std::begin(kModesLadder), std::end(kModesLadder));
+        if (problem.beam.model == ModelKind::rigid) request_.modes.clear();
+    }
+
+    Accuracy go() {
+        find_horizon();
+        work();
+        modes();
+        models();
+        contact();
+        recommend();
+        return std::move(out_);
+    }
+
+  private:
+    // ---- runs ------------------------------------------------------------------------------------
+
+    Run simulate_until(const Problem& problem, double end, double limit, bool sampled) {
+        Request request;
+        request.end_time = end;
+        if (sampled) {
+            TableRequest table;
+            table.channels = {angle_.channel};
+            for (int k = 0; k <= kInstants; ++k) table.times.push_back(end * k / kInstants);
+            request.tables.push_back(std::move(table));
+        }
+        const auto start = Clock::now();
+        bool stopped = false;
+        Run run;
+        try {
+            run.result = simulate(problem, request, [&](double) {
+                stopped = seconds_since(start) <= limit && !tell();
+                return seconds_since(start) <= limit && !stopped;
+            });
+        } catch (const Interrupted&) {
+            if (stopped) throw;
+            throw TooLong();
+        }
+        run.seconds = seconds_since(start);
+        if (!sampled) return run;
+        run.angle = std::move(run.result.tables[0].values[0]);
+        for (double& value : run.angle) value *= angle_.scale;
+        return run;
+    }
+
+    // False: the user wants an end.
+    bool tell() { return !tell_ || tell_(what_, share_); }
+    void about(std::string what, double share) {
+        what_ = std::move(what);
+        share_ = share;
+        if (!tell()) throw Interrupted();
+    }
+
+    // What a variant of the problem does, compared with `truth` over [0, end]. Timed without samples.
+    void measure(AccuracyRow& row, const Problem& variant, const Run& truth, double end, double limit, int repeats) {
+        try {
+            const Run run = simulate_until(variant, end, limit, true);
+            compare(row, run, truth, end);
+            std::vector<double> seconds;
+            for (int k = 0; k < repeats; ++k) {
+                seconds.push_back(simulate_until(variant, end, 2 * limit, false).seconds);
+                if (seconds_since(started_) > 20 * limit * (1 + share_)) break;  // on a slow problem one timing will do
+            }
+            row.time = timing(std::move(seconds));
+        } catch (const TooLong&) {
+            row.error.reset();
+            row.note = fmt::format("left out: longer than {:g} s", limit);
+        } catch (const SolverError& failure) {
+            row.error.reset();
+            row.note = fmt::format("failed: {}", failure.what());
+        } catch (const std::invalid_argument& refused) {
+            row.error.reset();
+            row.note = fmt::format("refused: {}", refused.what());
+        }
+    }
+
+    static Timing timing(std::vector<double> seconds) {
+        std::sort(seconds.begin(), seconds.end());
+        return {seconds[seconds.size() / 2], seconds.front(), seconds.back(), static_cast<int>(seconds.size())};
+    }
+
+    void compare(AccuracyRow& row, const Run& run, const Run& truth, double end) const {
+        double worst = 0;
+        row.trusted_until = end;
+        for (std::size_t k = 0; k < truth.angle.size(); ++k) {
+            const double off = std::fabs(run.angle[k] - truth.angle[k]);
+            if (!(off <= request_.target) && row.trusted_until == end)
+                row.trusted_until = end * static_cast<double>(k > 0 ? k - 1 : 0) / kInstants;
+            worst = std::max(worst, off);
+        }
+        row.error = worst;
+        row.steps = run.result.counters.steps;
+        row.rhs_evaluations = run.result.counters.rhs_evaluations;
+        const auto &mine = run.result.impacts, &theirs = truth.result.impacts;
+        row.impacts = static_cast<long>(mine.size());
+        if (mine.size() != theirs.size()) return;
+        double shift = 0;
+        for (std::size_t i = 0; i < mine.size(); ++i)
+            shift = std::max(shift, std::fabs(mine[i].t_start - theirs[i].t_start));
+        row.touch_error = shift;
+    }
+
+    Problem with(double rtol, Method method = Method::automatic) const {
+        Problem variant = problem_;
+        variant.solver.method = method;
+        // The absolute tolerance keeps its distance to the relative one.
+        variant.solver.atol = problem_.solver.atol * (rtol / problem_.solver.rtol);
+        variant.solver.rtol = rtol;
+        return variant;
+    }
+
+    // One damping ratio a shape: the last serves those that are added.
+    static void set_modes(Problem& problem, int modes) {
+        problem.beam.modes = modes;
+        std::vector<double>& ratios = problem.beam.damping_ratio;
+        if (ratios.size() > 1) ratios.resize(static_cast<std::size_t>(modes), double(ratios.back()));
+    }
+
+    // ---- the tables ------------------------------------------------------------------------------
+
+    // The reference is the eighth-order Runge–Kutta method at the tightest tolerance; its own error is what a
+    // tenth of that tolerance changes. Until when the scene's own settings reproduce the motion is the time of every
+    // comparison.
+    void find_horizon() {
+        about("reference", 0);
+        const double limit = kSpare * request_.longest_run;
+        const Run mine = simulate_or_refuse(problem_, limit);
+        const Run truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
+        double until = request_.end_time;
+        for (std::size_t k = 0; k < truth.angle.size(); ++k) {
+            if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
+                continue;
+            until = request_.end_time * static_cast<double>(k > 1 ? k - 1 : 1) / kInstants;
+            break;
+        }
+        out_.until = until;
+        reference_ = simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
+        const Run check = simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
+        for (std::size_t k = 0; k < check.angle.size(); ++k)
+            out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
+        // The angle itself has no more digits than this.
+        double size = 1;
+        for (const double angle : reference_.angle) size = std::max(size, std::fabs(angle));
+        out_.reference_error = std::max(out_.reference_error, std::numeric_limits<double>::epsilon() * size);
+    }
+
+    Run simulate_or_refuse(const Problem& problem, double limit) {
+        try {
+            return simulate_until(problem, request_.end_time, limit, true);
+        } catch (const TooLong&) {
+            throw SolverError(
+                fmt::format(
+                    "the reference (rtol {:g}) of {:g} s of motion takes longer than {:g} s; give an earlier end "
+                    "with --until, or more time with --longest",
+                    problem.solver.rtol, request_.end_time, limit),
+                0, {});
+        }
+    }
+
+    void work() {
+        const double all = static_cast<double>(request_.methods.size() * request_.rtols.size());
+        double done = 0;
+        for (const Method method : request_.methods) {
+            bool too_long = false;
+            for (const double rtol : request_.rtols) {
+                about(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
+                WorkRow row;
+                row.method = method;
+                row.rtol = rtol;
+                if (too_long)
+                    row.note = "left out: a looser tolerance took too long already";
+                else
+                    measure(row, with(rtol, method), reference_, out_.until, request_.longest_run, request_.repeats);
+                too_long = too_long || row.note.starts_with("left out");
+                out_.work.push_back(std::move(row));
+            }
+        }
+    }
+
+    // The scene's tolerance is far below what a shape more or less changes.
+    void modes() {
+        std::vector<int> ladder = request_.modes;
+        if (ladder.empty()) return;
+        if (std::find(ladder.begin(), ladder.end(), problem_.beam.modes) == ladder.end())
+            ladder.push_back(problem_.beam.modes);
+        std::sort(ladder.begin(), ladder.end(), std::greater<>());
+        std::optional<Run> truth;
+        for (std::size_t i = 0; i < ladder.size(); ++i) {
+            about(fmt::format("{} shapes", ladder[i]),
+                  0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
+            Problem variant = problem_;
+            set_modes(variant, ladder[i]);
+            ModesRow row;
+            row.modes = ladder[i];
+            if (!truth) {
+                try {
+                    truth = simulate_until(variant, out_.until, 5 * request_.longest_run, true);
+                    out_.most_modes = ladder[i];
+                } catch (const TooLong&) {
+                    row.note = fmt::format("left out: longer than {:g} s", 5 * request_.longest_run);
+                } catch (const SolverError& failure) {
+                    row.note = fmt::format("failed: {}", failure.what());
+                } catch (const std::invalid_argument& refused) {
+                    row.note = fmt::format("refused: {}", refused.what());
+                }
+            }
+            if (truth) measure(row, variant, *truth, out_.until, 5 * request_.longest_run, request_.repeats);
+            out_.modes.push_back(std::move(row));
+        }
+        std::reverse(out_.modes.begin(), out_.modes.end());
+    }
+
+    // All models with enough shapes that these do not matter (the bases differ), against the highest that the time
+    // allows for; where that is `exact` for a shorter motion only, the comparison is over the shorter motion.
+    void models() {
+        if (request_.models.empty())
+            request_.models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
+                               ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
+        const std::vector<ModelKind>& descending = request_.models;
+        if (problem_.beam.model == ModelKind::rigid) return;
+        std::optional<Run> truth;
+        out_.models_until = out_.until;
+        for (std::size_t i = 0; i < descending.size(); ++i) {
+            about(fmt::format("model {}", name(descending[i])),
+                  0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
+            Problem variant = problem_;
+            variant.beam.model = descending[i];
+            set_modes(variant, std::max(problem_.beam.modes, kModelShapes));
+            if (descending[i] == ModelKind::exact || descending[i] == ModelKind::second_order)
+                variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
+            ModelRow row;
+            row.model = descending[i];
+            const double limit = 10 * request_.longest_run;
+            if (!truth) {
+                truth = longest(variant, limit, row);
+                if (truth) out_.best_model = descending[i];
+            }
+            if (truth && row.note.empty())
+                measure(row, variant, *truth, out_.models_until, limit,
+                        variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
+            out_.models.push_back(std::move(row));
+        }
+        std::reverse(out_.models.begin(), out_.models.end());
+    }
+
+    // As much of [0, until] as fits the time, at least a sixteenth.
+    std::optional<Run> longest(const Problem& variant, double limit, AccuracyRow& row) {
+        for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
+            try {
+                Run run = simulate_until(variant, share * out_.until, limit, true);
+                out_.models_until = share * out_.until;
+                return run;
+            } catch (const TooLong&) {
+            } catch (const SolverError& failure) {
+                row.note = fmt::format("failed: {}", failure.what());
+                return std::nullopt;
+            } catch (const std::invalid_argument& refused) {
+                row.note = fmt::format("refused: {}", refused.what());
+                return std::nullopt;
+            }
+        }
+        row.note = fmt::format("left out: longer than {:g} s", limit);
+        return std::nullopt;
+    }
+
+    void contact() {
+        if (!problem_.cam) return;
+        const auto add = [&](std::string change, const Problem& variant) {
+            about("contact " + change, 0.92);
+            ContactRow row;
+            row.change = std::move(change);
+            const Run truth = simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
+            measure(row, variant, truth, out_.until, kSpare * request_.longest_run, 1);
+            out_.contact.push_back(std::move(row));
+        };
+        Problem variant = problem_;
+        if (problem_.contact.model == ContactModel::compliant) {
+            variant.contact.stiffness = 1.01 * contact_stiffness(problem_);
+            add("stiffness +1 %", variant);
+            variant = problem_;
+        }
+        const double c = problem_.contact.restitution;
+        variant.contact.restitution = c <= 0.99 ? c + 0.01 : c - 0.01;
+        add(c <= 0.99 ? "restitution +0.01" : "restitution −0.01", variant);
+        if (problem_.contact.model == ContactModel::compliant &&
+            problem_.contact.approach_floor.policy == ApproachFloorPolicy::value) {
+            variant = problem_;
+            variant.contact.approach_floor.value *= 2;
+            add("approach floor × 2", variant);
+        }
+    }
+
+    // ---- what to choose --------------------------------------------------------------------------
+
+    // The fewest shapes that reach as far (within 2 %) as any affordable number does, and the loosest tolerance of
+    // `auto` whose error leaves them room.
+    void recommend() {
+        Recommendation r;
+        r.modes = problem_.beam.modes;
+        r.until = out_.until;
+        double error = 0;
+        if (!out_.modes.empty()) {
+            double farthest = 0;
+            const ModesRow* last = nullptr;
+            for (const ModesRow& row : out_.modes)
+                if (row.error) last = &row;
+            for (const ModesRow& row : out_.modes)
+                if (row.error && &row != last) farthest = std::max(farthest, row.trusted_until);
+            for (const ModesRow& row : out_.modes) {
+                if (!row.error || row.trusted_until < 0.98 * farthest) continue;
+                r.modes = row.modes;
+                r.until = std::min(r.until, row.trusted_until);
+                error = std::min(*row.error, request_.target);
+                break;
+            }
+        }
+        for (const WorkRow& row : out_.work) {
+            if (row.method != Method::automatic || !row.error || *row.error > request_.target / 2) continue;
+            r.rtol = row.rtol;
+            error = std::max(error, *row.error);
+            break;
+        }
+        if (r.rtol == 0 || r.until <= 0) return;
+        Problem chosen = with(r.rtol);
+        set_modes(chosen, r.modes);
+        about("recommendation", 0.97);
+        std::vector<double> seconds;
+        try {
+            for (int k = 0; k < request_.repeats; ++k)
+                seconds.push_back(simulate_until(chosen, r.until, kSpare * request_.longest_run, false).seconds);
+        } catch (const TooLong&) {
+            return;
+        } catch (const SolverError&) {
+            return;
+        }
+        r.seconds = timing(std::move(seconds)).median;
+        r.error = error;
+        const std::string shapes = problem_.beam.model == ModelKind::rigid
+                                       ? ""
+                                       : fmt::format(" and {} mode{}", r.modes, r.modes == 1 ? "" : "s");
+        r.text = fmt::format("rtol {:.0e}{} give {} to {:g} rad for the first {:.3g} s in {:.2g} ms", r.rtol, shapes,
+                             out_.of_tip ? "the tip's δ/L" : "θ", request_.target, r.until, 1e3 * r.seconds);
+        out_.recommendation = std::move(r);
+    }
+
+    const Problem& problem_;
+    AccuracyRequest request_;
+    const Tell& tell_;
+    const ComparedAngle angle_;
+    Accuracy out_;
+    Run reference_;
+    std::string what_;
+    double share_ = 0;
+    Clock::time_point started_ = Clock::now();
+};
+
+}  // namespace
+
+Accuracy assess(const Problem& problem, const AccuracyRequest& request,
+                const std::function<bool(const std::string& what, double share)>& progress) {
+    return Assessment(problem, request, progress).go();
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,334 @@
+// Reading back what was written, and refusing what is damaged. FFmpeg's program and numpy are the witnesses.
+#include <libdeflate.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/inflate.hpp"
+#include "output/film/picture_source.hpp"
+#include "output/film/video.hpp"
+#include "output/film/video_reader.hpp"
+#include "output/image/digest.hpp"
+#include "output/image/png.hpp"
+#include "output/image/png_reader.hpp"
+#include "output/image/raster.hpp"
+#include "tests/output/scratch.hpp"
+
+namespace beamcam::output {
+namespace {
+
+render::Image pattern(int width, int height, bool opaque) {
+    render::Image image(width, height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const std::uint32_t alpha = opaque ? 255 : static_cast<std::uint32_t>(i * 37 % 256);
+        const auto channel = [&](std::size_t step) { return static_cast<std::uint32_t>(i * step % (alpha + 1)); };
+        image.pixels[i] = alpha << 24 | channel(13) << 16 | channel(7) << 8 | channel(3);
+    }
+    return image;
+}
+
+std::string in_shell(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
+
+// One digest a picture, as FFmpeg's own program takes them.
+std::vector<std::string> framehash(const std::filesystem::path& file) {
+    const std::string text = output_of(
+        "ffmpeg -v error -i " + in_shell(file) +
+        " -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba -f framehash -hash sha256 -");
+    std::vector<std::string> digests;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with('#')) digests.push_back(line.substr(line.rfind(' ') + 1));
+    return digests;
+}
+
+std::vector<std::string> own_digests(const std::filesystem::path& file) {
+    PictureSource source(file);
+    std::vector<std::string> digests;
+    Raster picture;
+    std::string name;
+    while (source.next(picture, name)) digests.push_back(digest(picture));
+    return digests;
+}
+
+// The message of the IoError that `body` ends with.
+template <typename Body>
+std::string io_error_of(Body body) {
+    try {
+        body();
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no IoError";
+    return {};
+}
+
+void make_film(const std::filesystem::path& file, Codec codec = Codec::h264) {
+    VideoOptions options;
+    options.codec = codec;
+    options.width = 64;
+    options.height = 48;
+    options.preset = "ultrafast";
+    options.metadata = {{"beamcam-scene", "{}"}};
+    VideoWriter film(file, options);
+    for (int k = 0; k < 40; ++k) {
+        render::Image image = pattern(64, 48, true);
+        for (std::uint32_t& pixel : image.pixels)
+            pixel = 0xff000000 | (pixel + static_cast<std::uint32_t>(k) * 0x030711);
+        film.write(image);
+    }
+    film.finish();
+}
+
+TEST(PngReader, GivesThePixelsThatWereWritten) {
+    Scratch scratch;
+    for (bool opaque : {true, false}) {
+        const render::Image image = pattern(33, 17, opaque);
+        write_png(scratch / "a.png", image);
+        EXPECT_EQ(digest(read_png(scratch / "a.png")), digest(image));
+    }
+}
+
+TEST(PngReader, GivesTheMetadataWithoutDecodingPixels) {
+    Scratch scratch;
+    write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, {{"beamcam-scene", "{\"ω\": 1}"}, {"Title", ""}}});
+    const auto found = read_png_facts(scratch / "a.png").metadata;
+    EXPECT_EQ(found.at("beamcam-scene"), "{\"ω\": 1}");
+    EXPECT_EQ(found.at("Title"), "");
+}
+
+TEST(PngReader, DigestsOfEveryKindOfPngAreFFmpegs) {
+    Scratch scratch;
+    for (const char* format : {"gray", "gray16be", "rgb24", "rgb48be", "rgba", "rgba64be", "pal8", "ya8", "monob"}) {
+        const auto file = scratch / (std::string(format) + ".png");
+        output_of("ffmpeg -v error -f lavfi -i testsrc2=s=64x48 -frames:v 1 -pix_fmt " + std::string(format) + " " +
+                  in_shell(file));
+        EXPECT_EQ(own_digests(file), framehash(file)) << format;
+    }
+}
+
+TEST(PngReader, EveryCutAndEveryFlippedByteOfThePixelsIsRefusedInWords) {
+    Scratch scratch;
+    const std::string whole = encode_png(pattern(24, 24, false));
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+        write_file(scratch / "cut.png", whole.substr(0, size), Durability::buffered);
+        EXPECT_NE(io_error_of([&] { read_png(scratch / "cut.png"); }).find("cut.png"), std::string::npos) << size;
+    }
+    const std::size_t data = whole.find("IDAT") + 4;
+    for (std::size_t at = data; at < whole.size() - 16; at += 11) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+        write_file(scratch / "damaged.png", damaged, Durability::buffered);
+        EXPECT_NE(io_error_of([&] { read_png(scratch / "damaged.png"); }).find("damaged"), std::string::npos) << at;
+    }
+}
+
+// A header alone, whose checksum nobody has looked at yet when the size is judged.
+std::string png_that_claims(std::uint32_t width, std::uint32_t height) {
+    std::string file = encode_png(pattern(1, 1, true));
+    for (int i = 0; i < 4; ++i) {
+        file[static_cast<std::size_t>(16 + i)] = static_cast<char>(width >> (24 - 8 * i));
+        file[static_cast<std::size_t>(20 + i)] = static_cast<char>(height >> (24 - 8 * i));
+    }
+    return file;
+}
+
+TEST(PngReader, ImpossibleSizesAreRefusedBeforeMemoryIsAskedFor) {
+    Scratch scratch;
+    write_file(scratch / "empty.png", png_that_claims(0, 0));
+    EXPECT_NE(io_error_of([&] { read_png(scratch / "empty.png"); }).find("0x0"), std::string::npos);
+    write_file(scratch / "huge.png", png_that_claims(20000, 20000));
+    EXPECT_NE(io_error_of([&] { read_png(scratch / "huge.png"); }).find("20000x20000"), std::string::npos);
+    write_file(scratch / "text.png", "not a picture");
+    EXPECT_NE(io_error_of([&] { read_png(scratch / "text.png"); }).find("not a PNG"), std::string::npos);
+}
+
+TEST(VideoReader, DigestsOfFilmsAreFFmpegs) {
+    Scratch scratch;
+    make_film(scratch / "a.mp4");
+    EXPECT_EQ(own_digests(scratch / "a.mp4").size(), 40u);
+    EXPECT_EQ(own_digests(scratch / "a.mp4"), framehash(scratch / "a.mp4"));
+    const std::pair<const char*, const char*> others[] = {{"a.webm", "-c:v libvpx-vp9 -deadline realtime"},
+                                                          {"a.gif", ""},
+                                                          {"a.apng", "-f apng"},
+                                                          {"a.mkv", "-c:v ffv1 -pix_fmt bgr0"},
+                                                          {"a.mov", "-c:v prores_ks -pix_fmt yuva444p10le"}};
+    for (const auto& [name, options] : others) {
+        output_of("ffmpeg -v error -i " + in_shell(scratch / "a.mp4") + " -frames:v 6 " + options + " " +
+                  in_shell(scratch / name));
+        const std::vector<std::string> expected = framehash(scratch / name);
+        EXPECT_GE(expected.size(), 5u) << name;
+        EXPECT_EQ(own_digests(scratch / name), expected) << name;
+    }
+}
+
+TEST(VideoReader, KnowsWhatTheFileSaysOfItself) {
+    Scratch scratch;
+    make_film(scratch / "a.mp4");
+    const VideoReader film(scratch / "a.mp4");
+    EXPECT_EQ(film.facts().frames, 40);
+    EXPECT_EQ(film.facts().codec, "h264");
+    EXPECT_EQ(film.facts().metadata.at("beamcam-scene"), "{}");
+}
+
+TEST(VideoReader, AFilmThatEndsEarlyOrIsDamagedIsAnError) {
+    Scratch scratch;
+    make_film(scratch / "a.mp4");
+    const std::string whole = read_file(scratch / "a.mp4");
+    for (const double share : {0.0, 0.01, 0.3, 0.6, 0.9, 0.999}) {
+        write_file(scratch / "cut.mp4", whole.substr(0, static_cast<std::size_t>(share * double(whole.size()))));
+        EXPECT_NE(io_error_of([&] { own_digests(scratch / "cut.mp4"); }).find("cut.mp4"), std::string::npos) << share;
+    }
+    write_file(scratch / "text.mp4", "#EXTM3U\nhttp://127.0.0.1:9/a.ts\n");
+    EXPECT_NE(io_error_of([&] { own_digests(scratch / "text.mp4"); }).find("text.mp4"), std::string::npos);
+}
+
+// FFmpeg takes the end of a cut Matroska file for the end of the film.
+TEST(VideoReader, ACutMatroskaFilmIsAnErrorWhereverItEnds) {
+    Scratch scratch;
+    make_film(scratch / "a.mkv");
+    make_film(scratch / "a.webm", Codec::vp9);
+    for (const char* ending : {".mkv", ".webm"}) {
+        const std::string whole = read_file(scratch / (std::string("a") + ending));
+        EXPECT_EQ(own_digests(scratch / (std::string("a") + ending)).size(), 40U);
+        for (const double share : {0.01, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999}) {
+            const auto cut = scratch / (std::string("cut") + ending);
+            write_file(cut, whole.substr(0, static_cast<std::size_t>(share * double(whole.size()))));
+            EXPECT_NE(io_error_of([&] { own_digests(cut); }).find("cut"), std::string::npos) << ending << share;
+        }
+    }
+}
+
+TEST(VideoReader, ReadsNoOtherFile) {
+    Scratch scratch;
+    make_film(scratch / "a.mkv");
+    output_of("ffmpeg -v error -i " + in_shell(scratch / "a.mkv") + " -frames:v 1 " + in_shell(scratch / "film-1.jpg"));
+    EXPECT_EQ(own_digests(scratch / "film-1.jpg").size(), 1U);
+    const std::string name = (scratch / "a.mkv").string();
+    for (const std::string& script :
+         {"ffconcat version 1.0\nfile '" + name + "'\n", "#EXTM3U\n#EXTINF:1,\n" + name + "\n#EXT-X-ENDLIST\n"}) {
+        write_file(scratch / "script.mkv", script);
+        EXPECT_NE(io_error_of([&] { own_digests(scratch / "script.mkv"); }), "");
+        EXPECT_NE(io_error_of([&] { concatenate({scratch / "script.mkv"}, scratch / "joined.mkv"); }), "");
+        EXPECT_FALSE(std::filesystem::exists(scratch / "joined.mkv"));
+    }
+    EXPECT_NE(io_error_of([&] { VideoReader(scratch / "film-%d.jpg"); }), "");
+}
+
+TEST(Inflater, GivesOutNoMoreThanItsBudget) {
+    std::string packed(200, '\0');
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> deflate(
+        libdeflate_alloc_compressor(6), libdeflate_free_compressor);
+    const std::string zeros(60000, '\0');
+    packed.resize(libdeflate_zlib_compress(deflate.get(), zeros.data(), zeros.size(), packed.data(), packed.size()));
+    Inflater inflater(100000);
+    EXPECT_EQ(inflater.zlib(packed), zeros);
+    EXPECT_EQ(inflater.zlib(packed), std::nullopt);
+    EXPECT_EQ(Inflater(100000).deflate(packed, 99999999), std::nullopt);
+}
+
+TEST(TableReader, ArraysThatShareTheirBytesAreRefused) {
+    Scratch scratch;
+    const std::string command =
+        "cd '" + scratch.path().string() +
+        "' && /usr/bin/python3 -c \"import numpy; numpy.savez_compressed('a.npz', t=numpy.zeros(3))\"";
+    output_of(command);
+    const std::string whole = read_file(scratch / "a.npz");
+    ASSERT_EQ(read_table(scratch / "a.npz").rows(), 3U);
+    const std::size_t end = whole.rfind("PK\5\6"), begin = whole.rfind("PK\1\2");
+    std::string shared = whole.substr(0, end), second = whole.substr(begin, end - begin), tail = whole.substr(end);
+    for (char name = 'a'; name < 'k'; ++name) {
+        second[46] = name;
+        shared += second;
+    }
+    tail[8] = tail[10] = 11;
+    write_file(scratch / "b.npz", shared + tail);
+    EXPECT_NE(io_error_of([&] { read_table(scratch / "b.npz"); }).find("damaged"), std::string::npos);
+}
+
+TEST(PictureSource, TakesDirectoriesAndSequencesInTheOrderOfTheirNumbers) {
+    Scratch scratch;
+    std::vector<std::string> expected;
+    for (const int k : {9, 10, 100}) {
+        const render::Image image = flat_image(4, 4, 0xff000000u + static_cast<std::uint32_t>(k));
+        write_png(scratch / ("f-" + std::to_string(k) + ".png"), image);
+        expected.push_back(digest(image));
+    }
+    write_file(scratch / "notes.txt", "no picture");
+    EXPECT_EQ(own_digests(scratch.path()), expected);
+    EXPECT_EQ(own_digests(scratch / "f-#.png"), expected);
+    io_error_of([&] { PictureSource(scratch / "g-#.png"); });
+    io_error_of([&] { PictureSource(scratch / "absent.png"); });
+}
+
+// ---- tables --------------------------------------------------------------------------------------
+
+sim::Table small_table() {
+    using sim::ChannelKind;
+    return {{{ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::gap, 0}},
+            {{0, 0.1, 1.0 / 3}, {1, -2e-300, 3}, {NAN, 5e-324, 1.7976931348623157e308}}};
+}
+
+TEST(TableReader, BothFormatsGiveTheSameBitsBack) {
+    Scratch scratch;
+    const sim::Table table = small_table();
+    for (const char* name : {"a.csv", "a.npz"}) {
+        write_table(scratch / name, table);
+        const NamedTable read = read_table(scratch / name);
+        EXPECT_EQ(read.names, (std::vector<std::string>{"t", "theta", "gap"}));
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t r = 0; r < 3; ++r)
+                if (std::isnan(table.values[c][r]))
+                    EXPECT_TRUE(std::isnan(read.columns[c][r]));
+                else
+                    EXPECT_EQ(read.columns[c][r], table.values[c][r]) << name << " " << c << " " << r;
+    }
+}
+
+TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
+    Scratch scratch;
+    output_of(
+        "cd " + in_shell(scratch.path()) +
+        " && /usr/bin/python3 -c \"import numpy as n; n.savez_compressed('a.npz', t=n.arange(3.), k=n.arange(3)); "
+        "n.savetxt('a.csv', n.ones((2, 2)), header='t,x', delimiter=',')\"");
+    const NamedTable npz = read_table(scratch / "a.npz"), csv = read_table(scratch / "a.csv");
+    EXPECT_EQ(*npz.find("k"), (std::vector<double>{0, 1, 2}));
+    EXPECT_EQ(*csv.find("x"), (std::vector<double>{1, 1}));
+    const NamedTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
+    EXPECT_EQ(*excel.find("t"), (std::vector<double>{1, 3}));
+    EXPECT_EQ(excel.find("x")->front(), 2);
+    EXPECT_TRUE(std::isnan(excel.find("x")->back()));
+}
+
+TEST(TableReader, SaysWhereACsvIsWrong) {
+    const auto error = [](const std::string& text) { return io_error_of([&] { parse_csv(text, "a.csv"); }); };
+    EXPECT_EQ(error("t,x\n1,2\n3,abc\n"), "a.csv:3:3: \"abc\" is not a number");
+    EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: 1 cells"), std::string::npos);
+    EXPECT_NE(error("").find("empty"), std::string::npos);
+    EXPECT_NE(error("t,t\n").find("twice"), std::string::npos);
+    EXPECT_NE(error("1,2\n").find("name"), std::string::npos);
+}
+
+TEST(TableReader, EveryCutOfAnArchiveIsRefused) {
+    Scratch scratch;
+    write_table(scratch / "a.npz", small_table());
+    const std::string whole = read_file(scratch / "a.npz");
+    for (std::size_t size = 0; size < whole.size(); size += 5) {
+        write_file(scratch / "cut.npz", whole.substr(0, size), Durability::buffered);
+        EXPECT_NE(io_error_of([&] { read_table(scratch / "cut.npz"); }).find("cut.npz"), std::string::npos) << size;
+    }
+    for (std::size_t at = 0; at < whole.size(); at += 3) {  // never a crash; an unread byte may change nothing
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0xff);
+        write_file(scratch / "bad.npz", damaged, Durability::buffered);
+        try {
+            EXPECT_EQ(read_table(scratch / "bad.npz").rows(), 3u) << at;
+        } catch (const IoError&) {
+        }
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::output

@@ -1,0 +1,146 @@
+#include "output/data/records.hpp"
+
+#include <cmath>
+
+#include "output/files/atomic_file.hpp"
+#include "tests/output/scratch.hpp"
+
+namespace beamcam::output {
+namespace {
+
+sim::Result one_collision() {
+    sim::Result result;
+    result.end_time = 1.5;
+    sim::Impact closed;
+    closed.t_start = 0.25, closed.t_end = 0.375, closed.duration = 0.125, closed.x = 0.1;
+    closed.v_n_before = -2, closed.v_n_after = 1.4, closed.v_t_after = 0.0, closed.restitution = 0.7;
+    sim::Impact open;
+    open.t_start = 1.25;
+    open.collision = 1;
+    result.impacts = {closed, open};
+    result.collisions = {sim::Collision{0.25, 0.375, 1, 0.1, -2, 1.4, 0.7, 0, 0}, sim::Collision{}};
+    result.theta_zero = {{0.369993889, -5.5}};
+    result.extrema = {{-1, 0.5, 2, 1.0}};
+    result.counters.steps = 44000;
+    result.counters.rhs_evaluations = 90000;
+    return result;
+}
+
+TEST(ImpactsJson, HasTheNamesInTheirOrderAndNullWhereUndefined) {
+    const std::string json = impacts_json(one_collision());
+    EXPECT_NE(json.find(R"({
+      "t_start": 1.25,
+      "t_end": null,
+      "x": 0.0,
+      "cam_angle": 0.0,
+      "v_n_before": 0.0,
+      "v_t_before": 0.0,
+      "v_n_after": null,
+      "v_t_after": null,
+      "duration": null,
+      "force_peak": null,
+      "penetration_peak": 0.0,
+      "impulse_n": 0.0,
+      "impulse_t": 0.0,
+      "restitution": null,
+      "energy_lost": 0.0,
+      "collision": 1
+    })"),
+              std::string::npos)
+        << json;
+    EXPECT_NE(json.find(R"({
+      "t_start": 0.25,
+      "t_end": 0.375,
+      "count": 1,
+      "x": 0.1,
+      "v_n_before": -2.0,
+      "v_n_after": 1.4,
+      "restitution": 0.7,
+      "force_peak": 0.0,
+      "energy_lost": 0.0
+    })"),
+              std::string::npos)
+        << json;
+}
+
+TEST(ImpactsJson, NumbersReadBackToTheSameBits) {
+    sim::Result result;
+    result.impacts.resize(1);
+    result.impacts[0].t_start = 0.1 + 0.2;
+    EXPECT_NE(impacts_json(result).find("0.30000000000000004"), std::string::npos);
+}
+
+TEST(ImpactsJson, ARunWithoutImpactsHasEmptyLists) {
+    EXPECT_EQ(impacts_json({}), "{\n  \"impacts\": [],\n  \"collisions\": []\n}\n");
+}
+
+TEST(ImpactsCsv, HasTheSameNamesAndEmptyCells) {
+    EXPECT_EQ(
+        impacts_csv(one_collision()),
+        "t_start,t_end,x,cam_angle,v_n_before,v_t_before,v_n_after,v_t_after,duration,force_peak,penetration_peak,"
+        "impulse_n,impulse_t,restitution,energy_lost,collision\n"
+        "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,,0,0,0,0.69999999999999996,0,0\n"
+        "1.25,,0,0,0,0,,,,,0,0,0,,0,1\n");
+}
+
+TEST(Impacts, AreWrittenByTheirEnding) {
+    Scratch scratch;
+    write_impacts(scratch / "i.json", one_collision());
+    write_impacts(scratch / "i.csv", one_collision());
+    EXPECT_EQ(read_file(scratch / "i.json"), impacts_json(one_collision()));
+    EXPECT_EQ(read_file(scratch / "i.csv"), impacts_csv(one_collision()));
+    EXPECT_THROW(write_impacts(scratch / "i.txt", one_collision()), UnsupportedOption);
+}
+
+const std::vector<sim::Channel> kTheta = {{sim::ChannelKind::theta, 0}};
+
+TEST(Summary, HasEveryNameInItsOrder) {
+    sim::Result result = one_collision();
+    result.warnings = {"the cam never reaches the beam"};
+    result.reproducible_until = 3.25;
+    result.not_reproducible = {{3.25, 8.5}, {9, {}}};
+    result.reproducible_again_from = 9.5;
+    result.compared_with = "rk8 at rtol 1e-10";
+    result.reproducibility = "not all along";
+    const std::string printed = [&] {
+        Scratch scratch;
+        write_summary(scratch / "s.json", {}, result, kTheta);
+        return output_of(
+            "/usr/bin/python3 -c 'import json, sys\n"
+            "s = json.load(open(sys.argv[1]))\n"
+            "u = s.pop(\"units\")\n"
+            "print(u[\"theta\"], u[\"t\"], u[\"contact_force\"], \"q1\" in u, \"q3\" in u)\n"
+            "print(s)' " +
+            (scratch / "s.json").string());
+    }();
+    EXPECT_EQ(printed,
+              "rad s N True False\n"
+              "{'model': 'first-order', 'modes': 2, 'end_time': 1.5, 'steps': 44000, 'rhs_evaluations': 90000, "
+              "'wall_seconds': 0.0, 'events': {'theta_zero': [{'t': 0.369993889, 'theta_dot': -5.5}]}, 'extrema': "
+              "{'theta': {'min': -1.0, 't_min': 0.5, 'max': 2.0, 't_max': 1.0}}, 'energy_residual_max': 0.0, "
+              "'energy_scale': 0.0, 'impacts': 2, 'collisions': 2, 'reproducible_until': 3.25, 'not_reproducible': "
+              "[[3.25, 8.5], [9.0, None]], 'reproducible_again_from': 9.5, 'compared_with': 'rk8 at rtol 1e-10', "
+              "'reproducibility': 'not all along', 'warnings': "
+              "['the cam never reaches the beam']}\n");
+}
+
+TEST(Summary, LeavesTheHorizonOutUnlessAsked) {
+    EXPECT_EQ(summary_json({}, one_collision(), kTheta).find("reproducible_until"), std::string::npos);
+}
+
+TEST(Summary, ARigidBeamHasNoModes) {
+    sim::Problem problem;
+    problem.beam.model = sim::ModelKind::rigid;
+    EXPECT_NE(summary_json(problem, one_collision(), kTheta).find("\"modes\": 0"), std::string::npos);
+}
+
+TEST(Summary, UndefinedNumbersAreNull) {
+    sim::Result result = one_collision();
+    result.extrema[0].min = std::nan("");
+    EXPECT_NE(summary_json({}, result, kTheta).find("\"min\": null"), std::string::npos);
+}
+
+TEST(Summary, ChannelsMustMatchTheExtrema) { EXPECT_THROW(summary_json({}, one_collision(), {}), std::logic_error); }
+
+}  // namespace
+}  // namespace beamcam::output

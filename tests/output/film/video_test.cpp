@@ -1,0 +1,430 @@
+#include "output/film/video.hpp"
+
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <cmath>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/sha256.hpp"
+#include "output/film/video_library.hpp"
+#include "tests/output/scratch.hpp"
+
+namespace beamcam::output {
+namespace {
+
+VideoOptions small_film() {
+    VideoOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.preset = "ultrafast";
+    return options;
+}
+
+render::Image moving_square(int width, int height, int frame) {
+    render::Image image = flat_image(width, height, 0xfff4f1ea);
+    for (int y = 8; y < 24; ++y)
+        for (int x = 0; x < 16; ++x)
+            image.pixels[static_cast<std::size_t>(y * width + (x + 2 * frame) % width)] = 0xff1f4e8c;
+    return image;
+}
+
+void write_film(const std::filesystem::path& file, const VideoOptions& options, int frames) {
+    VideoWriter film(file, options);
+    for (int i = 0; i < frames; ++i) film.write(moving_square(options.width, options.height, i));
+    film.finish();
+}
+
+std::string probe(const std::filesystem::path& file, const std::string& what) {
+    return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
+}
+
+// R, G, B of the top-left pixel of every frame, as FFmpeg shows them; after `filters`, each with a comma.
+std::string first_pixels(const std::filesystem::path& file, const std::string& filters = {}) {
+    return output_of("/usr/bin/ffmpeg -v error -i " + file.string() + " -vf " + filters +
+                     "crop=1:1:0:0:exact=1 -sws_flags accurate_rnd+full_chroma_int -f rawvideo -pix_fmt rgb24 -");
+}
+
+TEST(Film, IsWhatPlayersExpect) {
+    Scratch scratch;
+    VideoOptions options;
+    options.metadata = {{"title", "Fall on a cam, θ₀ = 45°"}, {"beamcam_scene", "{\"hub\":{}}"}};
+    write_film(scratch / "a.mp4", options, 5);
+    const std::string seen = probe(scratch / "a.mp4", "-count_frames -show_streams -show_format");
+    for (const char* expected :
+         {"codec_name=h264", "width=1920", "height=1080", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
+          "color_transfer=bt709", "color_primaries=bt709", "chroma_location=center", "r_frame_rate=60/1",
+          "avg_frame_rate=60/1", "nb_read_frames=5", "nb_frames=5", "sample_aspect_ratio=1:1", "duration=0.083333",
+          "TAG:title=Fall on a cam, θ₀ = 45°", "TAG:beamcam_scene={\"hub\":{}}"})
+        EXPECT_NE(seen.find(expected), std::string::npos) << expected << "\n" << seen;
+}
+
+TEST(Film, HasItsIndexFirst) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 5);
+    const std::string bytes = read_file(scratch / "a.mp4");
+    ASSERT_NE(bytes.find("moov"), std::string::npos);
+    EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+}
+
+TEST(Film, ShowsFlatColoursWithinTwoLevels) {
+    for (const std::uint32_t colour :
+         {0xff000000u, 0xffffffffu, 0xff808080u, 0xffc0392bu, 0xff27ae60u, 0xff2c3e9fu, 0xfff4f1eau}) {
+        Scratch scratch;
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 3; ++i) film.write(flat_image(64, 48, colour));
+        film.finish();
+        const std::string rgb = first_pixels(scratch / "a.mp4");
+        ASSERT_EQ(rgb.size(), 9u);
+        for (std::size_t i = 0; i < 9; ++i) {
+            const int expected = static_cast<int>(colour >> (16 - 8 * (i % 3)) & 0xff);
+            EXPECT_NEAR(static_cast<unsigned char>(rgb[i]), expected, 2) << std::hex << colour << " byte " << i;
+        }
+    }
+}
+
+TEST(Film, KeepsItsFramesInOrder) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    for (unsigned i = 0; i < 20; ++i) film.write(flat_image(64, 48, 0xff000000u | (i * 12) * 0x010101u));
+    film.finish();
+    const std::string rgb = first_pixels(scratch / "a.mp4");
+    ASSERT_EQ(rgb.size(), 60u);
+    for (unsigned i = 0; i < 20; ++i) EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * i]), 12.0 * i, 2) << i;
+}
+
+TEST(Film, ARepeatedPictureIsTheSameAsOneWrittenAgain) {
+    Scratch scratch;
+    write_film(scratch / "written.mp4", small_film(), 1);
+    {
+        VideoWriter written(scratch / "written.mp4", small_film()), repeated(scratch / "repeated.mp4", small_film());
+        for (int i = 0; i < 3; ++i) {
+            written.write(moving_square(64, 48, i));
+            repeated.write(moving_square(64, 48, i));
+            for (int k = 0; k < 20; ++k) {
+                written.write(moving_square(64, 48, i));
+                repeated.repeat();
+            }
+        }
+        written.finish();
+        repeated.finish();
+        EXPECT_EQ(repeated.statistics().frames, 63);
+    }
+    EXPECT_EQ(sha256_of_file(scratch / "written.mp4"), sha256_of_file(scratch / "repeated.mp4"));
+}
+
+// Eight pictures' time of the first, one of the second, 151 of the third, which is more than may be held, five of the
+// last.
+TEST(Film, AVariableRateShowsTheSameAndCodesWhatIsHeldOnce) {
+    struct Kind {
+        const char* ending;
+        Codec codec;
+        bool tells_duration;
+    };
+    constexpr std::array<std::uint32_t, 4> kColours{0xff000000, 0xffc0392b, 0xff2c3e9f, 0xffffffff};
+    constexpr std::array kTimes{8, 1, 151, 5};
+    for (const Kind& kind :
+         {Kind{".mp4", Codec::h264, true}, Kind{".mov", Codec::prores, true}, Kind{".webm", Codec::vp9, true},
+          Kind{".mkv", Codec::ffv1, true}, Kind{".mp4", Codec::av1, true}, Kind{".gif", Codec::gif, true},
+          Kind{".apng", Codec::apng, false}}) {
+        Scratch scratch;
+        VideoOptions options = small_film();
+        options.height = 64;
+        options.fps = 20;
+        options.codec = kind.codec;
+        options.variable_rate = true;
+        if (kind.codec == Codec::gif) options.palette = {kColours.begin(), kColours.end()};
+        const std::filesystem::path file = (scratch / "f").string() + kind.ending;
+        VideoWriter film(file, options);
+        for (std::size_t i = 0; i < kColours.size(); ++i) {
+            film.write(flat_image(64, 64, kColours[i]));
+            for (int k = 1; k < kTimes[i]; ++k) film.repeat();
+        }
+        film.finish();
+        // The four, one after five seconds, and the last at the film's end.
+        EXPECT_EQ(film.statistics().frames, 6) << kind.ending;
+        EXPECT_EQ(film.statistics().held, 159) << kind.ending;
+        EXPECT_NE(probe(file, "-count_frames -show_streams").find("nb_read_frames=6\n"), std::string::npos)
+            << kind.ending;
+        if (kind.tells_duration) {
+            const std::string seen = probe(file, "-show_entries format=duration");
+            EXPECT_EQ(seen, "duration=8.250000\n") << kind.ending;
+        }
+        const std::string rgb = first_pixels(file, "fps=20,");
+        ASSERT_EQ(rgb.size(), 3U * 165) << kind.ending;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < kColours.size(); ++i)
+            for (int k = 0; k < kTimes[i]; ++k, at += 3)
+                for (std::size_t c = 0; c < 3; ++c)
+                    EXPECT_NEAR(static_cast<unsigned char>(rgb[at + c]),
+                                static_cast<int>(kColours[i] >> (16 - 8 * c) & 0xff), 4)
+                        << kind.ending << " frame " << at / 3;
+    }
+}
+
+TEST(Film, OfVariableRateIsNotJoined) {
+    Scratch scratch;
+    VideoOptions options = small_film();
+    options.variable_rate = true;
+    write_film(scratch / "a.mp4", options, 3);
+    EXPECT_THROW(concatenate({scratch / "a.mp4", scratch / "a.mp4"}, scratch / "b.mp4"), Mismatch);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "b.mp4"));
+}
+
+// The tiles in which two pictures differ, and no more.
+render::Tiles difference(const render::Image& a, const render::Image& b) {
+    render::Tiles tiles(a.width, a.height);
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const auto at = static_cast<std::size_t>(y * a.width + x);
+            if (a.pixels[at] != b.pixels[at]) tiles.add({x + 0.25, y + 0.25, 0.5, 0.5});
+        }
+    return tiles;
+}
+
+// Two inputs that take turns, as two threads do: whatever the format, the film is that of whole pictures.
+TEST(Film, PicturesConvertedWhereTheyChangedGiveTheSameBytes) {
+    struct Kind {
+        const char* ending;
+        Codec codec;
+        bool transparent;
+    };
+    for (const Kind& kind :
+         {Kind{".mp4", Codec::h264, false}, Kind{".webm", Codec::vp9, true}, Kind{".mov", Codec::prores, true},
+          Kind{".mkv", Codec::ffv1, false}, Kind{".gif", Codec::gif, false}, Kind{".apng", Codec::apng, false}}) {
+        Scratch scratch;
+        VideoOptions options = small_film();
+        options.width = 160;
+        options.fps = 50;
+        options.codec = kind.codec;
+        options.transparent = kind.transparent;
+        if (kind.codec == Codec::gif) options.palette = {0xfff4f1ea, 0xff1f4e8c};
+        const std::filesystem::path whole = (scratch / "whole").string() + kind.ending,
+                                    parts = (scratch / "parts").string() + kind.ending;
+        write_film(whole, options, 12);
+        VideoWriter film(parts, options);
+        VideoInput inputs[] = {VideoInput(film), VideoInput(film)};
+        render::Image before[] = {render::Image(160, 48), render::Image(160, 48)};
+        for (int i = 0; i < 12; ++i) {
+            const render::Image picture = moving_square(160, 48, i);
+            const render::Tiles changed = difference(before[i % 2], picture);
+            inputs[i % 2].convert(picture, changed);
+            inputs[i % 2].send();
+            before[i % 2] = picture;
+        }
+        film.finish();
+        EXPECT_EQ(film.statistics().frames, 12);
+        EXPECT_EQ(sha256_of_file(whole), sha256_of_file(parts)) << kind.ending;
+    }
+}
+
+TEST(Film, SamePicturesGiveTheSameBytes) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 30);
+    write_film(scratch / "b.mp4", small_film(), 30);
+    EXPECT_EQ(sha256_of_file(scratch / "a.mp4"), sha256_of_file(scratch / "b.mp4"));
+}
+
+TEST(Film, KeepsBroadcastRatesExactly) {
+    Scratch scratch;
+    VideoOptions options = small_film();
+    options.fps = 29.97;
+    write_film(scratch / "a.mp4", options, 3);
+    EXPECT_NE(probe(scratch / "a.mp4", "-show_streams").find("r_frame_rate=30000/1001"), std::string::npos);
+}
+
+TEST(Film, MayLastOneFrame) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 1);
+    EXPECT_NE(probe(scratch / "a.mp4", "-count_frames -show_streams").find("nb_read_frames=1"), std::string::npos);
+}
+
+TEST(Film, AcceptsNamesThatLookLikeAddresses) {
+    Scratch scratch;
+    write_film(scratch / "http:x %d θ.mp4", small_film(), 2);
+    EXPECT_EQ(scratch.names(), std::vector<std::string>{"http:x %d θ.mp4"});
+}
+
+TEST(Film, LeavesNothingWhenItIsNotFinished) {
+    Scratch scratch;
+    {
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 30; ++i) film.write(moving_square(64, 48, i));
+    }
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+// SVT-AV1 would wait forever.
+TEST(Film, OfAnyCodecEndsWhenItIsDropped) {
+    Scratch scratch;
+    const std::pair<const char*, Codec> kinds[] = {
+        {"a.mp4", Codec::av1},  {"a.webm", Codec::vp9},  {"a.mov", Codec::prores}, {"a.mkv", Codec::ffv1},
+        {"a.mp4", Codec::h264}, {"a.apng", Codec::apng}, {"a.webp", Codec::webp}};
+    for (const auto& [name, codec] : kinds)
+        for (int pictures : {0, 1, 7}) {
+            VideoOptions options = small_film();
+            options.width = 96, options.height = 64;
+            options.codec = codec;
+            {
+                VideoWriter film(scratch / name, options);
+                for (int i = 0; i < pictures; ++i) film.write(moving_square(96, 64, i));
+            }
+            EXPECT_TRUE(scratch.names().empty()) << name << " " << pictures;
+        }
+}
+
+TEST(Film, WithoutPicturesIsRefused) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    EXPECT_THROW(film.finish(), std::logic_error);
+    EXPECT_THROW(film.repeat(), std::logic_error);
+}
+
+TEST(Film, RefusesAPictureOfAnotherSize) {
+    Scratch scratch;
+    VideoWriter film(scratch / "a.mp4", small_film());
+    EXPECT_THROW(film.write(flat_image(66, 48, 0)), std::logic_error);
+}
+
+// A limit on the file size stands for the full disk.
+TEST(Film, SaysSoAndLeavesNothingWhenTheDiskIsFull) {
+    Scratch scratch;
+    const int code = exit_code_of([&] {
+        install_handlers();
+        const rlimit limit = {20000, 20000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        VideoOptions options = small_film();
+        options.width = 320, options.height = 240, options.crf = 1;
+        try {
+            VideoWriter film(scratch / "a.mp4", options);
+            render::Image noise(320, 240);
+            for (int frame = 0; frame < 60; ++frame) {
+                for (std::size_t i = 0; i < noise.pixels.size(); ++i)
+                    noise.pixels[i] =
+                        0xff000000u | static_cast<std::uint32_t>((i + 1) * 2654435761u * unsigned(frame + 3));
+                film.write(noise);
+            }
+            film.finish();
+        } catch (const IoError& error) {
+            return std::string(error.what()).find("a.mp4: File too large") != std::string::npos ? 0 : 1;
+        }
+        return 2;
+    });
+    EXPECT_EQ(code, 0);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(Film, SecondSignalLeavesNothing) {
+    Scratch scratch;
+    const int code = exit_code_of([&] {
+        signal(SIGINT, SIG_DFL);
+        install_handlers();
+        VideoWriter film(scratch / "a.mp4", small_film());
+        for (int i = 0; i < 10; ++i) film.write(moving_square(64, 48, i));
+        raise(SIGINT);
+        raise(SIGINT);
+        return 1;
+    });
+    EXPECT_EQ(code, 130);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+// ---- joining -----------------------------------------------------------------------------------------
+
+void write_segment(const std::filesystem::path& file, const std::string& frames, int count) {
+    VideoOptions options = small_film();
+    if (file.extension() == ".webm") options.codec = Codec::vp9;
+    options.metadata = {{"beamcam-frames", frames}};
+    write_film(file, options, count);
+}
+
+std::string error_of_joining(const Scratch& scratch, const std::vector<std::filesystem::path>& segments) {
+    const auto joined = scratch / ("joined" + segments.front().extension().string());
+    try {
+        concatenate(segments, joined);
+    } catch (const IoError& error) {
+        EXPECT_FALSE(std::filesystem::exists(joined));
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Concatenate, ASegmentHoldsTheFramesThatItDeclares) {
+    for (const char* ending : {".mp4", ".mkv", ".webm", ".mov"}) {
+        Scratch scratch;
+        const auto a = scratch / (std::string("a") + ending), b = scratch / (std::string("b") + ending);
+        write_segment(a, "0:5 of 0:10", 5);
+        write_segment(b, "5:10 of 0:10", 4);
+        EXPECT_NE(error_of_joining(scratch, {a, b}).find("4 of its 5 frames"), std::string::npos) << ending;
+        write_segment(b, "5:10 of 0:10", 5);
+        EXPECT_EQ(error_of_joining(scratch, {a, b}), "");
+    }
+}
+
+TEST(Concatenate, ACutSegmentIsRefused) {
+    for (const char* ending : {".mp4", ".mkv", ".webm", ".mov"}) {
+        Scratch scratch;
+        const auto a = scratch / (std::string("a") + ending), b = scratch / (std::string("b") + ending);
+        for (const char* frames : {"5:10 of 0:10", ""}) {
+            write_segment(a, "0:5 of 0:10", 5);
+            write_segment(b, frames, 5);
+            const std::string whole = read_file(b);
+            for (const double share : {0.3, 0.6, 0.9, 0.995}) {
+                write_file(b, whole.substr(0, static_cast<std::size_t>(share * double(whole.size()))));
+                EXPECT_NE(error_of_joining(scratch, {a, b}), "") << ending << " " << share << frames;
+            }
+        }
+    }
+}
+
+// A raw stream has neither.
+TEST(Concatenate, AFilmWithoutRateOrTimeStampsIsRefused) {
+    Scratch scratch;
+    write_film(scratch / "a.mp4", small_film(), 5);
+    output_of("/usr/bin/ffmpeg -v error -i " + (scratch / "a.mp4").string() +
+              " -c copy -bsf:v h264_mp4toannexb -f h264 " + (scratch / "raw.mp4").string());
+    EXPECT_NE(error_of_joining(scratch, {scratch / "raw.mp4"}), "");
+}
+
+TEST(VideoOptions, DefaultsAreSound) { EXPECT_TRUE(problems({}).empty()); }
+
+TEST(VideoOptions, OddSizesAreRefusedWithTheEvenSize) {
+    VideoOptions options;
+    options.width = 1919, options.height = 1081;
+    ASSERT_EQ(problems(options).size(), 1u);
+    EXPECT_NE(problems(options)[0].find("use 1920x1082"), std::string::npos) << problems(options)[0];
+    Scratch scratch;
+    EXPECT_THROW(VideoWriter(scratch / "a.mp4", options), UnsupportedOption);
+    EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(VideoOptions, EveryProblemIsToldAtOnce) {
+    VideoOptions options;
+    options.width = 0, options.fps = -1, options.crf = 99, options.preset = "quick", options.threads = 8;
+    EXPECT_EQ(problems(options).size(), 5u);
+}
+
+TEST(FrameRate, KnowsTheBroadcastRates) {
+    EXPECT_EQ(frame_rate(60), (FrameRate{60, 1}));
+    EXPECT_EQ(frame_rate(23.976), (FrameRate{24000, 1001}));
+    EXPECT_EQ(frame_rate(23.98), (FrameRate{24000, 1001}));
+    EXPECT_EQ(frame_rate(29.97), (FrameRate{30000, 1001}));
+    EXPECT_EQ(frame_rate(30000.0 / 1001), (FrameRate{30000, 1001}));
+    EXPECT_EQ(frame_rate(59.94), (FrameRate{60000, 1001}));
+    EXPECT_EQ(frame_rate(119.88), (FrameRate{120000, 1001}));
+}
+
+TEST(FrameRate, OtherRatesAreTheNearestFraction) {
+    EXPECT_EQ(frame_rate(12.5), (FrameRate{25, 2}));
+    EXPECT_EQ(frame_rate(0.1), (FrameRate{1, 10}));
+    EXPECT_EQ(frame_rate(100.0 / 3), (FrameRate{100, 3}));
+    EXPECT_DOUBLE_EQ(frame_rate(29.5).time_of(59), 2.0);
+}
+
+TEST(FrameRate, RefusesWhatNoFilmHas) {
+    for (double fps : {0.0, -1.0, 1e9, std::nan("")}) EXPECT_THROW(frame_rate(fps), UnsupportedOption) << fps;
+}
+
+}  // namespace
+}  // namespace beamcam::output

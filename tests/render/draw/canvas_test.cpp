@@ -1,0 +1,74 @@
+#include "render/draw/canvas.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "render/plot/sheet.hpp"
+
+namespace beamcam::render {
+namespace {
+
+const Fonts& fonts() {
+    static const Fonts loaded(false);
+    return loaded;
+}
+
+// Cairo accepts no negative dash; from then on the context draws nothing and says so only when it is asked.
+const Pen kImpossible{rgb(0x000000), 1, {-1}};
+
+template <typename Picture>
+void give_up(Picture& picture) {
+    picture.move_to({1, 1});
+    picture.line_to({20, 20});
+    picture.stroke(kImpossible);
+}
+
+TEST(Canvas, APictureThatCairoGaveUpIsAnError) {
+    Image image(32, 32);
+    const auto draw = [&] {
+        Canvas canvas(image, fonts());
+        give_up(canvas);
+    };
+    EXPECT_THROW(draw(), std::runtime_error);
+}
+
+TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {
+    Image image(32, 32);
+    const auto draw = [&] {
+        Canvas canvas(image, fonts());
+        give_up(canvas);
+        throw std::out_of_range("another");
+    };
+    EXPECT_THROW(draw(), std::out_of_range);
+}
+
+TEST(Canvas, AStencilThatCairoGaveUpIsAnError) {
+    Image image(32, 32);
+    Tiles touched(32, 32);
+    Stencils stencils;
+    const auto draw = [&] {
+        Canvas canvas(image, fonts());
+        canvas.touched = &touched;
+        canvas.stencils = &stencils;
+        give_up(canvas);
+    };
+    EXPECT_THROW(draw(), std::runtime_error);
+    stencils.next_picture();
+    EXPECT_THROW(draw(), std::runtime_error);
+}
+
+TEST(Sheet, AFigureThatCairoGaveUpIsAnError) {
+    for (const auto medium : {figure::Medium::png, figure::Medium::pdf, figure::Medium::svg}) {
+        const auto draw = [&](bool whole) {
+            figure::Sheet sheet(medium, {100, 100, 72}, fonts());
+            give_up(sheet);
+            if (whole) medium == figure::Medium::png ? void(sheet.image()) : void(sheet.bytes());
+        };
+        EXPECT_THROW(draw(true), std::runtime_error);
+        EXPECT_THROW(draw(false), std::runtime_error);
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render

@@ -1,0 +1,95 @@
+// Shapes painted through what their path covered in the picture before.
+#include "render/draw/stencils.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/draw/canvas.hpp"
+
+namespace beamcam::render {
+namespace {
+
+const Fonts& fonts() {
+    static const Fonts loaded(false);
+    return loaded;
+}
+
+Image ground() {
+    Image image(200, 150);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = 0xff000000U | static_cast<std::uint32_t>(i * 2654435761U >> 8);
+    return image;
+}
+
+// Some of it opaque, some not, some beyond the picture; `age` fades what stays in its place.
+void draw_shapes(Canvas& canvas, double age) {
+    const Color blue = rgb(0x1F5FA8), red = rgb(0xD55E00);
+    for (const Color& color : {blue, red.faded(0.7 * age)}) {
+        canvas.circle({60.3, 50.7}, 33.9);
+        canvas.fill_keeping_path(color.faded(0.9 * color.a));
+        canvas.stroke({color, 2.6});
+        canvas.move_to({-20.5, 40});
+        canvas.line_to({150.25, 93.4});
+        canvas.line_to({230, 20});
+        canvas.stroke({color, 5, {9, 4}, Cap::butt});
+        canvas.circle({120, 80}, 30);
+        canvas.circle({123, 81}, 11.5);
+        canvas.fill(color);
+        canvas.rounded({100.5, 100.5, 60, 30}, 9);
+        canvas.fill(color);
+        canvas.arrow({20, 140}, {70, 101}, {color, 3}, 14);
+    }
+    canvas.text({90, 60}, "F = 12", {.size = 30, .color = red, .halo = blue});
+}
+
+Image picture(Stencils* stencils, Tiles& touched, double age) {
+    Image image = ground();
+    Canvas canvas(image, fonts());
+    canvas.touched = &touched;
+    canvas.stencils = stencils;
+    draw_shapes(canvas, age);
+    if (stencils) stencils->next_picture();
+    return image;
+}
+
+TEST(Stencils, PaintWhatCairoPaints) {
+    EXPECT_TRUE(Stencils::exact());
+    Stencils stencils;
+    Tiles touched(200, 150);
+    for (const double age : {1.0, 0.8, 0.5, 0.01, 0.0})
+        EXPECT_EQ(picture(&stencils, touched, age), picture(nullptr, touched, age)) << age;
+}
+
+// Each is a little different: nothing of the others may be used.
+TEST(Stencils, TellShapesApart) {
+    Stencils stencils;
+    for (int round = 0; round < 3; ++round) {
+        const auto draw = [&](Stencils* with) {
+            Image image = ground();
+            Tiles touched(200, 150);
+            Canvas canvas(image, fonts());
+            canvas.touched = &touched;
+            canvas.stencils = with;
+            const auto line = [&](Vec2 to, const Pen& pen) {
+                canvas.move_to({10, 10});
+                canvas.line_to(to);
+                canvas.stroke(pen);
+            };
+            const Color ink = rgb(0);
+            line({50, 20}, {ink, 3});
+            line({50, 20.01 + round}, {ink, 3});
+            line({150, 20}, {ink, 3, {4}});
+            line({150, 20}, {ink, 3.5, {4, 2}});
+            line({20, 120}, {ink, 3, {}, Cap::butt});
+            line({20, 120}, {ink, 4, {}, Cap::round});
+            line({70, 120}, {ink, 4});
+            line({70, 120}, {ink.faded(0.5), 4});
+            canvas.clip({80, 60, 30, 30}, [&] { line({150, 120}, {ink, 8}); });
+            return image;
+        };
+        EXPECT_EQ(draw(&stencils), draw(nullptr)) << round;
+        stencils.next_picture();
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render

@@ -1,0 +1,277 @@
+#include "render/film/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "render/draw/canvas.hpp"
+#include "render/plot/chart.hpp"
+#include "render/plot/labels.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+struct Size {
+    int w, h;
+};
+void PrintTo(Size s, std::ostream* out) { *out << s.w << "x" << s.h; }
+
+const PanelSpec kAngle{.kind = PanelKind::strip, .channels = {{sim::ChannelKind::theta, 0}}},
+    kForce{.kind = PanelKind::strip, .channels = {{sim::ChannelKind::contact_force, 0}}};
+const std::vector<PanelSpec> kAll{kAngle, kForce, {.kind = PanelKind::close_up}};
+
+class AnySize : public testing::TestWithParam<Size> {};
+
+std::vector<Box> parts(const Layout& l) {
+    std::vector<Box> out;
+    for (const auto& part : {l.title, l.parameters, l.clock, l.scales, l.note})
+        if (part) out.push_back(*part);
+    for (const PanelSlot& p : l.panels) out.push_back(p.box);
+    return out;
+}
+
+TEST_P(AnySize, PartsStandWithinThePictureAndApart) {
+    const auto [w, h] = GetParam();
+    const Layout l = layout(w, h, kAll);
+    const std::vector<Box> all = parts(l);
+    if (all.size() == 1) return;  // the mechanism alone may fill the picture
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << i;
+        EXPECT_GT(all[i].w, 0);
+        EXPECT_GT(all[i].h, 0);
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1))) << i << " and " << j;
+    }
+}
+
+TEST_P(AnySize, PlotsStandWithinTheirSlots) {
+    const Layout l = layout(GetParam().w, GetParam().h, kAll);
+    for (const PanelSlot& c : l.panels) {
+        if (c.spec.kind == PanelKind::mechanism) continue;
+        const Box plot = plot_area(c.box, l.unit);
+        EXPECT_TRUE(c.box.contains(plot, 1));
+        EXPECT_GT(plot.h, 40);
+        EXPECT_GT(plot.w, 100);
+    }
+}
+
+TEST_P(AnySize, TextKeepsWithinThePictureAndApart) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.7});
+    setup.title = "A very long title that no picture can show whole, with <markup> & more: " + std::string(300, 'W');
+    setup.width = GetParam().w, setup.height = GetParam().h;
+    setup.view.style = Style::flat;
+    Film film(std::move(setup));
+    for (int frame : {0, 18, 41}) {
+        const std::vector<Box> texts = film.geometry(frame).texts;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_TRUE(Box(0, 0, GetParam().w, GetParam().h).contains(texts[i], 0.5)) << frame << ": " << i;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(texts[i].overlaps(texts[j]))
+                    << "frame " << frame << ": texts " << i << " and " << j << " at " << texts[i].x << "," << texts[i].y
+                    << " and " << texts[j].x << "," << texts[j].y;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
+                         testing::Values(Size{1920, 1080}, Size{1280, 720}, Size{1080, 1080}, Size{1080, 1920},
+                                         Size{3840, 2160}, Size{640, 360}, Size{321, 241}, Size{1001, 777},
+                                         Size{1600, 400}, Size{500, 1500}, Size{200, 200}, Size{64, 48}, Size{16, 16},
+                                         Size{1, 1}));
+
+TEST(Layout, FullSizeShowsEverything) {
+    const Layout l = layout(1920, 1080, kAll);
+    EXPECT_EQ(l.panels.size(), 4U);
+    EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.note);
+    EXPECT_DOUBLE_EQ(l.unit, 1);
+}
+
+TEST(Layout, TinyPicturesKeepTheMechanism) {
+    const Layout l = layout(16, 16, kAll);
+    ASSERT_EQ(l.panels.size(), 1U);
+    EXPECT_FALSE(l.title);
+    EXPECT_GT(l.panels.front().box.w, 4);
+}
+
+TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
+    const TimeFormat f = time_format({0, 1 / 60.0, 2 / 60.0, 10});
+    EXPECT_EQ(f.decimals, 3);
+    EXPECT_NE(clock_text(f, 1 / 60.0, 1), clock_text(f, 2 / 60.0, 1));
+    const TimeFormat slow = time_format({0.01, 0.01001, 0.0102});
+    EXPECT_STREQ(slow.symbol, "ms");
+    EXPECT_NE(clock_text(slow, 0.01, 1), clock_text(slow, 0.01001, 1));
+}
+
+TEST(Labels, LargeNumbersArePowersOfTen) {
+    EXPECT_EQ(power_text(1e8), "10<sup>8</sup>");
+    EXPECT_EQ(power_text(2.5e7), "2.5·10<sup>7</sup>");
+    EXPECT_EQ(power_text(200), "200");
+    EXPECT_EQ(power_text(3e-10), "3·10<sup>−10</sup>");
+}
+
+TEST(Chart, DecimationKeepsTheExtremesOfEveryColumn) {
+    std::vector<double> t, v;
+    for (int i = 0; i < 100000; ++i) t.push_back(i / 100000.0), v.push_back(std::sin(i * 0.37) * i);
+    v[54321] = 1e7;
+    const auto points = decimate(t, v, [](double x, double y) { return Vec2{100 * x, y}; });
+    EXPECT_LE(points.size(), 4U * 101);
+    double most = 0;
+    for (Vec2 p : points) most = std::max(most, p.y);
+    EXPECT_EQ(most, 1e7);
+    for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GE(points[i].x, points[i - 1].x);
+}
+
+TEST(Chart, DecimationBreaksTheLineWhereNothingIsDefined) {
+    const double nan = std::nan("");
+    const auto points =
+        decimate(std::vector{0.0, 1.0, 2.0, 3.0}, std::vector{1.0, nan, nan, 2.0}, [](double x, double y) {
+            return Vec2{x, y};
+        });
+    ASSERT_EQ(points.size(), 3U);
+    EXPECT_TRUE(std::isnan(points[1].x));
+}
+
+// What of a wanted grid finds no room is told, so that it can be said.
+TEST(Layout, PanelsWithoutRoomAreNamed) {
+    using Kind = LayoutNode::Kind;
+    LayoutNode side{.kind = Kind::rows};
+    for (const PanelSpec& panel : kAll) side.children.push_back({.panel = panel});
+    const LayoutNode grid{.kind = Kind::columns, .children = {{.panel = {.kind = PanelKind::mechanism}}, side}};
+    EXPECT_EQ(panels_of(grid).size(), 4u);
+    EXPECT_TRUE(left_out(1920, 1080, grid).empty());
+    EXPECT_EQ(left_out(640, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
+    EXPECT_EQ(left_out(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
+}
+
+// ---- the standard arrangement follows what is to be seen ---------------------------------------
+
+// The reach of a beam that swings between two angles, and of the paper's cam.
+Sight swinging(const sim::Problem& problem, double from, double to) {
+    Sight sight;
+    sight.problems = {&problem};
+    for (double angle = from; angle <= to; angle += 0.01) sight.beams.add(sim::unit(angle) * problem.beam.length);
+    sight.beams.add({0, 0}, problem.beam.depth);
+    return sight;
+}
+
+struct Sights {
+    sim::Problem paper, flat;
+    std::vector<Sight> all;
+    Sights() {
+        flat.cam->radius = 0.03, flat.cam->eccentricity = 0.005;
+        all = {swinging(paper, 0.3, 0.8), swinging(paper, 1.2, 1.6), swinging(flat, 0.05, 0.12)};
+    }
+};
+
+// 200 sizes, the same in every run.
+std::vector<Size> many_sizes() {
+    std::vector<Size> out;
+    std::uint64_t state = 88172645463325252;
+    const auto next = [&](int from, int to) {
+        state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+        return from + static_cast<int>(state % static_cast<std::uint64_t>(to - from));
+    };
+    for (int i = 0; i < 200; ++i) out.push_back({next(200, i % 4 ? 2200 : 700), next(200, i % 4 ? 2200 : 700)});
+    return out;
+}
+
+TEST(Layout, PartsStandApartForAnyMotionAndSize) {
+    const Sights sights;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            for (int members : {1, 3, 8}) {
+                const Layout l = layout(w, h, kAll, members, sight);
+                const std::vector<Box> all = parts(l);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << w << "x" << h << ": " << i;
+                    for (std::size_t j = 0; j < i; ++j)
+                        EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1)))
+                            << w << "x" << h << ", " << members << ": " << i << " and " << j;
+                }
+            }
+}
+
+TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
+    using enum Arrangement;
+    const Sights sights;
+    int columns = 0, below = 0;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            for (int members : {1, 3}) {
+                const Layout l = layout(w, h, kAll, members, sight);
+                const PanelSlot* side = l.first(PanelKind::strip);
+                if (!side) continue;
+                (side->box.x > l.first(PanelKind::mechanism)->box.right() ? columns : below) += 1;
+                for (Arrangement other : {column, h > 1.35 * w ? stack : row})
+                    if (const auto o = arranged(other, w, h, kAll, members, sight)) {
+                        EXPECT_GE(scale_of(l, sight), scale_of(*o, sight)) << w << "x" << h;
+                    }
+                if (members < 3) continue;
+                const Layout alone = *arranged(Arrangement::alone, w, h, kAll, members, sight);
+                EXPECT_GE(scale_of(l, sight), 0.6 * scale_of(alone, sight)) << w << "x" << h;
+            }
+    EXPECT_GT(columns, 100);
+    EXPECT_GT(below, 100);
+}
+
+// Charts take room that a mechanism leaves, and never any that it needs.
+TEST(Layout, WideChartsCostTheMechanismNothing) {
+    const Sights sights;
+    const Layout upright = layout(1920, 1080, kAll, 1, sights.all[1]),
+                 lying = layout(1920, 1080, kAll, 1, sights.all[2]);
+    EXPECT_GT(upright.first(PanelKind::strip)->box.w, 700);
+    const Box narrow{0, 0, 1212, upright.first(PanelKind::mechanism)->box.h};  // beside a column of the usual width
+    EXPECT_NEAR(scale_of(upright, sights.all[1]), sights.all[1].camera(narrow, 1).scale, 1e-9);
+    EXPECT_GT(lying.first(PanelKind::strip)->box.y, lying.first(PanelKind::mechanism)->box.bottom());
+}
+
+TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
+    const Sights sights;
+    const auto boxes = [&](const Sight& sight) {
+        std::vector<Box> out;
+        for (const PanelSlot& slot : layout(1920, 1080, {}, 3, sight).panels) out.push_back(slot.box);
+        return out;
+    };
+    const std::vector<Box> upright = boxes(sights.all[1]), lying = boxes(sights.all[2]);
+    ASSERT_EQ(upright.size(), 3U);
+    ASSERT_EQ(lying.size(), 3U);
+    EXPECT_EQ(upright[0].y, upright[2].y);
+    EXPECT_EQ(lying[0].x, lying[2].x);
+    for (const auto& all : {upright, lying})
+        for (const Box& box : all) EXPECT_TRUE(box.w == all[0].w && box.h == all[0].h);
+}
+
+// What stands in the line of parameters can be told before there is a motion.
+TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
+    const Sights sights;
+    for (const auto [w, h] : many_sizes())
+        for (const Sight& sight : sights.all)
+            EXPECT_EQ(layout(w, h, kAll, 1, sight).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
+}
+
+// The arrow of the largest force, too, stands in the mechanism's box.
+TEST(Sight, ArrowsOfForceAreSeen) {
+    FilmSetup setup = test::synthetic_film({.duration = 1.5});
+    setup.problem.cam->radius *= 0.3, setup.problem.cam->eccentricity *= 0.3;
+    for (std::size_t k = 0; k < setup.poses.size(); ++k)
+        setup.poses[k] = test::synthetic_pose(setup.problem, {}, 1.9 + double(k) / 600);
+    setup.view.style = Style::flat;
+    double largest = 0;
+    for (const sim::Pose& pose : setup.poses) largest = std::max(largest, pose.nearest->force);
+    ASSERT_GT(largest, 0);
+    const std::vector<sim::Pose> poses = setup.poses;
+    Film film(std::move(setup));
+    for (int k = 0; k < film.frames(); k += 7) {
+        const FrameGeometry g = film.geometry(k);
+        const sim::Nearest& near = *poses[std::size_t(k)].nearest;
+        if (!near.touching || !g.beam.contact) continue;
+        const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc);
+        const double length = push_length(near.force / largest, false, g.layout.unit);
+        EXPECT_GE(foot.y - g.beam.contact->normal.y * length, g.layout.first(PanelKind::mechanism)->box.y) << k;
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render

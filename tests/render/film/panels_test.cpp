@@ -1,0 +1,763 @@
+// Films of every panel, of several motions, and in perspective: the same pixels in any order of frames and on any
+// number of threads, text apart from text.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/draw/growing.hpp"
+#include "render/draw/tiles.hpp"
+#include "render/film/film.hpp"
+#include "render/gl/solid.hpp"
+#include "render/plot/labels.hpp"
+#include "tests/render/drawing.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+LayoutNode leaf(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
+LayoutNode grid(LayoutNode::Kind kind, std::vector<LayoutNode> children, double share = 1) {
+    return {.kind = kind, .share = share, .children = std::move(children)};
+}
+PanelSpec strip(ChannelKind kind) { return {.kind = PanelKind::strip, .channels = {{kind, 0}}}; }
+
+// Every kind of panel at once.
+FilmSetup everything() {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 1920, setup.height = 1080;
+    setup.view.style = Style::flat;
+    setup.view.tip_path = true;
+    setup.view.trace = TraceColor::age;
+    setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
+    setup.chart.channels.push_back({ChannelKind::energy_kinetic, 0});
+    setup.chart.channels.push_back({ChannelKind::energy_potential, 0});
+    std::vector<double> rate, kinetic, potential;
+    for (double t : setup.chart.values[0]) {
+        rate.push_back(std::sin(9 * t)), kinetic.push_back(std::pow(std::sin(7 * t), 2));
+        potential.push_back(std::pow(std::cos(7 * t), 2));
+    }
+    for (auto* values : {&rate, &kinetic, &potential}) setup.chart.values.push_back(*values);
+    PanelSpec by_collision = strip(ChannelKind::contact_force), moving = strip(ChannelKind::theta_dot);
+    by_collision.by_collision = true;
+    moving.window = 0.1;
+    using enum LayoutNode::Kind;
+    setup.layout =
+        grid(columns, {grid(rows, {leaf({.kind = PanelKind::mechanism}, 2), leaf({.kind = PanelKind::energy})}, 1.5),
+                       grid(rows, {leaf({.kind = PanelKind::phase}), leaf({.kind = PanelKind::traces}),
+                                   leaf({.kind = PanelKind::close_up})}),
+                       grid(rows, {leaf(strip(ChannelKind::theta)), leaf(by_collision), leaf(moving)})});
+    setup.speeds.assign(setup.poses.size(), 1);
+    setup.speeds[20] = 0.02, setup.speeds[21] = 0;
+    setup.callouts = {{15, 30, "first touch"}};
+    return setup;
+}
+
+FilmSetup compared(Comparison how) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    const FilmSetup faster = test::synthetic_film({.duration = 0.8, .amplitude = 4e-3, .speed = 2});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = Style::flat;
+    setup.label = "ω = 5";
+    setup.others.push_back(faster);
+    setup.others.back().label = "ω = 2";
+    setup.comparison = how;
+    return setup;
+}
+
+void same_in_any_order(FilmSetup setup) {
+    Film film(std::move(setup));
+    const int frames[] = {0, 7, 20, 21, 33, 47};
+    std::vector<Image> forward;
+    for (int k : frames) forward.push_back(drawn(film, k));
+    Film fresh = film.another();
+    for (int i = 5; i >= 0; --i) EXPECT_EQ(drawn(fresh, frames[i]), forward[std::size_t(i)]) << frames[i];
+    for (int i = 1; i < 6; ++i) EXPECT_NE(forward[std::size_t(i)], forward[std::size_t(i) - 1]) << frames[i];
+}
+
+TEST(Panels, SamePixelsInAnyOrder) { same_in_any_order(everything()); }
+TEST(Panels, ComparisonsHaveTheSamePixelsInAnyOrder) {
+    same_in_any_order(compared(Comparison::panels));
+    same_in_any_order(compared(Comparison::ghosts));
+}
+TEST(SolidFilm, SamePixelsInAnyOrder) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 640, setup.height = 360;
+    setup.view.style = Style::solid;
+    same_in_any_order(std::move(setup));
+}
+
+// While time stands still so does the picture, whatever it is made of, but for the ring of an impact.
+void stands_still(FilmSetup setup) {
+    for (std::size_t k = 21; k < 47; ++k) {
+        setup.poses[k] = setup.poses[20];
+        for (Motion& other : setup.others) other.poses[k] = other.poses[20];
+    }
+    setup.speeds.assign(setup.poses.size(), 1);
+    std::fill_n(setup.speeds.begin() + 20, 27, 0.0);
+    setup.callouts = {{20, 45, "touch"}};
+    Film film(std::move(setup));
+    int repeated = 0;
+    for (int k = 20; k < film.frames(); ++k) {
+        if (!film.repeats(k)) continue;
+        EXPECT_EQ(drawn(film, k), drawn(film, k - 1)) << k;
+        ++repeated;
+    }
+    EXPECT_GT(repeated, 2);
+    EXPECT_FALSE(film.repeats(46));  // the words are gone
+}
+
+TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
+TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
+    stands_still(compared(Comparison::panels));
+    stands_still(compared(Comparison::ghosts));
+}
+
+// ---- only what moved is drawn ------------------------------------------------------------------
+
+long pixels_in(const Tiles& tiles) {
+    long count = 0;
+    tiles.for_each_run([&](int left, int top, int right, int bottom) { count += long(right - left) * (bottom - top); });
+    return count;
+}
+
+// Pixels outside of the tiles that are not the same.
+long changed_elsewhere(const Image& before, const Image& now, const Tiles& tiles) {
+    Image patched = before;
+    copy(now, patched, tiles);
+    long count = 0;
+    for (std::size_t i = 0; i < now.pixels.size(); ++i) count += patched.pixels[i] != now.pixels[i];
+    return count;
+}
+
+// The frames in this order, each against a film that has drawn nothing before.
+void as_if_all_were_drawn(const Film& film, const std::vector<int>& frames, double most_of_the_picture) {
+    Film in_order = film.another();
+    Image before;
+    double share = 0;
+    for (int k : frames) {
+        const Image& now = in_order.draw(k);
+        if (!before.pixels.empty()) {
+            EXPECT_EQ(changed_elsewhere(before, now, in_order.changed()), 0) << "frame " << k;
+            share += double(pixels_in(in_order.changed())) / double(now.pixels.size() * (frames.size() - 1));
+        }
+        before = now;
+        Film fresh = film.another();
+        EXPECT_EQ(fresh.draw(k), now) << "frame " << k;
+    }
+    EXPECT_LT(share, most_of_the_picture);
+}
+
+const std::vector<int> kForward = {0, 1, 2, 3, 5, 9, 16, 17, 18, 19, 20, 21, 22, 30, 31, 47};
+const std::vector<int> kAnyOrder = {22, 3, 40, 41, 5, 47, 0, 18, 17, 17, 46};
+
+TEST(MovingParts, EveryPanelIsDrawnAsIfAllWere) {
+    const Film film(everything());
+    as_if_all_were_drawn(film, kForward, 0.6);
+    as_if_all_were_drawn(film, kAnyOrder, 1);
+}
+TEST(MovingParts, ComparisonsAreDrawnAsIfAllWere) {
+    for (Comparison how : {Comparison::panels, Comparison::ghosts}) {
+        FilmSetup setup = compared(how);
+        setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
+        setup.chart.values.push_back(setup.chart.values[0]);
+        setup.others[0].chart = setup.chart;
+        using enum LayoutNode::Kind;
+        if (how == Comparison::ghosts)
+            setup.layout = grid(columns, {leaf({.kind = PanelKind::mechanism}), leaf({.kind = PanelKind::phase}),
+                                          leaf(strip(ChannelKind::theta))});
+        const Film film(std::move(setup));
+        as_if_all_were_drawn(film, kForward, 0.6);
+        as_if_all_were_drawn(film, kAnyOrder, 1);
+    }
+}
+TEST(MovingParts, TransparentTinyAndOddPicturesAreDrawnAsIfAllWere) {
+    for (auto [width, height] : {std::pair{961, 541}, {320, 180}, {64, 48}, {33, 17}, {1, 1}}) {
+        FilmSetup setup = everything();
+        setup.width = width, setup.height = height;
+        setup.view.transparent = width % 2 == 1;
+        setup.view.tip_path = width != 320;
+        as_if_all_were_drawn(Film(std::move(setup)), {0, 1, 2, 20, 21, 22, 3, 47}, 1.01);
+    }
+}
+TEST(MovingParts, AStandardFilmRedrawsAThirdAtMost) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 1920, setup.height = 1080;
+    setup.view.style = Style::flat;
+    as_if_all_were_drawn(Film(std::move(setup)), kForward, 0.33);
+}
+void gl_films_are_drawn_as_if_all_were(Style style) {
+    FilmSetup setup = everything();
+    setup.view.style = style;
+    setup.width = 960, setup.height = 540;
+    const Film film(std::move(setup));
+    as_if_all_were_drawn(film, {0, 1, 2, 16, 17, 21, 22, 47}, 1);
+    as_if_all_were_drawn(film, {22, 3, 47, 0, 18, 17}, 1);
+}
+TEST(LitFilm, MovingPartsAreDrawnAsIfAllWere) {
+    SKIP_WITHOUT_GL();
+    gl_films_are_drawn_as_if_all_were(Style::lit);
+}
+TEST(SolidFilm, MovingPartsAreDrawnAsIfAllWere) {
+    SKIP_WITHOUT_GL();
+    gl_films_are_drawn_as_if_all_were(Style::solid);
+}
+
+TEST(Tiles, CoverBoxesAndNothingBeyondThePicture) {
+    Tiles tiles(100, 50);
+    EXPECT_FALSE(tiles.any());
+    tiles.add({-500, -500, 400, 400});
+    tiles.add({100, 0, 5, 5});
+    EXPECT_EQ(pixels_in(tiles), 4L * 16);  // the last column of tiles is four pixels wide
+    tiles.clear();
+    tiles.add({31.5, 15.5, 1, 1});
+    EXPECT_EQ(pixels_in(tiles), 64L * 32);
+    tiles.clear();
+    tiles.add({std::nan(""), 0, 1, 1});
+    EXPECT_EQ(pixels_in(tiles), 5000);
+}
+
+void texts_keep_apart(FilmSetup setup) {
+    const Box all{0, 0, double(setup.width), double(setup.height)};
+    Film film(std::move(setup));
+    for (int frame : {0, 20, 25, 40}) {
+        const std::vector<Box> texts = film.geometry(frame).texts;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_TRUE(all.contains(texts[i], 0.5)) << frame << ": " << i;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(texts[i].overlaps(texts[j]))
+                    << "frame " << frame << ": texts " << i << " and " << j << " at " << texts[i].x << "," << texts[i].y
+                    << " and " << texts[j].x << "," << texts[j].y;
+        }
+    }
+}
+TEST(Panels, TextKeepsWithinThePictureAndApart) { texts_keep_apart(everything()); }
+TEST(Panels, TextOfComparisonsKeepsApart) {
+    texts_keep_apart(compared(Comparison::panels));
+    texts_keep_apart(compared(Comparison::ghosts));
+}
+
+TEST(Panels, ComparedMechanismsHaveOneScaleAndOneFactor) {
+    Film film(compared(Comparison::panels));
+    const Layout layout = film.geometry(10).layout;
+    std::vector<Box> boxes;
+    for (const PanelSlot& slot : layout.panels)
+        if (slot.spec.kind == PanelKind::mechanism) boxes.push_back(slot.box);
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_NEAR(boxes[0].w, boxes[1].w, 1);
+    EXPECT_EQ(boxes[0].h, boxes[1].h);
+}
+
+TEST(Panels, MotionsAtOtherInstantsAreRefused) {
+    FilmSetup setup = compared(Comparison::panels);
+    setup.others[0].poses.pop_back();
+    EXPECT_ANY_THROW(Film{std::move(setup)});
+}
+
+TEST(Panels, ATransparentFilmHasNoPaper) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.2});
+    setup.width = 960, setup.height = 540;
+    setup.view.style = Style::flat;
+    setup.view.transparent = true;
+    Film film(std::move(setup));
+    const Image image = drawn(film, 3);
+    EXPECT_EQ(image.pixels.front(), 0U);
+    std::size_t opaque = 0;
+    for (std::uint32_t p : image.pixels) opaque += p >> 24 == 255;
+    EXPECT_GT(opaque, 10000U);
+}
+
+// Paper around letters would be a patch on whatever the picture is laid upon.
+TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
+    const auto of_paper = [](bool transparent) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.7});
+        setup.width = 960, setup.height = 540;
+        setup.view.style = Style::flat;
+        setup.view.transparent = transparent;
+        setup.layout = leaf({.kind = PanelKind::mechanism});
+        const Color paper = palette(setup.view.theme).paper;
+        const auto byte = [](double share) { return static_cast<std::uint32_t>(std::lround(255 * share)); };
+        const std::uint32_t wanted = 0xFF000000U | byte(paper.r) << 16 | byte(paper.g) << 8 | byte(paper.b);
+        Film film(std::move(setup));
+        const Image image = drawn(film, 37);
+        return std::ranges::count(image.pixels, wanted);
+    };
+    EXPECT_GT(of_paper(false), 300000);
+    EXPECT_LT(of_paper(true), 60);  // the disc's bore
+}
+
+TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
+    const auto ledger = [](double nothing) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.3, .cam = false});
+        setup.width = 960, setup.height = 540;
+        setup.view.style = Style::flat;
+        const std::size_t rows = setup.chart.values[0].size();
+        for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, 1.0},
+                                          {ChannelKind::loss_structural, 2.0},
+                                          {ChannelKind::loss_contact, nothing},
+                                          {ChannelKind::loss_friction, nothing}}) {
+            setup.chart.channels.push_back({kind, 0});
+            setup.chart.values.emplace_back(rows, value);
+        }
+        setup.layout = leaf({.kind = PanelKind::energy});
+        Film film(std::move(setup));
+        return drawn(film, 12);
+    };
+    const Image empty = ledger(std::numeric_limits<double>::quiet_NaN()), zero = ledger(0);
+    EXPECT_EQ(empty.pixels, zero.pixels);
+}
+
+// Rows of the chart are coarser than an impact: its peak is told all the same, whatever else the chart shows.
+TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
+    const auto highest = [](double end) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 1280, setup.height = 720;
+        setup.view.style = Style::flat;
+        setup.impacts.clear();
+        for (auto& column : setup.trace.values) column.clear();
+        setup.chart.values.assign(setup.chart.channels.size(), {});
+        for (int i = 0; i <= 250; ++i) {  // three rows within the impact, none at its peak
+            const double t = end * i / 250;
+            const bool in = t > 0.02 && t < 0.03;
+            setup.chart.values[0].push_back(t);
+            setup.chart.values[1].push_back(0.5);
+            setup.chart.values[2].push_back(in ? 40 : 0);
+        }
+        sim::Impact impact;
+        impact.t_start = 0.02, impact.t_end = 0.03, impact.force_peak = 100;
+        setup.impacts.push_back(impact);
+        setup.layout = leaf(strip(ChannelKind::contact_force));
+        const Color faint = palette(setup.view.theme).contact_faint;
+        const std::size_t last = setup.poses.size() - 1;
+        setup.poses[last].t = end;
+        Film film(std::move(setup));
+        const Box box = film.geometry(0).layout.first(PanelKind::strip)->box;
+        const Image image = drawn(film, 0);
+        const double u = film.geometry(0).layout.unit;
+        for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
+            for (int x = int(box.x + 74 * u); x < int(box.right()); ++x) {
+                const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                if (std::abs((p >> 16 & 255) / 255.0 - faint.r) + std::abs((p >> 8 & 255) / 255.0 - faint.g) +
+                        std::abs((p & 255) / 255.0 - faint.b) <
+                    0.03)
+                    return (plot_area(box, u).bottom() - y) / plot_area(box, u).h;
+            }
+        return 0.0;
+    };
+    // The axis ends at 102, rounded up to 120 or 150.
+    EXPECT_GT(highest(1), 0.6);
+    EXPECT_GT(highest(0.5), 0.6);
+}
+
+// One impact at 50 ms, whose force rises and falls as a sine, and a picture at each of these instants.
+FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
+    constexpr double kTouch = 0.05, kRelease = 0.0504, kPeak = 100, kStep = 2e-5;
+    FilmSetup setup = test::synthetic_film({.duration = 0.1});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = Style::flat;
+    for (auto& column : setup.trace.values) column.clear();
+    setup.chart.channels = {{ChannelKind::t, 0}, {ChannelKind::contact_force, 0}};
+    setup.chart.values.assign(2, {});
+    const auto force = [&](double t) {
+        const double share = (t - kTouch) / (kRelease - kTouch);
+        return share > 0 && share < 1 ? kPeak * std::sin(std::numbers::pi * share) : 0.0;
+    };
+    for (int i = 0; i <= 5000; ++i) {
+        setup.chart.values[0].push_back(i * kStep);
+        setup.chart.values[1].push_back(force(i * kStep));
+    }
+    sim::Impact impact;
+    impact.t_start = kTouch, impact.t_end = kRelease, impact.force_peak = kPeak;
+    setup.impacts = {impact};
+    setup.poses.resize(instants.size());
+    for (std::size_t k = 0; k < instants.size(); ++k) {
+        setup.poses[k].t = instants[k];
+        setup.poses[k].nearest->force = force(instants[k]);
+    }
+    setup.layout = leaf(spec);
+    return setup;
+}
+
+// The highest ink of what has been, of the plot's height.
+double highest_past(Film& film, int frame) {
+    const FrameGeometry g = film.geometry(frame);
+    const double u = g.layout.unit;
+    const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, u);
+    const Color past = palette(Theme::light).contact;
+    const Image image = drawn(film, frame);
+    for (int y = int(plot.y); y < int(plot.bottom()); ++y)
+        for (int x = int(plot.x); x < int(plot.right()); ++x) {
+            const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+            if (std::abs((p >> 16 & 255) / 255.0 - past.r) + std::abs((p >> 8 & 255) / 255.0 - past.g) +
+                    std::abs((p & 255) / 255.0 - past.b) <
+                0.35)
+                return (plot.bottom() - y) / plot.h;
+        }
+    return 0;
+}
+
+TEST(ForceStrip, DrawsNothingAfterTheInstantAsPast) {
+    PanelSpec by_collision = strip(ChannelKind::contact_force), moving = by_collision;
+    by_collision.by_collision = true;
+    moving.window = 0.02;
+    for (const PanelSpec& spec : {strip(ChannelKind::contact_force), by_collision, moving}) {
+        // At the touch, and soon after it, when the force has come to 16 N of its 100 N.
+        Film film(struck(spec, {0.05, 0.05002, 0.0505}));
+        EXPECT_LT(highest_past(film, 0), 0.05);
+        EXPECT_LT(highest_past(film, 1), 0.25);
+        EXPECT_GT(highest_past(film, 2), 0.6);  // then it is past
+    }
+}
+
+// Small forces on the axis of large ones: the reading is the label's "400 mN", not the axis's "0".
+TEST(ForceStrip, TellsTheForceAsItsLabelDoes) {
+    const auto reading_width = [](double force) {
+        FilmSetup setup = struck(strip(ChannelKind::contact_force), {0.04});
+        setup.poses[0].nearest->force = force;
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(0);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        const double u = g.layout.unit, right = plot_area(box, u).right();
+        for (const Box& text : g.texts)
+            if (std::abs(text.right() - right - 8 * u) < 4 * u && text.y < box.y + 30 * u) return text.w;
+        return 0.0;
+    };
+    EXPECT_GT(reading_width(0), 0);
+    EXPECT_GT(reading_width(0.4), 1.8 * reading_width(0));
+}
+
+// A contact that lasts beyond the first tenth of a second, which a strip of collisions shows, when the picture begins.
+TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
+    for (const int frames : {1, 30}) {
+        FilmSetup setup = test::synthetic_film({.duration = 2});
+        setup.width = 1280, setup.height = 720;
+        setup.view.style = Style::flat;
+        setup.poses.erase(setup.poses.begin(), setup.poses.end() - frames);
+        if (frames > 1)  // charts begin with the film
+            for (auto& column : setup.chart.values) column.erase(column.begin(), column.begin() + 1500);
+        setup.impacts.clear();
+        sim::Impact open;
+        open.t_start = 0.3;
+        setup.impacts.push_back(open);
+        PanelSpec by_collision = strip(ChannelKind::contact_force);
+        by_collision.by_collision = true;
+        setup.layout = leaf(by_collision);
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(frames - 1);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        // The reading stands at the right end of the heading's line while the cursor is within the axes.
+        EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
+            return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
+        })) << frames;
+    }
+}
+
+// Twice the force, twice the arrow; in the mechanism and in the close-up.
+TEST(ForceArrows, AreInProportionToTheForce) {
+    for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 1280, setup.height = 1280;
+        setup.view.style = Style::flat;
+        setup.impacts.clear();
+        for (auto& column : setup.trace.values) column.clear();
+        // The same pose with three forces: the first gives the scale, of the second and third the arrows are compared.
+        sim::Pose pose = test::synthetic_pose(setup.problem, {}, 1.99);
+        pose.nearest->touching = true, pose.nearest->gap = -1e-5, pose.nearest->friction = 0;
+        setup.poses.clear();
+        for (const double force : {200.0, 180.0, 90.0}) {
+            pose.nearest->force = force;
+            setup.poses.push_back(pose);
+            pose.t += 0.01;
+        }
+        setup.layout = leaf({.kind = kind});
+        const Color contact = palette(setup.view.theme).contact;
+        Film film(std::move(setup));
+        const Box box = film.geometry(1).layout.first(kind)->box;
+        // How far its colour reaches along it.
+        const auto length = [&](int frame) {
+            const Image image = drawn(film, frame);
+            const FrameGeometry g = film.geometry(frame);
+            const bool close = kind == PanelKind::close_up;
+            const Vec2 along = close ? Vec2{0, 1} : g.beam.contact->normal;
+            const double u = g.layout.unit;
+            const Vec2 foot =
+                close ? Vec2{box.x + 70 * u + (box.w - 78 * u) / 2, 0} : g.camera.to_pixels(g.beam.contact->on_disc);
+            double top = -1e9, bottom = 1e9;
+            for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
+                for (int x = int(box.x); x < int(box.right()); ++x) {
+                    const Vec2 off{x - foot.x, foot.y - y};
+                    if (std::abs(cross(along, off)) > 10 * u) continue;
+                    const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                    if (std::abs((p >> 16 & 255) / 255.0 - contact.r) + std::abs((p >> 8 & 255) / 255.0 - contact.g) +
+                            std::abs((p & 255) / 255.0 - contact.b) <
+                        0.02)
+                        top = std::max(top, dot(along, off)), bottom = std::min(bottom, dot(along, off));
+                }
+            return top - bottom - (close ? 3.5 : 5) * u;  // the dot reaches below the arrow's foot
+        };
+        EXPECT_GT(length(2), 40) << name(kind);
+        // Antialiasing takes some two pixels of a tip.
+        EXPECT_NEAR(length(1) / length(2), 2, 0.12) << name(kind);
+    }
+}
+
+TEST(CloseUp, HasTwoMarksHoweverLow) {
+    for (const int height : {240, 300, 400, 700}) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.1});
+        setup.width = 960, setup.height = height;
+        setup.view.style = Style::flat;
+        setup.layout = leaf({.kind = PanelKind::close_up});
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(0);
+        const Box box = g.layout.first(PanelKind::close_up)->box;
+        const auto marks = std::ranges::count_if(g.texts, [&](const Box& b) {
+            return b.right() < box.x + 62 * g.layout.unit && b.y > box.y + 30 * g.layout.unit &&
+                   b.bottom() < box.bottom() - 30 * g.layout.unit;
+        });
+        EXPECT_GE(marks, 2) << height;
+    }
+}
+
+TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
+    // 200° counter-clockwise passes the vertical above the hub, not the one below.
+    FilmSetup setup = test::synthetic_film({.duration = 0.1, .cam = false});
+    setup.width = 1200, setup.height = 1200;
+    setup.view.style = Style::flat;
+    const double angle = 200 * std::numbers::pi / 180;
+    for (sim::Pose& pose : setup.poses) {
+        const std::size_t n = pose.centreline.size();
+        for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
+        pose.theta = pose.root_slope = angle;
+    }
+    // The first frame's beam points to the right, so that there is room.
+    sim::Pose& other = setup.poses.front();
+    for (std::size_t i = 0; i < other.centreline.size(); ++i)
+        other.centreline[i] = sim::unit(0.1) * (double(i) / double(other.centreline.size() - 1));
+    other.theta = other.root_slope = 0.1;
+    setup.layout = leaf({.kind = PanelKind::mechanism});
+    const Color muted = palette(setup.view.theme).muted;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(2);
+    const Image image = drawn(film, 2);
+    const Vec2 hub = g.camera.to_pixels({0, 0});
+    const auto has_arc = [&](double side) {
+        for (double r = 60 * g.layout.unit; r < 100 * g.layout.unit; ++r) {
+            const auto x = std::size_t(hub.x), y = std::size_t(hub.y + side * r);
+            const std::uint32_t p = image.pixels[y * std::size_t(image.width) + x];
+            if (std::abs((p >> 16 & 255) / 255.0 - muted.r) + std::abs((p & 255) / 255.0 - muted.b) < 0.15) return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(has_arc(-1));
+    EXPECT_FALSE(has_arc(1));
+}
+
+TEST(Layout, SharesDivideTheRoom) {
+    using enum LayoutNode::Kind;
+    const Layout l =
+        layout(1920, 1080, grid(columns, {leaf({.kind = PanelKind::mechanism}, 3), leaf(strip(ChannelKind::theta))}));
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_NEAR(l.panels[0].box.w / l.panels[1].box.w, 3, 0.01);
+    EXPECT_EQ(l.panels[0].box.h, l.panels[1].box.h);
+}
+
+TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
+    using enum LayoutNode::Kind;
+    std::vector<LayoutNode> many;
+    for (int i = 0; i < 12; ++i) many.push_back(leaf(strip(ChannelKind::theta)));
+    const Layout l = layout(1280, 720, grid(rows, many));
+    EXPECT_LT(l.panels.size(), 8U);
+    EXPECT_GT(l.panels.size(), 1U);
+    for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, smallest(PanelKind::strip).y * l.unit - 1);
+}
+
+TEST(Layout, AGroupOfPanelsThatFindNoRoomLeavesItsOwn) {
+    using enum LayoutNode::Kind;
+    const LayoutNode wanted =
+        grid(columns, {leaf({.kind = PanelKind::mechanism}, 3),
+                       grid(rows, {leaf({.kind = PanelKind::energy}), leaf({.kind = PanelKind::phase})}, 1)});
+    const Layout large = layout(1920, 1080, wanted), small = layout(400, 400, wanted);
+    EXPECT_EQ(large.panels.size(), 3U);
+    ASSERT_EQ(small.panels.size(), 1U);
+    EXPECT_GT(small.panels[0].box.w, 0.85 * 400);
+    EXPECT_EQ(left_out(400, 400, wanted).size(), 2U);
+}
+
+TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
+    using enum LayoutNode::Kind;
+    const LayoutNode two = grid(columns, {leaf({.kind = PanelKind::mechanism}), leaf(strip(ChannelKind::theta))});
+    const Layout l = layout(1080, 1920, two);
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_EQ(l.panels[0].box.x, l.panels[1].box.x);
+    EXPECT_GT(l.panels[1].box.y, l.panels[0].box.bottom());
+}
+
+// The close-up: in the middle of its plot the face stands as high above the rim as the gap says. Its heights go from
+// 1.35 of the largest penetration below the rim to 1.9 above.
+TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
+    constexpr double kDeepest = 4e-5;  // [m]
+    FilmSetup setup = test::synthetic_film({.duration = 0.4});
+    setup.width = 960, setup.height = 1080;
+    setup.view.style = Style::flat;
+    setup.impacts.clear();
+    for (std::size_t k = 0; k < setup.poses.size(); ++k) {
+        sim::Nearest& near = *setup.poses[k].nearest;
+        near.gap = kDeepest * (-1 + 2.4 * double(k) / double(setup.poses.size() - 1));
+        near.force = 0, near.touching = false;
+    }
+    setup.layout = leaf({.kind = PanelKind::close_up});
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    const Layout places = film.geometry(0).layout;
+    const Box box = places.first(PanelKind::close_up)->box;
+    const double u = places.unit, low = -1.35 * kDeepest, high = 1.9 * kDeepest;
+    const Box plot{std::round(box.x + 70 * u), std::round(box.y + 46 * u), std::round(box.w - 78 * u),
+                   std::round(box.h - 86 * u)};
+    const Color motion = palette(Theme::light).motion;
+    // The middle of the rows that the face's line covers.
+    const auto row_of_face = [&](const Image& image) {
+        double sum = 0, count = 0;
+        const auto x = std::size_t(plot.x + plot.w / 2);
+        for (int y = int(plot.y); y < int(plot.bottom()); ++y) {
+            const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + x];
+            const double off = std::abs((p >> 16 & 255) / 255.0 - motion.r) +
+                               std::abs((p >> 8 & 255) / 255.0 - motion.g) + std::abs((p & 255) / 255.0 - motion.b);
+            if (off < 0.25) sum += y + 0.5, ++count;
+        }
+        return count > 0 ? sum / count : -1;
+    };
+    for (int k = 0; k < film.frames(); k += 2) {
+        const double gap = poses[std::size_t(k)].nearest->gap;
+        EXPECT_NEAR(row_of_face(drawn(film, k)), plot.bottom() - plot.h * (gap - low) / (high - low), 0.75)
+            << "a gap of " << gap * 1e6 << " µm";
+    }
+}
+
+// What no typeface has would be drawn as a box: the picture is the one without it.
+TEST(Panels, PictographsLeaveNoBoxes) {
+    FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;
+    for (FilmSetup* setup : {&plain, &decorated}) {
+        setup->width = 960, setup->height = 540;
+        setup->view.style = Style::flat;
+    }
+    plain.title = "Fall θ₀ = 45°";
+    decorated.title = "Fall\U0001F680 θ₀ = 45°\U0001F44D\uFE0F";
+    Film a(std::move(plain)), b(std::move(decorated));
+    EXPECT_EQ(drawn(a, 2), drawn(b, 2));
+}
+
+TEST(Panels, TheLatestWordsTakeThePlaceOfThoseBefore) {
+    FilmSetup both = everything(), later = everything();
+    both.callouts = {{5, 40, "first touch"}, {20, 30, "second touch"}};
+    later.callouts = {{20, 30, "second touch"}};
+    Film a(std::move(both)), b(std::move(later));
+    EXPECT_EQ(drawn(a, 25), drawn(b, 25));
+    EXPECT_NE(drawn(a, 10), drawn(b, 10));
+}
+
+// Least distance in CIELAB, as it is seen and with each dichromacy (Machado, Oliveira and Fernandes 2009).
+double seen_apart(Color a, Color b) {
+    using Matrix = std::array<std::array<double, 3>, 3>;
+    static constexpr std::array<Matrix, 4> kSights{{
+        {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+        {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+        {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}},
+    }};
+    const auto lab = [](Color c, const Matrix& m) {
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        const double in[] = {linear(c.r), linear(c.g), linear(c.b)};
+        double v[3];
+        for (std::size_t i = 0; i < 3; ++i)
+            v[i] = std::clamp(m[i][0] * in[0] + m[i][1] * in[1] + m[i][2] * in[2], 0.0, 1.0);
+        const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
+        const double x = f((0.4124 * v[0] + 0.3576 * v[1] + 0.1805 * v[2]) / 0.9505),
+                     y = f(0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2]),
+                     z = f((0.0193 * v[0] + 0.1192 * v[1] + 0.9505 * v[2]) / 1.089);
+        return std::array{116 * y - 16, 500 * (x - y), 200 * (y - z)};
+    };
+    double least = 1e300;
+    for (const Matrix& m : kSights) {
+        const auto p = lab(a, m), q = lab(b, m);
+        least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    return least;
+}
+
+// Ten is a clear difference side by side.
+TEST(Colors, EightMotionsAreToldApartByEverybody) {
+    for (const Theme theme : {Theme::light, Theme::dark, Theme::print})
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                EXPECT_GT(seen_apart(series_color(palette(theme), i), series_color(palette(theme), k)), 15)
+                    << i << " and " << k;
+}
+
+TEST(Colors, WordsStandOutFromThePaper) {
+    for (Theme theme : {Theme::light, Theme::dark, Theme::print}) {
+        const Palette& p = palette(theme);
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        const auto light = [&](Color c) {
+            return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b) + 0.05;
+        };
+        for (double share : {0.0, 0.2, 0.45, 0.7, 1.0}) {
+            const Color words = readable(p, mix(p.paper, p.motion, share));
+            EXPECT_GE(std::max(light(words), light(p.paper)) / std::min(light(words), light(p.paper)), 2.999) << share;
+        }
+        EXPECT_EQ(readable(p, p.ink).r, p.ink.r);
+        EXPECT_EQ(readable(p, p.contact).r, p.contact.r);  // strong enough as it is
+    }
+}
+
+TEST(Labels, SpeedsAreToldAsFractions) {
+    EXPECT_EQ(speed_text(1), "");
+    EXPECT_EQ(speed_text(0.02), "1/50 speed");
+    EXPECT_EQ(speed_text(0.004 * (1 + 1e-9)), "1/250 speed");  // rounding is no other speed
+    EXPECT_EQ(speed_text(0.5), "1/2 speed");
+    EXPECT_EQ(speed_text(0.037), "1/20 speed");
+    EXPECT_EQ(speed_text(0), "frozen");
+    EXPECT_EQ(speed_text(4), "4× speed");
+}
+
+TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
+    sim::Problem problem;
+    problem.contact.friction = sim::StickSlipFriction{0.2, 0.35, {}, {}};
+    const std::vector<std::string> pieces = parameter_pieces(problem);
+    const auto found =
+        std::ranges::find_if(pieces, [](const std::string& piece) { return piece.find("0.2") != std::string::npos; });
+    ASSERT_NE(found, pieces.end());
+    EXPECT_NE(found->find("0.35"), std::string::npos) << *found;
+}
+
+TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
+    const Perspective front = Perspective::looking({400, 300}, 2000, 1, 0, 0);
+    const Vec2 p = front.to_pixels({120, 50, 0});
+    EXPECT_NEAR(p.x, 520, 1e-12);
+    EXPECT_NEAR(p.y, 250, 1e-12);
+    const Vec2 nearer = front.to_pixels({120, 50, 400});  // at four fifths of the distance
+    EXPECT_NEAR(nearer.x, 400 + 150, 1e-9);
+    EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
+}
+
+TEST(Perspective, AxesAreOrthonormal) {
+    const Perspective p = Perspective::looking({}, 1000, 1, 0.7, -0.3);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec3 &a = p.axes[i], &b = p.axes[j];
+            EXPECT_NEAR(a.x * b.x + a.y * b.y + a.z * b.z, i == j ? 1 : 0, 1e-12);
+        }
+    EXPECT_GT(p.axes[2].x, 0);  // seen from the right
+}
+
+TEST(Growing, ThinningKeepsTheEnds) {
+    const GrowingPath path = thinned({0, 1, 2, 3}, {{0, 0}, {0.1, 0}, {5, 0}, {5.1, 0}}, 1);
+    EXPECT_EQ(path.times, (std::vector<double>{0, 2, 3}));
+}
+
+}  // namespace
+}  // namespace beamcam::render

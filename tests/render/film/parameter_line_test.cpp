@@ -1,0 +1,94 @@
+#include "render/film/parameter_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/plot/labels.hpp"
+
+namespace beamcam::render {
+namespace {
+
+struct Measuring {
+    Image image{1, 1};
+    Fonts fonts;
+    Canvas canvas{image, fonts};
+};
+
+const std::vector<std::string> kPieces = parameter_pieces(sim::Problem{});
+
+ParameterLine line_in(double width,
+                      const std::string& title = "A title that leaves no room for anything beside it at all") {
+    Measuring with;
+    Layout places;
+    places.title = Box{0, 0, width, 54};
+    places.parameters = Box{0, 54, width, 36};
+    return parameter_line(with.canvas, places, title, kPieces);
+}
+
+TEST(ParameterLine, KeepsItsDesignWhereThereIsRoom) {
+    const ParameterLine line = line_in(1200);
+    EXPECT_EQ(line.size, 21);
+    EXPECT_EQ(line.pieces.size(), kPieces.size());
+    EXPECT_TRUE(line.without_room.empty());
+}
+
+TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
+    double size = 21;
+    std::size_t shown = kPieces.size();
+    bool smaller = false;
+    for (double width = 1200; width > 20; width -= 10) {
+        const ParameterLine line = line_in(width);
+        EXPECT_LE(line.pieces.size(), shown) << width;
+        EXPECT_EQ(line.pieces.size() + line.without_room.size(), kPieces.size());
+        if (line.pieces.size() == kPieces.size()) {
+            EXPECT_LE(line.size, size);
+            smaller = smaller || line.size < 21;
+            size = line.size;
+        }
+        for (std::size_t i = 0; i < line.pieces.size(); ++i) EXPECT_EQ(line.pieces[i].markup, kPieces[i]);
+        shown = line.pieces.size();
+    }
+    EXPECT_TRUE(smaller);
+    EXPECT_EQ(shown, 0U);
+}
+
+TEST(ParameterLine, TheRestStandsBesideAShortTitle) {
+    const ParameterLine alone = line_in(500), beside = line_in(500, "Fall");
+    EXPECT_FALSE(alone.without_room.empty());
+    EXPECT_GT(beside.pieces.size(), alone.pieces.size());
+    Measuring with;
+    const double title = with.canvas.measure("Fall", title_style(1)).w;
+    EXPECT_GT(beside.pieces.back().baseline.x, title + 30);
+    EXPECT_LT(beside.pieces.back().baseline.y, beside.pieces.front().baseline.y);
+    const double end =
+        beside.pieces.back().baseline.x + with.canvas.measure(beside.pieces.back().markup, {.size = beside.size}).w;
+    EXPECT_LE(end, 500);
+}
+
+TEST(ParameterLine, WithoutATitleThereAreTwoLinesInTheirOrder) {
+    const ParameterLine line = line_in(500, "");
+    ASSERT_GT(line.pieces.size(), 2U);
+    EXPECT_TRUE(line.without_room.empty());
+    EXPECT_EQ(line.pieces.front().baseline.x, 0);
+    for (std::size_t i = 1; i < line.pieces.size(); ++i)
+        EXPECT_GE(line.pieces[i].baseline.y, line.pieces[i - 1].baseline.y) << i;
+    EXPECT_GT(line.pieces.back().baseline.y, line.pieces.front().baseline.y);
+}
+
+TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
+    const sim::Problem problem;
+    EXPECT_TRUE(without_room(1920, 1080, {}, 1, "Fall", {&problem}).empty());
+    const std::vector<std::string> tiny = without_room(320, 180, {}, 1, "Fall", {&problem});
+    ASSERT_EQ(tiny.size(), kPieces.size() + 1);
+    EXPECT_EQ(tiny.front(), "L = 1 m");
+    EXPECT_EQ(tiny.back(), "colour scales");
+    const std::string essay =
+        "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "the end of the title");
+    EXPECT_TRUE(without_room(1920, 1080, {}, 1, essay, {&problem}).empty());
+    EXPECT_EQ(without_room(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
+    EXPECT_EQ(plain(math("K") + "\u2009=\u2009" + power_text(1e8) + "\u00A0N\u2009m<sup>−1.5</sup>"),
+              "K = 10^8 N m^−1.5");
+}
+
+}  // namespace
+}  // namespace beamcam::render

@@ -1,0 +1,330 @@
+// What a viewer would see as jitter, measured in pixels: nothing static changes, numbers do not push their
+// neighbours, what moves is drawn where it is, and a contact that touches shows no gap.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/canvas.hpp"
+#include "render/draw/smooth_path.hpp"
+#include "render/film/film.hpp"
+#include "render/plot/labels.hpp"
+#include "tests/render/drawing.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+FilmSetup film_of(Style style, const test::Synthetic& how, std::optional<double> factor = {}) {
+    FilmSetup setup = test::synthetic_film(how);
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = style;
+    setup.view.exaggeration = factor;
+    return setup;
+}
+
+std::uint32_t at(const Image& image, Vec2 px) {
+    return image.pixels[std::size_t(px.y) * std::size_t(image.width) + std::size_t(px.x)];
+}
+
+std::uint32_t opaque(Color c) {
+    const auto byte = [](double v) { return std::uint32_t(std::lround(v * 255)); };
+    return 0xFF000000U | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+}
+
+bool same_within(const Image& a, const Image& b, const Box& box) {
+    for (int y = int(box.y); y < int(std::ceil(box.bottom())); ++y)
+        for (int x = int(box.x); x < int(std::ceil(box.right())); ++x) {
+            const Vec2 px{double(x), double(y)};
+            if (x >= 0 && y >= 0 && x < a.width && y < a.height && at(a, px) != at(b, px)) return false;
+        }
+    return true;
+}
+
+// ---- a touching contact ------------------------------------------------------------------------
+
+// Across the contact, from inside the disc to inside the beam, no pixel shows the paper.
+void no_paper_between(Style style, std::optional<double> factor) {
+    Film film(film_of(style, {.duration = 2}, factor));
+    const std::uint32_t paper = opaque(palette(Theme::light).paper);
+    const auto poses = film_of(style, {.duration = 2}).poses;
+    int touching = 0;
+    for (int k = 0; k < film.frames(); ++k) {
+        if (!poses[std::size_t(k)].nearest->touching || (style == Style::lit && k % 3 != 0)) continue;
+        ++touching;
+        const FrameGeometry g = film.geometry(k);
+        const Image image = drawn(film, k);
+        const Vec2 from = g.camera.to_pixels(g.beam.contact->on_disc),
+                   n{g.beam.contact->normal.x, -g.beam.contact->normal.y};
+        for (double out = -5; out <= 5; out += 0.25) EXPECT_NE(at(image, from + n * out), paper) << k << ", " << out;
+        EXPECT_LT(std::abs(g.beam.contact->gap) * g.camera.scale, 0.5) << k;
+    }
+    EXPECT_GT(touching, 5);
+}
+
+TEST(Steadiness, ATouchingContactShowsNoPaperBetween) {
+    no_paper_between(Style::flat, 1);
+    no_paper_between(Style::flat, {});
+    no_paper_between(Style::flat, 20);
+}
+
+TEST(GlSteadiness, ATouchingContactShowsNoPaperBetween) {
+    SKIP_WITHOUT_GL();
+    no_paper_between(Style::lit, {});
+}
+
+// The lit picture itself: within the drawn cam there is nothing but its metal, however much the deflection is
+// exaggerated, while the beam beside it is coloured.
+TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
+    SKIP_WITHOUT_GL();
+    for (const double factor : {1.0, 20.0}) {
+        FilmSetup setup = film_of(Style::lit, {.duration = 2.4, .amplitude = 6e-3}, factor);
+        setup.impacts.clear();  // no rings, no traces, no arrows: only bodies, and the beam in one strong colour
+        for (auto& column : setup.trace.values) column.clear();
+        for (sim::Pose& pose : setup.poses) {
+            pose.nearest->force = 0;
+            std::ranges::fill(pose.moment, 1.0);
+        }
+        const auto poses = setup.poses;
+        const double radius = setup.problem.cam->radius;
+        Film film(std::move(setup));
+        const auto colourful = [](std::uint32_t pixel) {
+            const int r = int(pixel >> 16 & 255), g = int(pixel >> 8 & 255), b = int(pixel & 255);
+            return std::max({r, g, b}) - std::min({r, g, b}) > 40;
+        };
+        int touching = 0, coloured = 0;
+        for (int k = 0; k < film.frames(); k += 3) {
+            const sim::Pose& pose = poses[std::size_t(k)];
+            if (pose.nearest->gap > 0.05) continue;
+            const FrameGeometry g = film.geometry(k);
+            const Image image = drawn(film, k);
+            const Vec2 centre = g.camera.to_pixels(pose.disc_centre);
+            const double r = radius * g.camera.scale - 1.5;
+            for (int y = int(centre.y - r); y <= int(centre.y + r); ++y)
+                for (int x = int(centre.x - r); x <= int(centre.x + r); ++x) {
+                    const Vec2 px{double(x), double(y)};
+                    if (norm(px + Vec2{0.5, 0.5} - centre) > r) continue;
+                    ASSERT_FALSE(colourful(at(image, px)))
+                        << "frame " << k << " at " << x << ", " << y << ", ×" << factor;
+                }
+            if (!pose.nearest->touching) continue;
+            ++touching;
+            const DrawnContact& contact = *g.beam.contact;
+            EXPECT_LT(std::abs(contact.gap) * g.camera.scale, 0.5) << k;
+            const Vec2 n{contact.normal.x, -contact.normal.y};
+            coloured += colourful(at(image, g.camera.to_pixels(contact.on_face) + n * 9));
+        }
+        EXPECT_GT(touching, 5) << factor;
+        EXPECT_EQ(coloured, touching) << factor;
+    }
+}
+
+// ---- what is static ----------------------------------------------------------------------------
+
+// Titles, parameters, colour bars with their marks, the note: the same bits in every frame.
+void static_parts_stay(FilmSetup setup) {
+    Film film(std::move(setup));
+    const Layout places = film.geometry(0).layout;
+    const Image first = drawn(film, 0);
+    for (int k = 1; k < film.frames(); k += 3) {
+        const Image image = drawn(film, k);
+        for (const auto& box : {places.title, places.parameters, places.scales, places.note}) {
+            ASSERT_TRUE(box);
+            EXPECT_TRUE(same_within(first, image, *box)) << "frame " << k << ", box at " << box->x << ", " << box->y;
+        }
+        // The axes of values and their headings' beginnings, left of the plots and above them.
+        for (const PanelSlot& slot : places.panels) {
+            if (slot.spec.kind != PanelKind::strip) continue;
+            const Box plot = plot_area(slot.box, places.unit);
+            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, plot.x - 8 - slot.box.x, slot.box.h})) << k;
+            EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y}))
+                << k;
+        }
+    }
+}
+
+TEST(Steadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
+    for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
+        FilmSetup setup = film_of(Style::flat, {.duration = 1});
+        setup.view.theme = theme;
+        setup.accuracy_note = "energy closes";
+        static_parts_stay(std::move(setup));
+    }
+}
+
+TEST(GlSteadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = film_of(Style::lit, {.duration = 0.4});
+    setup.accuracy_note = "energy closes";
+    static_parts_stay(std::move(setup));
+}
+
+// ---- numbers -----------------------------------------------------------------------------------
+
+TEST(Steadiness, FiguresAreTabular) {
+    Image image(16, 16);
+    const Fonts fonts(false);
+    Canvas canvas(image, fonts);
+    for (const Weight weight : {Weight::regular, Weight::medium, Weight::semibold}) {
+        const TextStyle style{.size = 30, .weight = weight};
+        const double zero = canvas.measure("00.00", style).w;
+        for (const char* number : {"11.11", "47.19", "88.88"}) EXPECT_NEAR(canvas.measure(number, style).w, zero, 0.05);
+        EXPECT_NEAR(canvas.measure("\u20071.11", style).w, zero, 0.05);
+    }
+}
+
+// The clock passes from 9.9 s to 10.0 s: its "t =", its unit and the pill beside it stay.
+TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.5}, 5);
+    for (sim::Pose& pose : setup.poses) pose.t += 9.8;
+    for (double& t : setup.chart.values[0]) t += 9.8;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    Image scratch(16, 16);
+    const Fonts fonts(false);
+    Canvas canvas(scratch, fonts);
+    const double u = g.layout.unit;
+    const TextStyle big{.size = 46 * u, .weight = Weight::semibold};
+    const double head = canvas.measure(math("t") + "\u2009=", big).w, number = canvas.measure("\u200900.000", big).w;
+    const Box clock = *g.layout.clock;
+    const Image before = drawn(film, 0), after = drawn(film, film.frames() - 1);
+    EXPECT_TRUE(same_within(before, after, {clock.x, clock.y, head, clock.h}));
+    EXPECT_FALSE(same_within(before, after, {clock.x + head, clock.y, number, clock.h}));
+    EXPECT_TRUE(
+        same_within(before, after, {clock.x + head + number + 3, clock.y, clock.w - head - number - 3, clock.h}));
+}
+
+// ---- what moves --------------------------------------------------------------------------------
+
+// A horizontal beam whose end is moved by fractions of a pixel: what the end's rows of pixels cover moves as much.
+TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.5, .cam = false}, 1);
+    const std::size_t n = setup.poses[0].centreline.size();
+    for (std::size_t k = 0; k < setup.poses.size(); ++k) {
+        sim::Pose& pose = setup.poses[k];
+        pose.theta = 0;
+        std::ranges::fill(pose.moment, -1.0);  // one strong colour
+        const double length = 1 + 0.0004 * std::sin(0.7 * double(k));
+        for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = {length * double(i) / double(n - 1), 0};
+    }
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    const std::uint32_t paper = opaque(palette(Theme::light).paper) & 0xFF;
+    // Darkness along a row through the section, in units of the section's own: the length that it covers.
+    const auto covered = [&](const Image& image) {
+        const Vec2 end = g.camera.to_pixels({1, 0});
+        const double y = end.y + 5;
+        const double inside = double(paper) - double(at(image, {end.x - 20, y}) & 0xFF);
+        double sum = 0;
+        for (double x = std::floor(end.x) - 20; x < end.x + 20; ++x)
+            sum += (double(paper) - double(at(image, {x, y}) & 0xFF)) / inside;
+        return sum;
+    };
+    const double reference = covered(drawn(film, 0)) - g.camera.scale * poses[0].centreline.back().x;
+    for (int k = 1; k < film.frames(); ++k) {
+        const double drawn_end = covered(drawn(film, k)) - reference;
+        EXPECT_NEAR(drawn_end, g.camera.scale * poses[std::size_t(k)].centreline.back().x, 0.05) << k;
+    }
+}
+
+TEST(Steadiness, TheTipOfTheGeometryIsThePosesAtFactorOne) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1}, 1);
+    const auto poses = setup.poses;
+    Film film(std::move(setup));
+    for (int k = 0; k < film.frames(); k += 7) {
+        const FrameGeometry g = film.geometry(k);
+        EXPECT_LT(norm(g.beam.line.back() - poses[std::size_t(k)].centreline.back()) * g.camera.scale, 0.05) << k;
+    }
+}
+
+// ---- the path of the tip -----------------------------------------------------------------------
+
+TEST(SmoothPath, PassesThroughThePlacesAndKeepsToACircle) {
+    std::vector<Vec2> places;
+    for (int k = 0; k < 12; ++k) places.push_back(sim::unit(0.13 * k) * 370);  // 4 rad/s at 30 frames a second
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const std::vector<Vec2> piece = smooth_piece(places, i, 6);
+        EXPECT_EQ(piece.front(), places[i]);
+        EXPECT_EQ(piece.back(), places[i + 1]);
+        EXPECT_GT(piece.size(), 6u);
+        const bool inner = i > 0 && i + 2 < places.size();
+        for (Vec2 p : piece) EXPECT_NEAR(norm(p), 370, inner ? 0.02 : 0.8);  // chords: 0.78 px
+    }
+}
+
+TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {
+    const std::vector<Vec2> places{{0, 0}, {0, 0}, {0, 0}, {40, 0}, {40, 0}, {40.1, 0}, {80, 30}};
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+        for (Vec2 p : smooth_piece(places, i, 4)) {
+            EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+            EXPECT_GE(p.x, -4);
+            EXPECT_LE(p.x, 84);
+        }
+}
+
+// While time stands still the trail behind the tip does too.
+TEST(Steadiness, AFreezeIsOnePicture) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1});
+    setup.impacts.clear();  // no rings that open
+    for (std::size_t k = 20; k < 50; ++k) setup.poses[k] = setup.poses[20];
+    setup.speeds.assign(setup.poses.size(), 1);
+    for (std::size_t k = 21; k < 50; ++k) setup.speeds[k] = 0;
+    Film film(std::move(setup));
+    const Image early = drawn(film, 21), late = drawn(film, 49);
+    EXPECT_EQ(early.pixels, late.pixels);
+}
+
+// ---- what fades does so by the clock of the film ------------------------------------------------
+
+// Three seconds of film of a fall ten times slowed, so that the tip comes to each place once.
+FilmSetup slow_fall(double fps) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 0.3});
+    setup.fps = fps;
+    setup.poses.clear();
+    for (int k = 0; k < 3 * fps; ++k) setup.poses.push_back(test::synthetic_pose(setup.problem, {}, 0.1 * k / fps));
+    setup.impacts.clear();
+    return setup;
+}
+
+// How much of the film the trail shows at its second 2.5, found on the paper where the tip has been [s].
+double length_of_trail(double fps) {
+    Film film(slow_fall(fps));
+    const int now = static_cast<int>(2.5 * fps);
+    const Image image = drawn(film, now);
+    double longest = 0;
+    for (int k = 0; k < now; ++k) {
+        const FrameGeometry g = film.geometry(k);
+        const Vec2 tip =
+            g.camera.to_pixels((g.beam.face(g.beam.line.size() - 1) + g.beam.back(g.beam.line.size() - 1)) * 0.5);
+        if (at(image, tip) != opaque(palette(Theme::light).paper)) longest = std::max(longest, (now - k) / fps);
+    }
+    return longest;
+}
+
+TEST(Steadiness, TheTrailIsAsLongAtAnyFrameRate) {
+    for (const double fps : {24.0, 30.0, 60.0}) EXPECT_NEAR(length_of_trail(fps), 1.15, 0.06) << fps;
+}
+
+TEST(Steadiness, TheRingOfAnImpactLastsAsLongAtAnyFrameRate) {
+    for (const double fps : {24.0, 30.0, 60.0}) {
+        FilmSetup setup = film_of(Style::flat, {.duration = 0.8, .fps = fps});
+        setup.fps = fps;
+        const sim::Pose pose =
+            test::synthetic_pose(setup.problem, {}, 0.3);  // touches; the film stands still for a second
+        const auto touched = std::ranges::find_if(setup.poses, [](const sim::Pose& p) { return p.t > 0.3; });
+        const auto first = touched - setup.poses.begin();
+        setup.impacts.resize(1);
+        setup.impacts[0].t_start = pose.t;
+        setup.poses.insert(touched, static_cast<std::size_t>(fps), pose);
+        Film film(std::move(setup));
+        int moving = 0;
+        for (int k = 1; k < fps; ++k) moving += !film.repeats(static_cast<int>(first) + k);
+        EXPECT_NEAR(moving / fps, 0.4, 1.5 / fps) << fps;  // it may begin a frame before
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render

@@ -1,0 +1,376 @@
+// The plotting engine: axes, reduction, labels, and that any numbers give a picture or a clear error.
+#include "render/plot/figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/base/error.hpp"
+#include "render/plot/panel.hpp"
+#include "render/plot/placement.hpp"
+#include "render/plot/reduce.hpp"
+#include "render/plot/text.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<std::string> labels(const AxisMap& axis) {
+    std::vector<std::string> out;
+    for (const Tick& t : axis.ticks())
+        if (!t.label.empty()) out.push_back(to_plain(t.label));
+    return out;
+}
+
+AxisMap axis(double low, double high, Axis wanted = {}) {
+    Extent data;
+    data.add(std::vector{low, high}, wanted.scale);
+    return {wanted, data, 6, "test"};
+}
+
+TEST(FigureText, OneMarkupIsDrawnAndWrittenAsLatexAndPlain) {
+    EXPECT_EQ(to_latex("$θ$ / (rad s^{−1})"), "$\\theta$ / (rad s$^{\\mathrm{-1}}$)");
+    EXPECT_EQ(to_plain("$θ$ / (rad s^{−1})"), "θ / (rad s⁻¹)");
+    EXPECT_EQ(to_latex("$\\dot{θ}_{c}$"), "$\\dot{\\theta}_{c}$");
+    EXPECT_EQ(to_latex("5 % & more"), "5 \\% \\& more");
+    EXPECT_EQ(to_plain("a\\_b\\^\\$c\\\\d"), "a_b^$c\\d");
+    const std::vector<figure::Run> runs = parse_markup("$x_{\\r{max}}$2");
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_TRUE(runs[0].symbol);
+    EXPECT_EQ(runs[1].script, -1);
+    EXPECT_FALSE(runs[1].symbol);
+    EXPECT_THROW(parse_markup("$θ"), std::invalid_argument);
+    EXPECT_THROW(parse_markup("m^{2"), std::invalid_argument);
+}
+
+TEST(FigureAxis, TicksAreRoundAndSayTheirDecimals) {
+    EXPECT_THAT(labels(axis(0, 0.4, {.tight = true})), ::testing::ElementsAre("0.0", "0.1", "0.2", "0.3", "0.4"));
+    EXPECT_THAT(labels(axis(-2, 7)), ::testing::ElementsAre("−2", "0", "2", "4", "6"));
+    EXPECT_DOUBLE_EQ(axis(0, 10, {.tight = true}).place(2.5), 0.25);
+}
+
+TEST(FigureAxis, ReversedLimitsTurnTheAxisRound) {
+    const AxisMap a = axis(0, 1, {.from = 10, .to = 0});
+    EXPECT_DOUBLE_EQ(a.place(10), 0);
+    EXPECT_DOUBLE_EQ(a.place(0), 1);
+}
+
+TEST(FigureAxis, AnyFiniteRangeIsShown) {
+    constexpr double kMost = std::numeric_limits<double>::max(), kLeast = std::numeric_limits<double>::denorm_min();
+    for (const auto& [low, high] : {std::pair{1e-300, 2e-300},
+                                    {1e300, 2e300},
+                                    {-1e300, 1e300},
+                                    {-kMost, kMost},
+                                    {kLeast, 3 * kLeast},
+                                    {0.0, kLeast},
+                                    {5.0, 5.0},
+                                    {0.0, 0.0},
+                                    {1e300, 1e300},
+                                    {1e8, 1e8 + 1e-3},
+                                    {1.0, std::nextafter(1.0, 2.0)},
+                                    {-1e-300, 1e300}}) {
+        const AxisMap a = axis(low, high);
+        EXPECT_GE(labels(a).size(), 2u) << low << " " << high;
+        EXPECT_LE(labels(a).size(), 8u);
+        EXPECT_TRUE(std::isfinite(a.place(low)) && std::isfinite(a.place(high))) << low << " " << high;
+        EXPECT_LE(a.place(low), a.place(high));
+        for (const Tick& t : a.ticks())
+            EXPECT_TRUE(t.at >= -1e-6 && t.at <= 1 + 1e-6) << low << " " << high << " " << t.at;
+        for (const std::string& text : labels(a)) EXPECT_LE(text.size(), 14u) << text;
+    }
+    EXPECT_THAT(axis(1e300, 2e300).common(), HasSubstr("10^{300}"));
+    EXPECT_THAT(axis(0.37, 0.37 + 1e-6).common(), HasSubstr("+0.37"));
+}
+
+TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
+    EXPECT_THAT(labels(axis(1e-3, 1e3, {.scale = Scale::logarithmic})), ::testing::Contains("10⁰"));
+    EXPECT_TRUE(std::isnan(axis(1, 10, {.scale = Scale::logarithmic}).place(-1)));
+    Extent none;
+    none.add(std::vector{-1.0, 0.0, std::nan("")}, Scale::logarithmic);
+    EXPECT_THROW(AxisMap({.scale = Scale::logarithmic}, none, 5, "test"), PictureError);
+    EXPECT_THROW(AxisMap({.from = 2, .to = 2}, {}, 5, "test"), PictureError);
+    EXPECT_THROW(AxisMap({.from = std::nan("")}, {}, 5, "test"), PictureError);
+}
+
+TEST(FigureAxis, CountsHaveTicksAtWholeNumbersOnly) {
+    EXPECT_THAT(labels(axis(1, 3, {.counts = true})), ::testing::ElementsAre("1", "2", "3"));
+    for (const auto& [low, high] : {std::pair{1.0, 2.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 200.0}}) {
+        const AxisMap a = axis(low, high, {.counts = true});
+        for (const Tick& t : a.ticks()) {
+            const double value = a.low() + t.at * (a.high() - a.low());
+            EXPECT_NEAR(value, std::round(value), 1e-9) << low << " " << high;
+        }
+    }
+}
+
+TEST(FigureReduce, AMillionPointsKeepTheirExtremes) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 1'000'000; ++i) points.push_back({i * 2e-4, std::sin(i * 0.01)});
+    points[123456].y = 50;
+    const std::vector<Vec2> kept = reduce(points, 0.1);
+    EXPECT_LT(kept.size(), 9000u);
+    double most = 0;
+    for (const Vec2 p : kept) most = std::max(most, p.y);
+    EXPECT_EQ(most, 50);
+    EXPECT_EQ(kept.front(), points.front());
+    EXPECT_EQ(kept.back(), points.back());
+}
+
+TEST(FigureReduce, ASlowCurveStaysRound) {
+    std::vector<Vec2> points;
+    for (int i = 0; i <= 100'000; ++i) points.push_back({i * 2e-3, 40 * std::cos(i * 2e-3 / 50)});  // slope below 1
+    const double grain = 0.1;
+    const std::vector<Vec2> kept = reduce(points, grain);
+    EXPECT_LT(kept.size(), 3000u);
+    std::size_t k = 0;
+    for (const Vec2 p : points) {
+        while (kept[k + 1].x < p.x) ++k;
+        const double share = (p.x - kept[k].x) / (kept[k + 1].x - kept[k].x);
+        ASSERT_NEAR(kept[k].y + share * (kept[k + 1].y - kept[k].y), p.y, 0.5 * grain) << p.x;
+    }
+}
+
+TEST(FigureReduce, NanBreaksTheLine) {
+    const double nan = std::nan("");
+    const std::vector<Vec2> kept = reduce(std::vector<Vec2>{{nan, 0}, {0, 0}, {1, nan}, {2, 1}, {3, 5}}, 0.01);
+    ASSERT_EQ(kept.size(), 4u);
+    EXPECT_TRUE(std::isnan(kept[1].x));
+}
+
+// 40 swings a column: the outline is the envelope, and little else is left to draw.
+TEST(FigureReduce, FastSwingsBecomeABandWithTheirEnvelope) {
+    const auto envelope = [](double x) { return 10 + 5 * std::exp(-x / 60); };
+    std::vector<Vec2> points;
+    for (int i = 0; i < 1'000'000; ++i)
+        points.push_back({i * 1e-4, i % 7 == 3 ? std::nan("") : envelope(i * 1e-4) * std::sin(i * 0.0251327)});
+    const std::vector<Swing> fast = swings(points, 1);
+    ASSERT_EQ(fast.size(), 1u);
+    EXPECT_EQ(fast[0].least.size(), 100u);
+    EXPECT_EQ(fast[0].first, 0u);
+    EXPECT_EQ(fast[0].last, points.size() - 1);
+    for (std::size_t column = 0; column < 100; ++column) {
+        const Vec2 crest = points[fast[0].most[column]], trough = points[fast[0].least[column]];
+        EXPECT_EQ(std::floor(crest.x), column);
+        EXPECT_EQ(std::floor(trough.x), column);
+        EXPECT_NEAR(crest.y, envelope(crest.x), 0.01);
+        EXPECT_NEAR(trough.y, -envelope(trough.x), 0.01);
+    }
+    EXPECT_EQ(outline(fast[0], points).size(), 202u);
+    EXPECT_EQ(without(fast, points.size(), false), (std::vector<std::size_t>{0, kBreak, points.size() - 1}));
+    EXPECT_EQ(without(fast, points.size(), true).size(), 202u);
+}
+
+TEST(FigureReduce, CurvesThatCanBeToldApartAreNoBands) {
+    std::vector<Vec2> slow, orbit, apart;
+    for (int i = 0; i < 100'000; ++i) {
+        const double t = i * 1e-3;
+        slow.push_back({t, std::sin(3 * t)});  // half a swing a column
+        orbit.push_back({std::cos(500 * t), std::sin(500 * t)});
+        apart.push_back({std::floor(t) * 2 + t - std::floor(t), std::sin(500 * t)});  // every second column
+    }
+    EXPECT_TRUE(swings(slow, 1).empty());
+    EXPECT_TRUE(swings(orbit, 1).empty());
+    EXPECT_TRUE(swings(apart, 1).empty());
+    EXPECT_TRUE(swings({}, 1).empty());
+}
+
+TEST(FigurePlacement, GoesWhereNothingIs) {
+    Occupancy taken({0, 0, 100, 100});
+    taken.cover(Box{50, 0, 50, 50});
+    taken.cover(std::vector<Vec2>{{0, 90}, {100, 90}});
+    const Place place = best_place(taken, 30, 20, 2);
+    EXPECT_EQ(place.cost, 0);
+    EXPECT_FALSE(place.box.overlaps({50, 0, 50, 50}));
+}
+
+Figure plot(std::vector<double> x, std::vector<double> y) {
+    Figure figure;
+    figure.name = "test";
+    Panel panel;
+    panel.x.label = "$t$ / s";
+    panel.y.label = "$θ$ / rad";
+    Series s;
+    s.label = "curve";
+    s.x = std::move(x);
+    s.y = std::move(y);
+    panel.series.push_back(std::move(s));
+    figure.panels.push_back(std::move(panel));
+    return figure;
+}
+
+struct Drawn {
+    Image image;
+    std::vector<Sheet::Written> written;
+};
+Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi = 72) {
+    const Page page = page_of(figure, *column_named(column));
+    const Fonts fonts(needs_chinese(figure), Typefaces::print);
+    Sheet sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
+    draw(figure, page, sheet);
+    return {sheet.image(), sheet.written};
+}
+
+// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each
+// value.
+TEST(Figure, ABandLooksLikeItsSwings) {
+    std::vector<double> x, y;
+    for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
+    Figure by_outline = plot(x, y), in_tones = by_outline;
+    in_tones.panels[0].series[0].value = std::vector<double>(x.size(), 0.5);
+    in_tones.panels[0].color_bar.emplace().hidden = true;
+    // Back and forth in x by less than a thousandth of a pixel: nothing is a band.
+    for (std::size_t i = 1; i < x.size(); i += 2) x[i] = x[i - 1] - 1e-9;
+    const Image band = draw_png(by_outline).image, lines = draw_png(plot(x, y)).image;
+    const Image tones = draw_png(in_tones).image;
+    ASSERT_EQ(band.pixels.size(), lines.pixels.size());
+    const auto ink = [](std::uint32_t p) { return (p & 255) != (p >> 16 & 255); };  // of the curve, not the axes
+    std::size_t all = 0, differ = 0, of_tones = 0;
+    for (std::size_t i = 0; i < band.pixels.size(); ++i) {
+        all += ink(lines.pixels[i]);
+        differ += ink(lines.pixels[i]) != ink(band.pixels[i]);
+        of_tones += ink(lines.pixels[i]) != ink(tones.pixels[i]);
+    }
+    EXPECT_GT(all, 5000u);
+    EXPECT_LT(differ, all / 100);
+    EXPECT_LT(of_tones, all / 50);
+}
+
+TEST(Figure, BadNumbersGiveAPictureOrAClearError) {
+    const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+    for (const auto& [x, y] :
+         std::vector<std::pair<std::vector<double>, std::vector<double>>>{{{0}, {1}},
+                                                                          {{0, 1}, {3, 3}},
+                                                                          {{2, 2, 2}, {1, 5, 3}},
+                                                                          {{0, 1, 2}, {1, nan, 2}},
+                                                                          {{0, 1, 2}, {1, inf, 2}},
+                                                                          {{0, 1}, {1e-300, 2e-300}},
+                                                                          {{0, 1}, {-1e300, 1e300}},
+                                                                          {{1e300, 1.1e300}, {0, 1}}}) {
+        const Drawn drawn = draw_png(plot(x, y));
+        bool blank = true;
+        for (const std::uint32_t p : drawn.image.pixels) blank = blank && p == 0xFFFFFFFF;
+        EXPECT_FALSE(blank);
+    }
+    EXPECT_THROW(draw_png(plot({}, {})), PictureError);
+    EXPECT_THROW(draw_png(plot({0, 1}, {nan, nan})), PictureError);
+    EXPECT_THROW(draw_png(Figure{}), PictureError);
+}
+
+TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
+    std::vector<double> x, y;
+    for (int i = 0; i < 500; ++i) x.push_back(i * 1e-3), y.push_back(1e6 * std::sin(i * 0.1));
+    Figure figure = plot(x, y);
+    figure.panels[0].y.label = "$F_{\\r{c}}$ / (kN m^{−1})";
+    figure.panels[0].right = Axis{.label = "$δ^{2}$ / µm"};
+    Series other = figure.panels[0].series[0];
+    other.right = true;
+    figure.panels[0].series.push_back(other);
+    for (const Column& column : columns()) {
+        const Drawn drawn = draw_png(figure, column.name);
+        const Box page{0, 0, points(column.width), 1e4};
+        for (const Sheet::Written& w : drawn.written) {
+            EXPECT_GE(w.smallest, 6) << column.name << " " << w.markup;
+            EXPECT_TRUE(page.contains(w.box, 0.01)) << column.name << " " << w.markup;
+        }
+        for (std::size_t i = 0; i < drawn.written.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)))
+                    << column.name << ": " << drawn.written[i].markup << " over " << drawn.written[k].markup;
+    }
+}
+
+TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
+    Figure figure = plot({0, 1}, {0, 1});
+    figure.panels[0].rules = {
+        {.at = 0.5, .label = "level"}, {.at = 7, .label = "beyond"}, {.at = 0.4, .vertical = true, .label = "now"}};
+    const Drawn drawn = draw_png(figure);
+    const auto written = [&](const char* words) {
+        return std::any_of(drawn.written.begin(), drawn.written.end(),
+                           [&](const auto& w) { return w.markup == words; });
+    };
+    EXPECT_TRUE(written("level"));
+    EXPECT_TRUE(written("now"));
+    EXPECT_FALSE(written("beyond"));
+    for (std::size_t i = 0; i < drawn.written.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)));
+}
+
+TEST(Figure, PagesHaveTheColumnsWidthToTheMillimetre) {
+    const Figure figure = plot({0, 1}, {0, 1});
+    EXPECT_EQ(page_of(figure, *column_named("ieee")).width, 88.9);
+    EXPECT_EQ(page_of(figure, *column_named("nature-double")).width, 183);
+    EXPECT_EQ(page_of(figure, *column_named("slide")).height, 142.875);
+    EXPECT_EQ(page_of(figure, *column_named("aps"), 120).width, 120);
+    EXPECT_THROW(page_of(figure, *column_named("aps"), 1), PictureError);
+    EXPECT_EQ(column_named("brill"), nullptr);
+    const Drawn drawn = draw_png(figure, "ieee", 300);
+    EXPECT_EQ(drawn.image.width, 1050);  // 3.5 in
+}
+
+TEST(Figure, AGlyphThatNoFontHasIsAnErrorNamingAPackage) {
+    Figure figure = plot({0, 1}, {0, 1});
+    figure.panels[0].x.label = "\U00012000";  // cuneiform
+    try {
+        draw_png(figure);
+        FAIL();
+    } catch (const FontError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("fonts-"));
+    }
+}
+
+TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
+    const Figure figure = plot({0, 1, 2}, {0, 1, 0});
+    const Page page = page_of(figure, *column_named("elsevier"));
+    const Fonts fonts(false, Typefaces::print);
+    Document document;
+    document.title = "a < b";
+    document.scene = "{}";
+    const auto bytes = [&](Medium medium) {
+        Sheet sheet(medium, {points(page.width), points(page.height)}, fonts, document);
+        draw(figure, page, sheet);
+        return sheet.bytes();
+    };
+    EXPECT_EQ(bytes(Medium::pdf), bytes(Medium::pdf));
+    EXPECT_EQ(bytes(Medium::svg), bytes(Medium::svg));
+    EXPECT_THAT(bytes(Medium::svg), HasSubstr("width=\"90mm\""));
+    EXPECT_THAT(bytes(Medium::svg), HasSubstr("<title>a &lt; b</title>"));
+}
+
+TEST(Figure, LongSeriesMakeSmallFiles) {
+    std::vector<double> x, y;
+    for (int i = 0; i < 1'000'000; ++i) x.push_back(i * 1e-6), y.push_back(std::sin(i * 0.01) + 1e-3 * (i % 7));
+    const Figure figure = plot(x, y);
+    const Page page = page_of(figure, *column_named("elsevier"));
+    const Fonts fonts(false, Typefaces::print);
+    Sheet sheet(Medium::pdf, {points(page.width), points(page.height)}, fonts);
+    draw(figure, page, sheet);
+    EXPECT_LT(sheet.bytes().size(), 600'000u);
+}
+
+TEST(FigureStyle, TheColourMapDarkensEvenly) {
+    // Lightness L* from linear sRGB luminance; equal steps of the map differ in L* by nearly the same.
+    const auto lightness = [](Color c) {
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        return 116 * std::cbrt(0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b)) - 16;
+    };
+    for (double s = 0; s < 0.999; s += 0.1) {
+        const double step = lightness(map_color(s)) - lightness(map_color(s + 0.1));
+        EXPECT_GT(step, 4);
+        EXPECT_LT(step, 10);
+    }
+}
+
+TEST(Figure, DataIsATidyTableOfWhatIsPlotted) {
+    Figure figure = plot({0, 1}, {0.1, std::nan("")});
+    figure.panels[0].series[0].label = "a, b";
+    EXPECT_EQ(data_csv(figure),
+              "panel,series,x_quantity,x,y_quantity,y,value\n1,\"a, b\",t / s,0,θ / rad,0.10000000000000001,\n1,\"a, "
+              "b\",t / s,1,θ / rad,,\n");
+}
+
+}  // namespace
+}  // namespace beamcam::render::figure

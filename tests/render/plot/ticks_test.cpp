@@ -1,0 +1,74 @@
+#include "render/plot/ticks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+TEST(Ticks, RoundNumbersAreOneTwoOrFiveTimesAPowerOfTen) {
+    EXPECT_DOUBLE_EQ(round_down_125(0.99), 0.5);
+    EXPECT_DOUBLE_EQ(round_down_125(1), 1);
+    EXPECT_DOUBLE_EQ(round_down_125(4999), 2000);
+    EXPECT_DOUBLE_EQ(round_down_125(0.0021), 0.002);
+    EXPECT_DOUBLE_EQ(round_up_125(0.99), 1);
+    EXPECT_DOUBLE_EQ(round_up_125(5), 5);
+    EXPECT_DOUBLE_EQ(round_up_125(5.01), 10);
+    EXPECT_DOUBLE_EQ(round_up_125(2.1e-7), 5e-7);
+}
+
+TEST(Ticks, RoundingUpAndDownMeetAtRoundNumbersOfAnySize) {
+    for (int n = -15; n <= 15; ++n)
+        for (double m : {1.0, 2.0, 5.0}) {
+            const double value = m * std::pow(10.0, n);
+            EXPECT_NEAR(round_down_125(value) / value, 1, 1e-12) << value;
+            EXPECT_NEAR(round_up_125(value) / value, 1, 1e-12) << value;
+        }
+}
+
+TEST(Ticks, MarksAreMultiplesOfTheStepWithinTheRangeAndNoMoreThanAsked) {
+    for (double low : {-3.7, 0.0, 12.3})
+        for (double span : {1e-3, 0.7, 9.0, 12345.0})
+            for (int most : {2, 3, 5, 8}) {
+                const Ticks t = ticks(low, low + span, most);
+                EXPECT_LE(static_cast<int>(t.values.size()), most);
+                for (double v : t.values) {
+                    EXPECT_NEAR(v / t.step, std::round(v / t.step), 1e-6);
+                    EXPECT_GE(v, low - 1e-8 * t.step);
+                    EXPECT_LE(v, low + span + 1e-8 * t.step);
+                }
+            }
+}
+
+TEST(Ticks, DecimalsTellNeighboursApart) {
+    EXPECT_EQ(ticks(0, 1, 6).decimals, 1);
+    EXPECT_EQ(ticks(0, 100, 6).decimals, 0);
+    EXPECT_EQ(ticks(0.2, 0.26, 4).decimals, 2);
+    EXPECT_EQ(fixed(0.2, 1), "0.2");
+}
+
+TEST(Ticks, RoundRangeContainsTheRange) {
+    const Range r = round_range(0.23, 0.84, 5);
+    EXPECT_LE(r.low, 0.23);
+    EXPECT_GE(r.high, 0.84);
+    EXPECT_NEAR(r.low, 0.2, 1e-12);
+}
+
+TEST(Ticks, NegativeNumbersHaveATrueMinusAndZeroHasNone) {
+    EXPECT_EQ(fixed(-1.25, 1), "−1.2");
+    EXPECT_EQ(fixed(-0.01, 1), "0.0");
+}
+
+TEST(Quantity, ChoosesTheSiPrefix) {
+    EXPECT_EQ(quantity(0.02, "m"), "20\u00A0mm");
+    EXPECT_EQ(quantity(1, "m"), "1\u00A0m");
+    EXPECT_EQ(quantity(100, "m"), "100\u00A0m");
+    EXPECT_EQ(quantity(1.5e-6, "m"), "1.5\u00A0µm");
+    EXPECT_EQ(quantity(12345, "N"), "12.3\u00A0kN");
+    EXPECT_EQ(quantity(-2, "rad/s"), "−2\u00A0rad/s");
+    EXPECT_EQ(quantity(0, "m"), "0\u00A0m");
+}
+
+}  // namespace
+}  // namespace beamcam::render

@@ -1,0 +1,399 @@
+#include "scenes/format/reader.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "scenes/format/checks.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::messages;
+using testing::read;
+using ::testing::StartsWith;
+
+TEST(Reader, AnEmptySceneIsThePapersSystem) {
+    const Reading reading = read("{}");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const sim::Problem& p = reading.scene->problem;
+    EXPECT_EQ(p.beam.length, 1);
+    EXPECT_EQ(p.cam->speed, 1);
+    EXPECT_EQ(p.gravity, 9.81);
+    EXPECT_EQ(reading.scene->end_time, 1.5);
+    EXPECT_EQ(reading.scene->name, "scene");
+    EXPECT_TRUE(reading.scene->outputs.empty());
+}
+
+TEST(Reader, TheShippedDefaultSaysInUnitsWhatTheDefaultsAreInNumbers) {
+    const Reading shipped = read_scene(load_source(BEAMCAM_TEST_DIR "/../scenes/default.json"));
+    ASSERT_TRUE(shipped.scene) << shipped.report();
+    EXPECT_TRUE(shipped.messages.empty()) << shipped.report();
+    Scene empty = *read("{\"time\": {\"end\": 10}}").scene;
+    Scene scene = *shipped.scene;
+    scene.title.clear();
+    scene.outputs.clear();
+    EXPECT_EQ(to_json(scene), to_json([&] {
+                  empty.problem.beam.damping_ratio = {0};
+                  return empty;
+              }()));
+}
+
+TEST(Reader, EveryKeyReachesItsPlace) {
+    const Reading reading = read(R"({
+        "title": "all", "hub": {"radius": "5 cm", "inertia": "12 kg cm^2", "drive": {"type": "torque", "amplitude": "1 N m", "frequency": "2 Hz", "phase": "90 deg"}},
+        "beam": {"length": 2, "area": 1e-4, "second_moment": 1e-8, "density": 2700, "youngs_modulus": "70 GPa", "poisson_ratio": 0.31, "depth": 0.02,
+                 "model": "second-order", "basis": "cantilever", "modes": 5, "kelvin_voigt": "1 us"},
+        "cam": {"centre": ["30 cm", -0.3], "radius": 0.11, "eccentricity": 0.03, "phase": "-90 deg", "speed": "300 rpm", "youngs_modulus": "210 GPa", "poisson_ratio": 0.28},
+        "contact": {"model": "restitution", "stiffness": "hertz", "exponent": 1.4, "damping": "flores", "restitution": 0.6, "law": "stronge",
+                    "friction": {"type": "stick-slip", "coefficient": 0.1, "static_coefficient": 0.2, "stiffness": 1e5, "damping": 3},
+                    "offset": "half-depth", "approach_floor": {"policy": "first-touch", "value": "2 mm/s"}, "collision_gap": "5 ms"},
+        "gravity": 1.62, "initial": {"angle": "60 deg", "angular_velocity": "-1 rad/s", "shape": "static"},
+        "solver": {"method": "rk8", "rtol": 1e-9, "atol": 1e-12}, "time": {"end": "400 ms"}})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const sim::Problem& p = reading.scene->problem;
+    EXPECT_EQ(reading.scene->title, "all");
+    EXPECT_EQ(p.hub.radius, 0.05);
+    EXPECT_EQ(p.hub.inertia, 0.0012);
+    const auto& torque = std::get<sim::HarmonicTorque>(p.hub.drive);
+    EXPECT_EQ(torque.amplitude, 1);
+    EXPECT_EQ(torque.frequency, 2);
+    EXPECT_DOUBLE_EQ(torque.phase, std::acos(0.0));
+    EXPECT_EQ(p.beam.length, 2);
+    EXPECT_EQ(p.beam.area, 1e-4);
+    EXPECT_EQ(p.beam.second_moment, 1e-8);
+    EXPECT_EQ(p.beam.density, 2700);
+    EXPECT_EQ(p.beam.youngs_modulus, 7e10);
+    EXPECT_EQ(p.beam.poisson_ratio, 0.31);
+    EXPECT_EQ(p.beam.depth, 0.02);
+    EXPECT_EQ(p.beam.model, sim::ModelKind::second_order);
+    EXPECT_EQ(p.beam.basis, sim::Basis::cantilever);
+    EXPECT_EQ(p.beam.modes, 5);
+    EXPECT_EQ(p.beam.kelvin_voigt, 1e-6);
+    EXPECT_EQ(p.cam->centre, (sim::Vec2{0.3, -0.3}));
+    EXPECT_EQ(p.cam->radius, 0.11);
+    EXPECT_EQ(p.cam->eccentricity, 0.03);
+    EXPECT_DOUBLE_EQ(p.cam->phase, -std::acos(0.0));
+    EXPECT_DOUBLE_EQ(p.cam->speed, 10 * std::acos(-1.0));
+    EXPECT_EQ(p.cam->youngs_modulus, 2.1e11);
+    EXPECT_EQ(p.cam->poisson_ratio, 0.28);
+    EXPECT_EQ(p.contact.model, sim::ContactModel::restitution);
+    EXPECT_FALSE(p.contact.stiffness);
+    EXPECT_EQ(p.contact.exponent, 1.4);
+    EXPECT_EQ(p.contact.damping, sim::DampingLaw::flores);
+    EXPECT_EQ(p.contact.restitution, 0.6);
+    EXPECT_EQ(p.contact.law, sim::ImpactLaw::stronge);
+    const auto& friction = std::get<sim::StickSlipFriction>(p.contact.friction);
+    EXPECT_EQ(friction.coefficient, 0.1);
+    EXPECT_EQ(friction.static_coefficient, 0.2);
+    EXPECT_EQ(friction.stiffness, 1e5);
+    EXPECT_EQ(friction.damping, 3);
+    EXPECT_FALSE(p.contact.offset);
+    EXPECT_EQ(p.contact.approach_floor.policy, sim::ApproachFloorPolicy::first_touch);
+    EXPECT_EQ(p.contact.approach_floor.value, 0.002);
+    EXPECT_EQ(p.contact.collision_gap, 0.005);
+    EXPECT_EQ(p.gravity, 1.62);
+    EXPECT_DOUBLE_EQ(p.initial.angle, std::acos(0.5));
+    EXPECT_EQ(p.initial.angular_velocity, -1);
+    EXPECT_EQ(p.initial.shape, sim::InitialShape::static_equilibrium);
+    EXPECT_EQ(p.solver.method, sim::Method::rk8);
+    EXPECT_EQ(p.solver.rtol, 1e-9);
+    EXPECT_EQ(p.solver.atol, 1e-12);
+    EXPECT_EQ(reading.scene->end_time, 0.4);
+}
+
+TEST(Reader, EveryOutputTypeIsRead) {
+    const Reading reading = read(R"({"outputs": [
+        {"type": "video", "file": "a.mp4", "size": [640, 360], "fps": 29.97, "from": 0.1, "to": "200 ms", "view": {"style": "flat", "exaggeration": 50}, "theme": "dark", "crf": 20, "preset": "fast", "rate_mode": "variable"},
+        {"type": "frames", "file": "f/#.png", "size": [33, 35], "fps": "10"},
+        {"type": "still", "at": "370 ms"},
+        {"type": "trajectory", "file": "t.npz", "channels": ["q2", "theta"], "times": [1, 0.5]},
+        {"type": "impacts", "file": "i.csv"},
+        {"type": "summary", "horizon": true}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const std::vector<Output>& outputs = reading.scene->outputs;
+    ASSERT_EQ(outputs.size(), 6u);
+    const auto& video = std::get<VideoOutput>(outputs[0]);
+    EXPECT_EQ(video.file, "a.mp4");
+    EXPECT_EQ(video.size, (Size{640, 360}));
+    EXPECT_EQ(video.span.fps, (FrameRate{30000, 1001}));
+    EXPECT_EQ(video.span.from, 0.1);
+    EXPECT_EQ(video.span.to, 0.2);
+    EXPECT_EQ(video.view.style, render::Style::flat);
+    EXPECT_EQ(video.view.exaggeration, 50);
+    EXPECT_EQ(video.view.theme, render::Theme::dark);
+    EXPECT_EQ(video.encoding.crf, 20);
+    EXPECT_EQ(video.encoding.preset, "fast");
+    EXPECT_EQ(std::get<FramesOutput>(outputs[1]).span.fps, (FrameRate{10, 1}));
+    EXPECT_EQ(std::get<StillOutput>(outputs[2]).at.t, 0.37);
+    EXPECT_EQ(std::get<StillOutput>(outputs[2]).file, "scene.png");
+    const auto& table = std::get<TrajectoryOutput>(outputs[3]);
+    EXPECT_EQ(table.channels, (std::vector<sim::Channel>{{sim::ChannelKind::q, 2}, {sim::ChannelKind::theta, 0}}));
+    EXPECT_EQ(table.times, (std::vector<double>{1, 0.5}));
+    EXPECT_EQ(file_of(outputs[4]), "i.csv");
+    EXPECT_TRUE(std::get<SummaryOutput>(outputs[5]).horizon);
+}
+
+TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {
+    const Reading reading = read(
+        "{\"beam\": {\"lenght\": 1,\n\"modes\": 2.5},\n\"cam\": {\"eccentricity\": \"2 s\"},\n\"time\": {\"end\": -1}, "
+        "\"outputs\": [{\"type\": \"still\"}]}");
+    EXPECT_FALSE(reading.scene);
+    EXPECT_THAT(
+        messages(reading),
+        ElementsAre("1:11 unknown key \"lenght\" in beam; did you mean \"length\"?",
+                    "2:10 beam.modes must be a whole number, not 2.5",
+                    "3:25 cam.eccentricity = \"2 s\" has the wrong dimension (s); it is measured in m",
+                    "4:17 time.end = -1 must be positive and at most 1e12 s; write how many seconds to simulate",
+                    "4:34 outputs.0 needs \"at\", for example \"370 ms\""));
+}
+
+TEST(Reader, BeyondAHundredIssuesAreCounted) {
+    std::string text = "{\n";
+    for (int i = 0; i < 250; ++i) text += fmt::format("\"nothing{}\": 1,\n", i);
+    const Reading reading = read(text + "\"time\": {}}");
+    EXPECT_EQ(reading.messages.size(), 250u);
+    EXPECT_THAT(reading.report(),
+                ::testing::AllOf(::testing::HasSubstr("nothing99"), ::testing::Not(::testing::HasSubstr("nothing100")),
+                                 ::testing::EndsWith("and 150 more\n")));
+}
+
+TEST(Reader, AValueOfTheWrongKindIsToldNextToTheOthers) {
+    const Reading reading = read(
+        R"({"hub": [], "beam": {"length": [], "model": 3}, "cam": 5, "contact": {"friction": "none"}, "outputs": {}})");
+    EXPECT_EQ(messages(reading).size(), 6u) << reading.report();
+}
+
+TEST(Reader, ImpossiblePhysicsStandsAtTheKeyThatSaysIt) {
+    EXPECT_THAT(messages(read("{\"cam\": {\"radius\": 0.1,\n \"eccentricity\": 0.2}}")),
+                ElementsAre(StartsWith("2:18 cam.eccentricity")));
+    // No such key in the text: the nearest one that is there.
+    EXPECT_THAT(messages(read("{\n\"cam\": {\"eccentricity\": 0.2}}")),
+                ElementsAre(StartsWith("2:25 cam.eccentricity")));
+    EXPECT_THAT(messages(read("{\n \"beam\": {\"model\": \"rigid\"}, \"cam\": {\"radius\": 0.3}}")),
+                ElementsAre(StartsWith("2:30 cam.centre")));
+    EXPECT_THAT(messages(read("{ \"initial\": {\"angle\": 0}}")), ElementsAre(StartsWith("1:24 initial.angle")));
+}
+
+TEST(Reader, ADefaultThatReplacedAnUnreadValueIsNotJudged) {
+    // With the default length 1 m this cam is never reached; the length was meant to be another.
+    EXPECT_THAT(messages(read(R"({"beam": {"length": "5 s"}, "cam": {"centre": [3, 0]}})")),
+                ElementsAre(HasSubstr("wrong dimension")));
+}
+
+TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
+    const Reading reading = read(R"({"cam": {"centre": [3, 0]}})");
+    EXPECT_TRUE(reading.scene);
+    ASSERT_EQ(reading.messages.size(), 1u);
+    EXPECT_FALSE(reading.messages[0].fatal);
+    EXPECT_THAT(reading.report(), HasSubstr("scene.json:1:20: warning: cam.centre"));
+}
+
+TEST(Reader, WhatTheVersionCannotDoIsRefusedByName) {
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "gif"}]})")),
+                ElementsAre(HasSubstr("gif is not available in this version")));
+}
+
+TEST(Reader, AnImpossibleFormatIsRefusedWithAPossibleOne) {
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "background": "transparent"}]})")),
+                ElementsAre(HasSubstr("name a .webm (vp9)")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.webm", "size": [321, 240]}]})")),
+                ElementsAre(HasSubstr("use 322x240")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.gif", "fps": 60}]})")),
+                ElementsAre(HasSubstr("use 50, 25 or 20")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "codec": "vp9"}]})")),
+                ElementsAre(HasSubstr("name a .webm or .mkv file")));
+}
+
+TEST(Reader, TheEndingChoosesTheCodec) {
+    const Reading reading =
+        read(R"({"outputs": [{"type": "video", "file": "a.webm"}, {"type": "video", "file": "b.gif"},
+        {"type": "video", "file": "c.mov"}, {"type": "video", "file": "d.mkv"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const output::Codec expected[] = {output::Codec::vp9, output::Codec::gif, output::Codec::prores,
+                                      output::Codec::ffv1};
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[i]).encoding.codec, expected[i]);
+    EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
+}
+
+TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
+    const Reading reading = read(R"({"beam": {"modes": 5}, "outputs": [{"type": "video", "compare": [{"label": "a"},
+        {"label": "b", "set": {"cam.speed": 5, "beam.model": "rigid"}}, {"set": {"cam": null}}]}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const auto& compared = std::get<VideoOutput>(reading.scene->outputs[0]).compare;
+    ASSERT_EQ(compared.size(), 3u);
+    EXPECT_EQ(compared[0].problem.beam.modes, 5);
+    EXPECT_EQ(compared[0].problem.cam->speed, reading.scene->problem.cam->speed);
+    EXPECT_EQ(compared[1].problem.cam->speed, 5);
+    EXPECT_EQ(compared[1].problem.beam.model, sim::ModelKind::rigid);
+    EXPECT_EQ(compared[1].label, "b");
+    EXPECT_FALSE(compared[2].problem.cam);
+    EXPECT_EQ(compared[2].label, "3");
+}
+
+TEST(Reader, WhatAComparisonCannotChangeIsToldAtItsPlace) {
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"cam.spede": 1}}]}]})")),
+                ElementsAre(HasSubstr("did you mean \"speed\"")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"time.end": 1}}]}]})")),
+                ElementsAre(HasSubstr("is no part of the mechanics")));
+}
+
+TEST(Reader, UnknownWordsAreAnsweredWithTheNearestOrAll) {
+    EXPECT_THAT(messages(read(R"({"contact": {"damping": "lankarani"}})")),
+                ElementsAre(HasSubstr("did you mean \"lankarani-nikravesh\"?")));
+    EXPECT_THAT(messages(read(R"({"cam": {"center": [0.25, 0]}})")),
+                ElementsAre(HasSubstr("did you mean \"centre\"?")));
+    EXPECT_THAT(messages(read(R"({"beam": {"model": "shell"}})")),
+                ElementsAre(HasSubstr("known are rigid, zeroth-order, first-order")));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "trajectory", "channels": ["contact_forse"]}]})")),
+                ElementsAre(HasSubstr("did you mean \"contact_force\"?")));
+}
+
+TEST(Reader, ExtensionKeysAreIgnoredEverywhere) {
+    EXPECT_TRUE(
+        read(
+            R"({"x-a": 1, "hub": {"x-b": {}, "drive": {"type": "free", "x-c": 0}}, "outputs": [{"type": "video", "x-d": 0, "view": {"x-e": 0}}]})")
+            .scene);
+}
+
+TEST(Reader, FramesAreCountedByRoundedNumbers) {
+    EXPECT_EQ(problem_with_span({{60, 1}, 0, {}}, 1.5), "");
+    EXPECT_EQ(problem_with_span({{60, 1}, 0.5, 0.517}, 1.5), "");
+    EXPECT_THAT(problem_with_span({{60, 1}, 0.5, 0.505}, 1.5), HasSubstr("no frame lies between"));
+    EXPECT_THAT(problem_with_span({{60, 1}, 2, {}}, 1.5), HasSubstr("no frame lies between"));
+}
+
+// ---- overrides ---------------------------------------------------------------------------------
+
+TEST(Override, ReplacesInsertsAndCountsInArrays) {
+    const Reading reading = read("{\"beam\": {\"modes\": 2}, \"outputs\": [{\"type\": \"video\"}]}",
+                                 {"beam.modes=7", "cam.speed=300 rpm", "contact.friction={\"type\": \"coulomb\"}",
+                                  "outputs.0.fps=30", "beam.model=rigid", "title=a b"});
+    ASSERT_TRUE(reading.scene) << reading.report();
+    EXPECT_EQ(reading.scene->problem.beam.modes, 7);
+    EXPECT_DOUBLE_EQ(reading.scene->problem.cam->speed, 10 * std::acos(-1.0));
+    EXPECT_TRUE(std::holds_alternative<sim::CoulombFriction>(reading.scene->problem.contact.friction));
+    EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[0]).span.fps, (FrameRate{30, 1}));
+    EXPECT_EQ(reading.scene->problem.beam.model, sim::ModelKind::rigid);
+    EXPECT_EQ(reading.scene->title, "a b");
+}
+
+TEST(Override, MakesAnInvalidValueOfTheFileGood) {
+    EXPECT_TRUE(read("{\"beam\": {\"length\": \"long\"}}", {"beam.length=2"}).scene);
+}
+
+TEST(Override, TheLastOneCounts) {
+    EXPECT_EQ(read("{}", {"beam.modes=3", "beam.modes=4"}).scene->problem.beam.modes, 4);
+}
+
+TEST(Override, NullIsNoCam) { EXPECT_FALSE(read("{}", {"cam=null"}).scene->problem.cam); }
+
+TEST(Override, ErrorsNameTheOverride) {
+    EXPECT_THAT(messages(read("{}", {"beam.modes=x"})),
+                ElementsAre("--set beam.modes=x beam.modes must be a whole number, not \"x\""));
+    EXPECT_THAT(read("{}", {"beam.modes=x"}).report(), StartsWith("--set beam.modes=x: beam.modes must be"));
+    EXPECT_THAT(messages(read("{}", {"beam.lenght=1"})), ElementsAre(HasSubstr("did you mean \"length\"?")));
+    EXPECT_THAT(messages(read("{}", {"beam"})), ElementsAre(HasSubstr("no \"=\"")));
+    EXPECT_THAT(messages(read("{}", {"=3"})), ElementsAre(HasSubstr("no \"=\" after a key")));
+    EXPECT_THAT(messages(read("{}", {"beam..modes=3"})), ElementsAre(HasSubstr("empty key")));
+    EXPECT_THAT(messages(read("{}", {"beam={\"modes\": }"})), ElementsAre(HasSubstr("a value is missing")));
+    EXPECT_THAT(messages(read("{}", {"gravity=1e999"})), ElementsAre(HasSubstr("too large")));
+    EXPECT_THAT(messages(read("{\"cam\": null}", {"cam.speed=3"})), ElementsAre(HasSubstr("cam is null")));
+    EXPECT_THAT(messages(read("{\"outputs\": [{\"type\": \"video\"}]}", {"outputs.1.fps=3"})),
+                ElementsAre(HasSubstr("1 entries")));
+    EXPECT_THAT(messages(read("{}", {"cam={\"speed\": 1, \"speed\": 2}"})),
+                ElementsAre(HasSubstr("duplicate key \"speed\"")));
+}
+
+// ---- comparisons of files --------------------------------------------------------------------------
+
+std::string comparing(std::string_view file, int times = 1) {
+    std::string entries = R"({"label": "own"})";
+    for (int i = 0; i < times; ++i) entries += fmt::format(R"(, {{"scene": "{}"}})", file);
+    return fmt::format(R"({{"outputs": [{{"type": "still", "at": 0, "compare": [{}]}}]}})", entries);
+}
+
+Reading read_file_of(const testing::Folder& folder, const std::string& name) {
+    return read_scene(load_source((folder / name).string()));
+}
+
+TEST(ComparedFiles, ARingIsRefusedWithItsChain) {
+    const testing::Folder folder;
+    folder.write("self.json", comparing("./self.json"));
+    folder.write("a.json", comparing("b.json"));
+    folder.write("b.json", comparing("c.json"));
+    folder.write("c.json", comparing("b.json"));
+    std::filesystem::create_symlink("self.json", folder / "link.json");
+    EXPECT_THAT(messages(read_file_of(folder, "self.json")),
+                ElementsAre(AllOf(HasSubstr("is a ring"), HasSubstr("self.json → "))));
+    EXPECT_THAT(messages(read_file_of(folder, "link.json")), ElementsAre(HasSubstr("is a ring")));
+    const std::string chain = fmt::format("({0}/b.json → {0}/c.json → {0}/b.json)", folder.path().string());
+    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr(chain)));
+}
+
+// Read once for each time that it is named, the last of these would be read 7¹² times.
+TEST(ComparedFiles, EachIsReadOnce) {
+    const testing::Folder folder;
+    for (int i = 0; i < 12; ++i) folder.write(fmt::format("{}.json", i), comparing(fmt::format("{}.json", i + 1), 7));
+    folder.write("12.json", R"({"beam": {"modes": 5}})");
+    const Reading reading = read_file_of(folder, "0.json");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    folder.write("top.json", comparing("12.json", 7));
+    EXPECT_EQ(std::get<StillOutput>(read_file_of(folder, "top.json").scene->outputs[0]).compare[7].problem.beam.modes,
+              5);
+}
+
+TEST(ComparedFiles, LongChainsAreRefused) {
+    const testing::Folder folder;
+    for (int i = 0; i < 2000; ++i) folder.write(fmt::format("{}.json", i), comparing(fmt::format("{}.json", i + 1)));
+    folder.write("2000.json", "{}");
+    EXPECT_THAT(messages(read_file_of(folder, "0.json")), ElementsAre(HasSubstr("in a chain")));
+    EXPECT_TRUE(read_file_of(folder, "1990.json").scene);
+}
+
+TEST(ComparedFiles, OnlyRegularFilesAreRead) {
+    const testing::Folder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
+    for (const char* name : {"pipe.json", "/dev/zero"}) {
+        folder.write("a.json", comparing(name));
+        EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("not a regular file"))) << name;
+    }
+    folder.write("a.json", comparing("-"));
+    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("there is no such file")));
+}
+
+TEST(Reader, NoTextHasTheCharacterThatEndsOne) {
+    EXPECT_THAT(messages(read("{\"title\": \"a\\u0000b\"}")), ElementsAre(HasSubstr("U+0000")));
+    EXPECT_THAT(messages(read("{\"x-\\u0000\": 1}")), ElementsAre(HasSubstr("U+0000")));
+    EXPECT_THAT(messages(read("{}", {"title=\"\\u0000\""})), ElementsAre(HasSubstr("U+0000")));
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+TEST(LoadSource, WhatCannotBeReadIsToldInWords) {
+    const testing::Folder folder;
+    EXPECT_THROW(load_source((folder / "absent.json").string()), UnreadableFile);
+    EXPECT_THROW(load_source(folder.path().string()), UnreadableFile);
+    try {
+        load_source(folder.path().string());
+    } catch (const UnreadableFile& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is a directory"));
+    }
+}
+
+TEST(LoadSource, TheSceneTakesTheFilesName) {
+    const testing::Folder folder;
+    const Reading reading = read_scene(load_source(folder.write("fall.v2.json", "{}").string()));
+    EXPECT_EQ(reading.scene->name, "fall.v2");
+    EXPECT_EQ(default_film(*reading.scene).file, "fall.v2.mp4");
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,137 @@
+#include "scenes/format/tree.hpp"
+
+#include <gtest/gtest.h>
+
+namespace beamcam::scenes {
+namespace {
+
+std::string first_message(const std::string& text) {
+    const Parsed parsed = parse(text);
+    if (parsed.messages.empty()) return "";
+    const LineColumn at = locate(text, parsed.messages.front().place.offset);
+    return std::to_string(at.line) + ":" + std::to_string(at.column) + " " + parsed.messages.front().text;
+}
+
+TEST(Tree, CommentsAndTrailingCommasVanishAndEveryOtherByteStays) {
+    const std::string text = "{ // a \"comment\", \n \"a//b\": [1, 2,], /* , } */ \"c\\\"/*\": 3, // x\n }";
+    const std::string blanked = blank_comments(text);
+    EXPECT_EQ(blanked.size(), text.size());
+    EXPECT_EQ(blanked, "{" + std::string(17, ' ') + "\n \"a//b\": [1, 2 ]," + std::string(11, ' ') + "\"c\\\"/*\": 3" +
+                           std::string(6, ' ') + "\n }");
+}
+
+TEST(Tree, CommasThatAreNotTrailingStay) {
+    for (const char* text : {"[,]", "{,}", "[1,,]", "{\"a\":,}", ",", "[1,/**/,2]"})
+        EXPECT_FALSE(parse(text).is_json) << text;
+}
+
+TEST(Tree, KeysAndValuesKnowWhereTheyStand) {
+    const std::string text = "{\n  \"α\": \"x\", \"b\" : [ -1.5e3, {\"c\": true}, \"\\\"]\" , null],\n\t\"d\":{}}";
+    const Parsed parsed = parse(text);
+    ASSERT_TRUE(parsed.is_json);
+    auto at = [&](const Place& place) {
+        const LineColumn where = locate(text, place.offset);
+        return std::to_string(where.line) + ":" + std::to_string(where.column);
+    };
+    const Node& root = parsed.root;
+    EXPECT_EQ(at(root.find("α")->key_place), "2:3");
+    EXPECT_EQ(at(root.find("α")->value.place), "2:8");
+    EXPECT_EQ(at(root.find("b")->key_place), "2:13");
+    const Node& b = root.find("b")->value;
+    EXPECT_EQ(at(b.place), "2:19");
+    EXPECT_EQ(at(b.items[0].place), "2:21");
+    EXPECT_EQ(b.items[0].text, "-1.5e3");
+    EXPECT_EQ(b.items[0].number, -1500);
+    EXPECT_EQ(at(b.items[1].find("c")->value.place), "2:35");
+    EXPECT_EQ(b.items[2].text, "\"]");
+    EXPECT_EQ(at(b.items[3].place), "2:50");
+    EXPECT_EQ(at(root.find("d")->value.place), "3:6");
+}
+
+TEST(Tree, AByteOrderMarkIsNoCharacter) {
+    const std::string text = "\xEF\xBB\xBF{\"a\": 1}";
+    const Parsed parsed = parse(text);
+    ASSERT_TRUE(parsed.is_json);
+    EXPECT_EQ(locate(text, parsed.root.find("a")->key_place.offset).column, 2u);
+}
+
+TEST(Tree, DuplicateKeysAreToldAndTheFirstCounts) {
+    const Parsed parsed = parse("{\"a\": {\"b\": 1,\n \"b\": {\"c\": [2]}, \"d\": 3}}");
+    ASSERT_TRUE(parsed.is_json);
+    ASSERT_EQ(parsed.messages.size(), 1u);
+    EXPECT_NE(parsed.messages[0].text.find("duplicate key \"b\""), std::string::npos);
+    const Node& a = parsed.root.find("a")->value;
+    ASSERT_EQ(a.members.size(), 2u);
+    EXPECT_EQ(a.find("b")->value.number, 1);
+    EXPECT_EQ(a.find("d")->value.number, 3);
+}
+
+TEST(Tree, SyntaxErrorsNameThePlaceAndTheRemedy) {
+    EXPECT_EQ(first_message(""), "1:1 the file is empty; the smallest scene is {}");
+    EXPECT_EQ(first_message("{\"a\": 1\n \"b\": 2}"), "2:2 a comma is missing before this");
+    EXPECT_EQ(first_message("{\"a\" 1}"), "1:6 a colon is missing between a key and its value");
+    EXPECT_EQ(first_message("{\"a\": }"), "1:7 a value is missing before this; write it, or remove the key");
+    EXPECT_EQ(first_message("{\"a\": [1, 2}"), "1:12 '}' closes what '[' in line 1 opened; write ']'");
+    EXPECT_EQ(first_message("{\"a\": [1, 2]"), "1:1 this object is never closed: the file ends before its '}'");
+    EXPECT_EQ(first_message("{\"a\": \"b\n\"}"),
+              "1:7 this text has no closing quote in its line; close it with \" (a line break inside a text is \\n)");
+    EXPECT_EQ(first_message("{\"a\": 09}"), "1:7 number 09 begins with 0; JSON writes it without");
+    EXPECT_EQ(first_message("{\"a\": 1e999}"), "1:7 number 1e999 is too large for a double; the largest is 1.8e308");
+    EXPECT_EQ(first_message("{\"a\": " + std::string(5000, '9') + "}"),
+              "1:7 number " + std::string(60, '9') + "… is too large for a double; the largest is 1.8e308");
+    EXPECT_EQ(first_message("{} {}"), "1:4 text after the end of the scene; a file holds one object { … }");
+    EXPECT_EQ(
+        first_message("{\"a\": yes}"),
+        "1:7 the bare word \"yes\"; put names and texts in double quotes (JSON's own words are true, false, null)");
+    EXPECT_EQ(
+        first_message("{\"a\": 12 mm}"),
+        "1:10 the bare word \"mm\"; put names and texts in double quotes (JSON's own words are true, false, null)");
+    EXPECT_EQ(first_message("{\"a\": \"\xff\"}"), "1:8 byte 0xff is not UTF-8; save the file as UTF-8");
+    EXPECT_EQ(first_message(std::string("{\0}", 3)),
+              "1:2 a NUL byte; this is not a text file, or it was damaged: save it as UTF-8 text");
+    EXPECT_EQ(first_message(std::string(100, '[')),
+              "1:65 more than 64 levels of brackets; a scene has no more than a handful");
+}
+
+TEST(Tree, NoPrefixOfASceneIsMistakenForAWholeOneOrCrashes) {
+    const std::string text =
+        "{\"a\": [1.5e-3, \"x\\u00e9\\n\", {\"b\": null, // c\n \"d\": [true, false,],}], /* e */ \"f\": \"é\"}";
+    ASSERT_TRUE(parse(text).is_json);
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        const Parsed parsed = parse(text.substr(0, n));
+        EXPECT_FALSE(parsed.is_json) << n;
+        ASSERT_EQ(parsed.messages.size(), 1u) << n;
+        EXPECT_LE(parsed.messages[0].place.offset, n);
+    }
+}
+
+TEST(Tree, AnyOneDamagedByteGivesATreeOrOneMessage) {
+    const std::string text = "{\"a\": [1.5e-3, \"x\\u00e9\", {\"b\": null}], \"f\": -0}";
+    for (std::size_t i = 0; i < text.size(); ++i)
+        for (int byte = 0; byte < 256; ++byte) {
+            std::string damaged = text;
+            damaged[i] = static_cast<char>(byte);
+            const Parsed parsed = parse(damaged);
+            if (parsed.is_json) continue;
+            ASSERT_EQ(parsed.messages.size(), 1u) << damaged;
+            EXPECT_LE(parsed.messages[0].place.offset, damaged.size());
+        }
+}
+
+TEST(Source, TheCaretStandsBelowThePlaceWhateverPrecedesIt) {
+    const std::vector<Source> sources = {{"f.json", "{\n\t\"αβ\": \"x\"}", true}};
+    const std::size_t offset = sources[0].text.find("\"x");
+    EXPECT_EQ(describe(sources, Message{{0, offset}, "wrong", true}),
+              "f.json:2:8: wrong\n    2 |  \"αβ\": \"x\"}\n      |        ^\n");
+}
+
+TEST(Source, LongLinesAreCutAroundThePlace) {
+    const std::string line = std::string(500, 'a') + "X" + std::string(500, 'b');
+    const std::string text = describe(std::vector<Source>{{"f", line, true}}, Message{{0, 500}, "wrong", true});
+    const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
+    EXPECT_LT(third - second, 130u);
+    EXPECT_NE(text.find("aX"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

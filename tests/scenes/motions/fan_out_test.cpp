@@ -1,0 +1,80 @@
+#include "scenes/motions/fan_out.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace beamcam::scenes {
+namespace {
+
+TEST(FanOut, CallsEachNumberOnceAndLetsThemThroughInOrder) {
+    for (const Crew& crew :
+         {Crew{1, 1}, Crew{3, 3}, Crew{1, 4, [] { return true; }}, Crew{2, 4, [] { return false; }}}) {
+        Gate gate;
+        std::vector<long> passed;
+        const int worked = fan_out(
+            500, crew, [&]() -> Worker { return [&](long k) { gate.pass(k, [&] { passed.push_back(k); }); }; }, gate);
+        ASSERT_EQ(passed.size(), 500u);
+        for (long k = 0; k < 500; ++k) EXPECT_EQ(passed[static_cast<std::size_t>(k)], k);
+        EXPECT_GE(worked, crew.first);
+        EXPECT_LE(worked, crew.most);
+    }
+}
+
+TEST(FanOut, StartsAnotherThreadOnlyWhereItHelps) {
+    std::atomic<int> asked{0};
+    const auto crew_of = [&](int yes_from, int yes_until) {
+        return Crew{1, 8, [&asked, yes_from, yes_until] {
+                        const int time = ++asked;
+                        return time >= yes_from && time < yes_until;
+                    }};
+    };
+    Gate gate;
+    std::mutex mutex;
+    std::set<std::thread::id> threads;
+    const auto note = [&]() -> Worker {
+        const std::lock_guard lock(mutex);
+        threads.insert(std::this_thread::get_id());
+        return [](long) {};
+    };
+    EXPECT_EQ(fan_out(100, crew_of(1000, 0), note, gate), 1);
+    EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
+    asked = 0;
+    threads.clear();
+    EXPECT_EQ(fan_out(100, crew_of(10, 12), note, gate), 3);
+    EXPECT_EQ(threads.size(), 3u);
+    // No more than there are numbers, however often it would help.
+    asked = 0;
+    EXPECT_LE(fan_out(2, crew_of(1, 1000), note, gate), 2);
+    EXPECT_EQ(fan_out(0, crew_of(1, 1000), note, gate), 1);
+}
+
+TEST(FanOut, TheFirstFailureEndsTheWork) {
+    for (const Crew& crew : {Crew{1, 1}, Crew{4, 4}, Crew{1, 4, [] { return true; }}}) {
+        Gate gate;
+        std::atomic<long> called{0};
+        const auto fail = [&]() -> Worker {
+            return [&](long k) {
+                ++called;
+                gate.pass(k, [&] {
+                    if (k == 20) throw std::runtime_error("number 20");
+                });
+            };
+        };
+        try {
+            fan_out(100000, crew, fail, gate);
+            FAIL();
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "number 20");
+        }
+        EXPECT_LT(called, 100000);
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,290 @@
+// A kept motion serves every problem with the same key, a finished file every scene with the same inputs. So the keys
+// must change with every leaf of a scene that matters, and with no other. The leaves are those of the schema: one that
+// the full scenes lack fails the test.
+#include "scenes/motions/identity.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Pointer = Json::json_pointer;
+
+const fs::path kCorpus = BEAMCAM_TEST_DIR "/scenes/corpus";
+
+// The schema as a tree of leaves. A leaf is named by its path and the variants on the way:
+// "hub.drive{type=prescribed law=spin-up}.duration".
+class Schema {
+  public:
+    Schema() : root_(Json::parse(testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"))) {
+        enumerate(root_, "", {});
+    }
+    const std::set<std::string>& leaves() const { return leaves_; }
+
+    struct Leaf {
+        std::string id;
+        Pointer place;                // in the scene
+        std::set<std::string> words;  // that the schema allows there
+    };
+    // Every leaf that a scene has.
+    std::vector<Leaf> leaves_of(const Json& scene) const {
+        std::vector<Leaf> found;
+        walk(root_, "", {}, scene, Pointer(), found);
+        return found;
+    }
+
+  private:
+    using Entered = std::map<std::string, std::string>;  // reference → the path at which it was first followed
+
+    static bool is_tag(const Json& schema) { return schema.contains("const"); }
+
+    // The variants that a schema offers, references followed. A reference that is followed already leads nowhere in
+    // `enumerate`, and back to its first path in `walk`.
+    struct Variant {
+        const Json* schema;
+        std::string path;
+        Entered entered;
+        bool again = false;
+    };
+    void expand(const Json& schema, const std::string& path, Entered entered, bool again,
+                std::vector<Variant>& out) const {
+        if (const auto reference = schema.find("$ref"); reference != schema.end()) {
+            const auto& name = reference->get_ref<const std::string&>();
+            const auto [first, fresh] = entered.emplace(name, path);
+            const std::string from = first->second;
+            return expand(root_.at(Pointer(name.substr(1))), from, entered, again || !fresh, out);
+        }
+        if (const auto all = schema.find("allOf"); all != schema.end())
+            return expand(all->front(), path, entered, again, out);
+        for (const char* choice : {"anyOf", "oneOf"})
+            if (const auto all = schema.find(choice); all != schema.end()) {
+                for (const Json& each : *all) expand(each, path, entered, again, out);
+                return;
+            }
+        out.push_back({&schema, path, entered, again});
+    }
+    std::vector<Variant> variants(const Json& schema, const std::string& path, const Entered& entered) const {
+        std::vector<Variant> out;
+        expand(schema, path, entered, false, out);
+        return out;
+    }
+
+    // What tells a variant from its siblings: its tags, and the keys that it cannot do without.
+    static std::string label(const Json& object) {
+        std::string text;
+        for (const Json& key : object.value("required", Json::array())) {
+            const Json& property = object.at("properties").at(key.get<std::string>());
+            if (!text.empty()) text += ' ';
+            text += key.get<std::string>() + (is_tag(property) ? "=" + property["const"].get<std::string>() : "");
+        }
+        return text.empty() ? "" : "{" + text + "}";
+    }
+    static std::string below(const Variant& variant, const std::string& key) {
+        const std::string path = variant.path + label(*variant.schema);
+        return path.empty() ? key : path + "." + key;
+    }
+
+    void enumerate(const Json& schema, const std::string& path, const Entered& entered) {
+        if (is_tag(schema)) return;
+        for (const Variant& variant : variants(schema, path, entered)) {
+            if (variant.again) continue;
+            const Json& s = *variant.schema;
+            if (s.contains("properties")) {
+                for (const auto& [key, property] : s["properties"].items())
+                    enumerate(property, below(variant, key), variant.entered);
+            } else if (s.contains("items")) {
+                enumerate(s["items"], variant.path + "[]", variant.entered);
+            } else if (s.value("type", "") != "null") {
+                leaves_.insert(variant.path);
+            }
+        }
+    }
+
+    static bool matches(const Json& object, const Json& value) {
+        if (!object.contains("properties") || !value.is_object()) return false;
+        for (const Json& key : object.value("required", Json::array()))
+            if (!value.contains(key.get<std::string>())) return false;
+        for (const auto& [key, given] : value.items()) {
+            const auto property = object["properties"].find(key);
+            if (property == object["properties"].end()) return false;
+            if (is_tag(*property) && (*property)["const"] != given) return false;
+            if (property->contains("enum") &&
+                std::ranges::find((*property)["enum"], given) == (*property)["enum"].end())
+                return false;
+        }
+        return true;
+    }
+
+    void walk(const Json& schema, const std::string& path, const Entered& entered, const Json& value,
+              const Pointer& place, std::vector<Leaf>& found) const {
+        if (is_tag(schema)) return;
+        const std::vector<Variant> all = variants(schema, path, entered);
+        std::set<std::string> words;
+        for (const Variant& variant : all) {
+            const Json& s = *variant.schema;
+            if (matches(s, value)) {
+                for (const auto& [key, given] : value.items())
+                    walk(s["properties"][key], below(variant, key), variant.entered, given, place / key, found);
+                return;
+            }
+            if (s.contains("items") && value.is_array()) {
+                for (std::size_t i = 0; i < value.size(); ++i)
+                    walk(s["items"], variant.path + "[]", variant.entered, value[i], place / i, found);
+                return;
+            }
+            if (s.contains("const")) words.insert(s["const"].get<std::string>());
+            for (const Json& word : s.value("enum", Json::array())) words.insert(word.get<std::string>());
+        }
+        found.push_back({all.front().path, place, words});
+    }
+
+    Json root_;
+    std::set<std::string> leaves_;
+};
+
+// Other values that the leaf might have; not all of them are allowed there.
+std::vector<Json> alternatives(const Json& value, const std::set<std::string>& words, const fs::path& folder) {
+    std::vector<Json> others;
+    if (value.is_boolean()) others.emplace_back(!value.get<bool>());
+    if (value.is_number_integer())
+        for (const long step : {1, -1, 2}) others.emplace_back(value.get<long>() + step);
+    if (value.is_number())
+        for (const double other : {value.get<double>() * 1.015625, value.get<double>() * 0.984375, 1e-3})
+            others.emplace_back(other);
+    if (value.is_object())
+        for (const auto& [key, inner] : value.items())
+            for (const Json& other : alternatives(inner, {}, folder)) {
+                others.push_back(value);
+                others.back()[key] = other;
+            }
+    if (!value.is_string()) return others;
+    for (const std::string& word : words) others.emplace_back(word);
+    const auto& text = value.get_ref<const std::string&>();
+    if (const std::size_t digit = text.find_first_of("012345678"); digit != std::string::npos) {
+        others.emplace_back(text);
+        ++others.back().get_ref<std::string&>()[digit];
+    }
+    others.emplace_back("other " + text);
+    for (const auto& entry : fs::directory_iterator(folder)) others.emplace_back(entry.path().filename().string());
+    return others;
+}
+
+struct Identities {
+    std::set<std::string> motion;  // of the scene, and of those that its pictures compare it with
+    std::vector<std::string> outputs;
+};
+
+const Picture* picture_of(const Output& output) {
+    return std::visit(
+        [](const auto& o) -> const Picture* {
+            if constexpr (std::is_base_of_v<Picture, std::decay_t<decltype(o)>>)
+                return &o;
+            else
+                return nullptr;
+        },
+        output);
+}
+
+Identities identities(const Scene& scene) {
+    Identities all;
+    all.motion.insert("scene " + motion_key(scene.problem));
+    for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
+        all.outputs.push_back(inputs_key(scene, i, scene.end_time, ""));
+        if (const Picture* picture = picture_of(scene.outputs[i]))
+            for (std::size_t k = 0; k < picture->compare.size(); ++k)
+                all.motion.insert(
+                    fmt::format("outputs.{}.compare.{} {}", i, k, motion_key(picture->compare[k].problem)));
+    }
+    return all;
+}
+
+bool is_mechanics(const std::string& section) {
+    return section != "$schema" && section != "title" && section != "time" && section != "outputs";
+}
+
+// Whether another value of the leaf is another motion, or is only drawn or written.
+bool decides_the_motion(const Schema::Leaf& leaf, const Scene& scene, const Scene& other) {
+    const sim::Contact& contact = scene.problem.contact;
+    if (leaf.id == "beam.basis") return resolved_basis(scene.problem) != resolved_basis(other.problem);
+    if (leaf.id == "beam.depth") return !contact.offset;
+    if (leaf.id == "cam.youngs_modulus" || leaf.id == "cam.poisson_ratio") return !contact.stiffness;
+    if (leaf.id.ends_with(".set") || leaf.id.ends_with(".scene")) return true;
+    return is_mechanics(leaf.place.to_string().substr(1, leaf.place.to_string().find('/', 1) - 1));
+}
+
+// Whether the output shows the leaf.
+bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
+    const std::string place = leaf.place.to_string();
+    if (place.starts_with("/outputs/")) return place.starts_with(fmt::format("/outputs/{}/", output));
+    const Output& any = scene.outputs[output];
+    const bool data = std::holds_alternative<TrajectoryOutput>(any) || std::holds_alternative<ImpactsOutput>(any) ||
+                      std::holds_alternative<SummaryOutput>(any);
+    if (place == "/$schema") return false;
+    if (place == "/title") return !data;
+    if (place != "/time/end") return true;
+    if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;
+    if (const auto* frames = std::get_if<FramesOutput>(&any)) return !frames->span.to;
+    if (const auto* still = std::get_if<StillOutput>(&any)) return still->at.kind != Instant::Kind::time;
+    if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
+    return true;
+}
+
+std::set<std::string> difference(const std::set<std::string>& a, const std::set<std::string>& b) {
+    std::set<std::string> only;
+    std::ranges::set_difference(a, b, std::inserter(only, only.end()));
+    return only;
+}
+
+TEST(Identity, ChangesExactlyWithTheLeavesThatMatter) {
+    const Schema schema;
+    std::set<std::string> changed;
+    for (const char* folder : {"full", "whole"})
+        for (const auto& entry : fs::directory_iterator(kCorpus / folder)) {
+            const fs::path& file = entry.path();
+            const auto read = [&](const Json& scene) { return read_scene({file.string(), scene.dump(), true}).scene; };
+            const Json full = Json::parse(testing::slurp(file));
+            const auto scene = read(full);
+            ASSERT_TRUE(scene) << file;
+            const Identities before = identities(*scene);
+            for (const Schema::Leaf& leaf : schema.leaves_of(full)) {
+                for (const Json& value : alternatives(full[leaf.place], leaf.words, file.parent_path())) {
+                    if (value == full[leaf.place]) continue;
+                    Json other = full;
+                    other[leaf.place] = value;
+                    const auto reread = read(other);
+                    if (!reread) continue;
+                    changed.insert(leaf.id);
+                    const Identities after = identities(*reread);
+                    const std::string what =
+                        fmt::format("{}: {} = {}", file.filename().string(), leaf.id, value.dump());
+                    EXPECT_EQ(after.motion != before.motion, decides_the_motion(leaf, *scene, *reread)) << what;
+                    for (std::size_t i = 0; i < before.outputs.size(); ++i)
+                        EXPECT_EQ(after.outputs[i] != before.outputs[i], shows(*scene, i, leaf))
+                            << what << ", of " << i;
+                    if (!leaf.words.contains(value.is_string() ? value.get<std::string>() : "")) break;
+                }
+            }
+        }
+    for (const std::string& leaf : difference(schema.leaves(), changed))
+        ADD_FAILURE() << "no full scene has " << leaf << ", or none can have another value there";
+    EXPECT_GE(schema.leaves().size(), 150u);
+}
+
+TEST(Identity, IsThatOfTheProblemHoweverItIsWritten) {
+    const auto key = [](const std::string& text) { return motion_key(testing::read(text).scene->problem); };
+    EXPECT_EQ(key("{}"), key(R"({"beam": {"length": "1000 mm"}, "title": "other", "time": {"end": 3}})"));
+    EXPECT_EQ(key("{}"), key(R"({"beam": {"basis": "hub-beam"}, "contact": {"offset": 0}})"));
+    EXPECT_EQ(key(R"({"contact": {"offset": "half-depth"}})"), key(R"({"contact": {"offset": 0.0184}})"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,143 @@
+// Poses and trajectories that are kept in files: the same bits, and the same pictures.
+#include "scenes/motions/spooled.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/run/simulate.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Folder, testing::Finished, testing::shell;
+using ::testing::HasSubstr;
+
+constexpr int kStations = 97;
+
+std::vector<double> instants(int count, double end) {
+    std::vector<double> all;
+    for (int k = 0; k < count; ++k) all.push_back(end * k / count);
+    return all;
+}
+
+void expect_same(const sim::Pose& a, const sim::Pose& b) {
+    EXPECT_EQ(a.t, b.t);
+    EXPECT_EQ(a.theta, b.theta);
+    EXPECT_EQ(a.theta_dot, b.theta_dot);
+    EXPECT_EQ(a.root_slope, b.root_slope);
+    EXPECT_EQ(a.centreline, b.centreline);
+    EXPECT_EQ(a.moment, b.moment);
+    EXPECT_EQ(a.cam_angle, b.cam_angle);
+    EXPECT_EQ(a.cam_centre, b.cam_centre);
+    EXPECT_EQ(a.disc_centre, b.disc_centre);
+    ASSERT_EQ(a.nearest.has_value(), b.nearest.has_value());
+    if (!a.nearest) return;
+    EXPECT_EQ(a.nearest->x, b.nearest->x);
+    EXPECT_EQ(a.nearest->s, b.nearest->s);
+    EXPECT_EQ(a.nearest->point, b.nearest->point);
+    EXPECT_EQ(a.nearest->normal, b.nearest->normal);
+    EXPECT_EQ(a.nearest->gap, b.nearest->gap);
+    EXPECT_EQ(a.nearest->force, b.nearest->force);
+    EXPECT_EQ(a.nearest->friction, b.nearest->friction);
+    EXPECT_EQ(a.nearest->touching, b.nearest->touching);
+}
+
+struct Both {
+    sim::Result held;
+    std::shared_ptr<SpooledPoses> spooled;
+};
+
+// The same poses, held by the result and handed on.
+Both run(const sim::Problem& problem, int frames, double end) {
+    const sim::PoseRequest held{.times = instants(frames, end), .stations = kStations};
+    sim::PoseRequest handed_on = held;
+    Both both;
+    both.spooled = std::make_shared<SpooledPoses>(held.times.size(), kStations);
+    handed_on.take = [&](std::size_t row, const sim::Pose& pose) { both.spooled->put(row, pose); };
+    sim::Request request;
+    request.end_time = end;
+    request.poses = {held, handed_on};
+    both.held = sim::simulate(problem, request);
+    return both;
+}
+
+TEST(SpooledPoses, AreThePosesToTheBit) {
+    sim::Problem with_friction, without_cam;
+    with_friction.contact.friction = sim::CoulombFriction{.coefficient = 0.2};
+    without_cam.cam.reset();
+    for (const sim::Problem& problem : {with_friction, without_cam}) {
+        const Both both = run(problem, 400, 0.5);  // more than memory holds
+        EXPECT_TRUE(both.held.poses[1].empty());
+        ASSERT_EQ(both.spooled->size(), both.held.poses[0].size());
+        for (std::size_t k = 0; k < both.spooled->size(); ++k) {
+            expect_same(both.spooled->pose(k), both.held.poses[0][k]);
+            EXPECT_EQ(both.spooled->time(k), both.held.poses[0][k].t);
+        }
+    }
+}
+
+TEST(SpooledPoses, OtherStationsHaveNoPlace) {
+    SpooledPoses poses(2, 5);
+    sim::Pose pose;
+    pose.centreline.resize(4), pose.moment.resize(4);
+    EXPECT_THROW(poses.put(0, pose), std::invalid_argument);
+    pose.centreline.resize(5), pose.moment.resize(5);
+    EXPECT_THROW(poses.put(2, pose), std::invalid_argument);
+    EXPECT_NO_THROW(poses.put(1, pose));
+}
+
+TEST(SpooledPoses, ASurveyBegunAnewForgetsItsContacts) {
+    SurveyedPoses poses(1, 2, 5);
+    sim::Pose pose;
+    pose.centreline.resize(5), pose.moment.resize(5);
+    for (std::size_t row : {0, 1, 2}) poses.put(row, pose);
+    EXPECT_EQ(poses.size(), 3U);
+    EXPECT_THROW(poses.put(3, pose), std::invalid_argument);
+    poses.put(0, pose);
+    EXPECT_EQ(poses.size(), 1U);
+}
+
+TEST(SpooledPoses, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
+    const sim::Problem problem;
+    const Both both = run(problem, 150, 0.6);
+    render::FilmSetup setup;
+    setup.problem = problem;
+    setup.width = 640, setup.height = 360;
+    setup.view.style = render::Style::flat;
+    setup.view.tip_path = true;
+    render::FilmSetup from_file = setup;
+    setup.poses = both.held.poses[0];
+    from_file.stored = both.spooled;
+    render::Film a(std::move(setup)), b(std::move(from_file));
+    EXPECT_EQ(a.exaggeration(), b.exaggeration());
+    ASSERT_EQ(a.frames(), b.frames());
+    for (int k = 0; k < a.frames(); k += 37) EXPECT_EQ(a.draw(k), b.draw(k)) << k;
+}
+
+// ---- with the cache and without ----------------------------------------------------------------
+
+TEST(Films, HaveTheSamePixelsWithTheCacheAndWithout) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 1.5}, "outputs": [{"type": "trajectory", "file": "m.csv", "rate": 50},
+        {"type": "frames", "file": "f-###.png", "size": [480, 270], "fps": 12, "from": 0.2, "to": 0.5, "view": {"style": "flat", "tip_path": "whole"},
+        "speed": {"around": "impacts", "factor": 0.02, "ease": "5 ms"},
+        "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}, "phase"]}}]})");
+    std::string pictures;
+    const auto made = [&](const char* how, const char* count) {
+        const Finished run =
+            shell(folder, std::string("rm -f f-*.png m.csv .beamcam.json; $BEAMCAM run s.json -v ") + how);
+        ASSERT_EQ(run.code, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(count)) << how;
+        const std::string found = shell(folder, "$BEAMCAM hash f-*.png").out;
+        EXPECT_GT(std::ranges::count(found, '\n'), 8);
+        EXPECT_TRUE(pictures.empty() || found == pictures) << how;
+        pictures = found;
+    };
+    made("--no-cache", "integrations=1 ");
+    made("", "integrations=1 ");  // kept
+    made("", "integrations=0 ");  // read back
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

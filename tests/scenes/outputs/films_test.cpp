@@ -1,0 +1,441 @@
+// Films of real motions: what is drawn touching touches, and files do not depend on threads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "render/mechanism/exaggeration.hpp"
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/film_times.hpp"
+#include "sim/run/simulate.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Folder, testing::Finished, testing::shell;
+using ::testing::HasSubstr;
+
+// Distance of the drawn face, as the polygon that is filled, from the drawn disc.
+double drawn_gap(const render::DrawnBeam& beam, const sim::Pose& pose, double radius) {
+    double best = 1e300;
+    for (std::size_t i = 0; i + 1 < beam.line.size(); ++i) {
+        const sim::Vec2 a = beam.face(i), ab = beam.face(i + 1) - a;
+        const double s = std::clamp(dot(pose.disc_centre - a, ab) / dot(ab, ab), 0.0, 1.0);
+        best = std::min(best, norm(a + ab * s - pose.disc_centre));
+    }
+    return best - radius;
+}
+
+// Frames in contact of a film at real speed and, between first touch and last release, twenty for each millisecond.
+void touches_within_half_a_pixel(const std::string& overrides, double wanted_factor) {
+    const Reading reading = testing::read("{" + overrides + "\"time\": {\"end\": 1}}");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const sim::Problem& problem = reading.scene->problem;
+    sim::Request all;
+    all.end_time = 1;
+    const sim::Result first = sim::simulate(problem, all);
+    ASSERT_FALSE(first.impacts.empty());
+    sim::PoseRequest request;
+    for (int k = 0; k < 60; ++k) request.times.push_back(k / 60.0);
+    for (const sim::Impact& impact : first.impacts)
+        for (double t = impact.t_start; t < impact.t_end.value_or(1); t += 5e-5) request.times.push_back(t);
+    std::ranges::sort(request.times);
+    all.poses = {request};
+    const sim::Result motion = sim::simulate(problem, all);
+    const std::vector<sim::Pose>& poses = motion.poses[0];
+    const double factor =
+        render::film_factor(problem, poses, wanted_factor > 0 ? std::optional(wanted_factor) : std::nullopt);
+    constexpr double kPixel = 1.0 / 950;  // [m], of a film 1920 pixels wide
+    int touching = 0;
+    for (const sim::Pose& pose : poses) {
+        const render::DrawnBeam beam = render::drawn_beam(problem, pose, factor, problem.beam.depth);
+        const double gap = drawn_gap(beam, pose, problem.cam->radius);
+        // Penetration is real: the drawing may show as much of it as there is, and no more.
+        EXPECT_GT(gap, std::min(pose.nearest->gap, 0.0) - 0.5 * kPixel) << "t = " << pose.t << ", ×" << factor;
+        if (!pose.nearest->touching) continue;
+        ++touching;
+        EXPECT_LT(std::abs(gap), std::abs(pose.nearest->gap) + 0.5 * kPixel) << "t = " << pose.t << ", ×" << factor;
+    }
+    EXPECT_GT(touching, 100);
+}
+
+TEST(Films, TouchingIsDrawnTouchingAtEveryFrameInContact) {
+    touches_within_half_a_pixel("\"beam\": {\"modes\": 4}, \"cam\": {\"speed\": 5},", 0);
+    touches_within_half_a_pixel("\"beam\": {\"modes\": 4}, \"cam\": {\"speed\": 0},", 100);
+    touches_within_half_a_pixel("\"contact\": {\"offset\": \"half-depth\"},", 50);
+}
+
+TEST(Films, WhatStandsStillIsNeitherDrawnNorConvertedAgain) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": 0.3}, "outputs": [{"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20,
+        "from": 0.2, "poster": "impact:1", "view": {"style": "flat"}, "events": [{"at": "impact:1", "freeze": 2, "text": "touch"}]}]})");
+    std::string pictures;
+    for (const char* jobs : {"1", "3"}) {
+        const Finished made = shell(folder, std::string("$BEAMCAM run s.json -v -j ") + jobs + " -o j" + jobs);
+        ASSERT_EQ(made.code, 0) << made.err;
+        EXPECT_THAT(made.err, HasSubstr("frames_repeated=31 "));  // from 0.4 s after the touch, when its ring is gone
+        const std::string found = shell(folder, std::string("$BEAMCAM hash j") + jobs + "/f.mkv | cut -c1-64").out;
+        EXPECT_TRUE(pictures.empty() || found == pictures);
+        pictures = found;
+    }
+    ASSERT_EQ(shell(folder,
+                    "sed -i 's/f.mkv/f-##.png/; s/video/frames/; s/\"poster\": \"impact:1\",//' s.json && $BEAMCAM run "
+                    "s.json -q")
+                  .code,
+              0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM hash j1/f.mkv | cut -c1-64").out,
+              shell(folder, "$BEAMCAM hash f-*.png | cut -c1-64").out);
+}
+
+TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "frames", "file": "f-###.png",
+        "size": [960, 540], "fps": 12, "from": 0.27, "view": {"style": "flat", "tip_path": "whole"},
+        "speed": {"around": "impacts", "factor": 0.02, "ease": "5 ms"}, "events": [{"at": "impact:1", "freeze": 0.5, "text": "touch"}],
+        "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}]}}]})");
+    std::string listing;
+    for (const char* jobs : {"1", "3"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM run s.json -j ") + jobs + " -o j" + jobs);
+        ASSERT_EQ(finished.code, 0) << finished.err;
+    }
+    EXPECT_EQ(shell(folder, "diff -r -x .beamcam.json j1 j3").out, "");
+    const int frames = std::stoi(shell(folder, "ls j1/*.png | wc -l").out);
+    EXPECT_GT(frames, 8);
+}
+
+TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "still", "at": "impact:1", "size": [320, 180],
+        "view": {"style": "flat"}}]})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    const Finished none = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:99");
+    EXPECT_EQ(none.code, 3);
+    EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
+}
+
+// The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
+TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 1}, "outputs": [{"type": "video", "file": "f.mp4", "size": [320, 180],
+        "fps": 20, "poster": "impact:4", "view": {"style": "flat"},
+        "events": [{"at": "impact:1", "freeze": 0.2}, {"at": "collision:2", "freeze": 0.4, "text": "again"}]}]})");
+    const auto run = [&](const char* more) {
+        const Finished finished = shell(folder, fmt::format("rm -f f.*; $BEAMCAM run s.json {}", more));
+        EXPECT_EQ(finished.code, 0) << finished.err;
+        return finished.err;
+    };
+    const std::string whole = run("");
+    EXPECT_THAT(whole, ::testing::AllOf(HasSubstr("32 frames"), ::testing::Not(HasSubstr("warning"))));
+    EXPECT_TRUE(std::filesystem::exists(folder / "f.png"));
+    const std::string early = run("--set outputs.0.to=0.5");
+    EXPECT_THAT(early, ::testing::AllOf(HasSubstr("14 frames"),
+                                        HasSubstr("does not show collision 2 or impact 4, its poster")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "f.png"));
+    const std::string late = run("--set outputs.0.from=0.5 --set outputs.0.to=1");
+    EXPECT_THAT(late, ::testing::AllOf(HasSubstr("18 frames"), HasSubstr("does not show impact 1:")));
+    const std::string compared =
+        run(R"(--set outputs.0.to=0.5 --set 'outputs.0.compare=[{"label":"a"},{"label":"b","set":{"cam.speed":5}}]')");
+    EXPECT_THAT(compared, HasSubstr("does not show collision 2 or impact 4, its poster"));
+    // The whole motion without such an impact is a mistake.
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --set 'outputs.0.events.0.at=\"impact:99\"'").code, 3);
+}
+
+TEST(Films, ScenesOfTheCommandLineAreCompared) {
+    const Folder folder;
+    folder.write("a.json", R"({"title": "slow", "cam": {"speed": 1}})");
+    folder.write("b.json", R"({"title": "fast", "cam": {"speed": 5}})");
+    const Finished finished = shell(folder,
+                                    "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat --size 640x360 && "
+                                    "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat -n");
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("as \"slow\" of c.png"));
+    EXPECT_THAT(finished.out, HasSubstr("as \"fast\" of c.png"));
+}
+
+// A grid of one mechanism would show the first motion alone.
+TEST(Films, ALayoutForOneMotionGivesWayToTheStandardOne) {
+    const Folder folder;
+    folder.write("a.json", R"({"title": "slow", "outputs": [{"type": "video", "file": "a.mp4",
+        "layout": {"columns": ["mechanism", "theta"]}}]})");
+    folder.write("b.json", R"({"title": "fast", "cam": {"speed": 5}})");
+    const std::string still = " --at 0.4 --style flat --size 640x360 && $BEAMCAM info --scene ";
+    const Finished panels = shell(folder, "$BEAMCAM render a.json b.json -o c.png" + still + "c.png");
+    EXPECT_EQ(panels.code, 0) << panels.err;
+    EXPECT_THAT(panels.err, HasSubstr("does not show 2 motions"));
+    EXPECT_THAT(panels.out, HasSubstr("\"layout\": \"auto\""));
+    EXPECT_THAT(panels.out, HasSubstr("Two motions compared"));
+    const Finished ghosts =
+        shell(folder, "$BEAMCAM render a.json b.json -o d.png --comparison ghosts" + still + "d.png");
+    EXPECT_THAT(ghosts.err, Not(HasSubstr("does not show")));
+    EXPECT_THAT(ghosts.out, Not(HasSubstr("\"layout\": \"auto\"")));
+}
+
+TEST(Films, PicturesSayWhenTheBeamBendsBeyondItsModel) {
+    const Folder folder;
+    const std::string still =
+        R"("outputs": [{"type": "still", "file": "s.png", "at": 0.4, "size": [640, 360], "view": {"style": "flat"}}]})";
+    folder.write("soft.json", R"({"beam": {"youngs_modulus": 1e8, "damping_ratio": 0.05}, )" + still);
+    folder.write("stiff.json", "{" + still);
+    EXPECT_THAT(shell(folder, "$BEAMCAM run -q soft.json && $BEAMCAM info s.png").out,
+                HasSubstr("bends beyond first-order"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run -q stiff.json && $BEAMCAM info s.png").out, Not(HasSubstr("bends beyond")));
+}
+
+TEST(Films, AStripWithoutChannelsIsToldToNameThem) {
+    const Reading reading =
+        testing::read(R"({"outputs": [{"type": "video", "layout": {"rows": ["mechanism", "strip"]}}]})");
+    EXPECT_FALSE(reading.scene);
+    ASSERT_EQ(testing::messages(reading).size(), 1u);
+    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("needs channels"));
+}
+
+TEST(Films, KeysOfAnOutputAtTheTopAreToldWhereTheyBelong) {
+    const Reading reading = testing::read(R"({"speed": {"around": "impacts"}, "layuot": 1})");
+    ASSERT_EQ(testing::messages(reading).size(), 2u);
+    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("it belongs into an output"));
+    EXPECT_THAT(testing::messages(reading).back(), Not(HasSubstr("belongs")));
+}
+
+TEST(Films, AHubOverTheCamIsRefused) {
+    const Reading over = testing::read(R"({"hub": {"radius": 0.3}})"),
+                  beside = testing::read(R"({"hub": {"radius": 0.1}})");
+    EXPECT_FALSE(over.scene);
+    EXPECT_THAT(testing::messages(over).front(), HasSubstr("the circle that the cam sweeps"));
+    EXPECT_TRUE(beside.scene);
+}
+
+TEST(Films, APosterAtAnImpactLeavesTheNumberOfFramesKnown) {
+    const Reading reading =
+        testing::read(R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "fps": 30, "poster": "impact:1"}]})");
+    ASSERT_TRUE(reading.scene);
+    EXPECT_THAT(to_text(plan(*reading.scene), *reading.scene), HasSubstr("15 frames of 0 s to 0.5 s"));
+}
+
+TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
+    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": {"around": "impacts"}}]})");
+    ASSERT_TRUE(reading.scene);
+    Plan p = plan(*reading.scene);
+    EXPECT_EQ(p.impacts_until, 1.5);
+    EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
+    settle(p, *reading.scene, [](const sim::Problem&, double) {
+        sim::Result result;
+        result.impacts.resize(1);
+        result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
+        return result;
+    });
+    EXPECT_FALSE(p.impacts_until);
+    EXPECT_GT(p.frames(), 90u + 60u);  // real time, and 22 ms at a fiftieth
+}
+
+TEST(Films, RealTimeFilmsNeedNoFirstRun) {
+    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.25}]})");
+    EXPECT_FALSE(plan(*reading.scene).impacts_until);
+    EXPECT_EQ(plan(*reading.scene).frames(), 360u);
+}
+
+// What shows collisions one by one, as very slow films do of themselves, has to know them.
+TEST(Films, ThoseOfCollisionsNeedAFirstRun) {
+    for (const char* keys : {R"("speed": 0.1)", R"("layout": {"panel": "contact_force", "window": "collision"})"}) {
+        const Reading reading = testing::read(std::string(R"({"outputs": [{"type": "video", )") + keys + "}]}");
+        ASSERT_TRUE(reading.scene) << keys;
+        EXPECT_EQ(plan(*reading.scene).impacts_until, 1.5) << keys;
+    }
+    // Nor is a close-up of one motion shown where several are compared.
+    const Reading both = testing::read(
+        R"({"outputs": [{"type": "video", "speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}]}]})");
+    ASSERT_TRUE(both.scene);
+    EXPECT_FALSE(plan(*both.scene).impacts_until);
+}
+
+// ---- posters -----------------------------------------------------------------------------------
+
+constexpr const char* kWithPoster = R"({"time": {"end": 0.4}, "outputs": [
+    {"type": "video", "file": "f.mkv", "size": [320, 180], "fps": 20, "view": {"style": "flat"}, "poster": "impact:1"}]})";
+
+TEST(Posters, AreTheFilmsOwnFrame) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    const Finished made = shell(folder, "$BEAMCAM run s.json -v");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("f.png (poster)"));
+    EXPECT_THAT(made.err, HasSubstr("frames_drawn=8 "));  // none of them twice
+    // The touch is at 0.277 s: the first frame after it is number 6, and FFV1 keeps every bit of it.
+    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | sed -n 7p").out, HasSubstr(poster));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info f.png --scene").out, HasSubstr("\"poster\": \"impact:1\""));
+}
+
+TEST(Posters, BelongToWhatIsFinished) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("f.mkv as it is"));
+    EXPECT_THAT(shell(folder, "rm f.png && $BEAMCAM run s.json && ls").out, HasSubstr("f.png"));
+    // A foreign picture of that name is refused before any work.
+    const Finished refused = shell(folder, "rm f.* && echo mine > f.png && $BEAMCAM run s.json; ls");
+    EXPECT_THAT(refused.err, HasSubstr("f.png"));
+    EXPECT_THAT(refused.out, ::testing::Not(HasSubstr("f.mkv")));
+}
+
+TEST(Posters, OfPartsAreMadeByThePartThatHasThem) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 1/2 && ls *.png").out, "");
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 2/2 && ls *.png").out, "f.png\n");
+}
+
+TEST(Posters, OfAFilmThatWasShortenedAreItsLastFrame) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [
+        {"type": "video", "file": "f.mkv", "size": [160, 90], "fps": 20, "view": {"style": "flat"}, "poster": 0.3}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q --set time.end=0.2").code, 0);
+    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | tail -n 1").out, HasSubstr(poster));
+}
+
+TEST(Posters, AreAskedForAndRefusedInWords) {
+    const Folder folder;
+    folder.write("s.json", kWithPoster);
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o g.mkv --to 0.1 -q && ls *.png").out, "");  // only when asked
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o g.mkv --to 0.1 --poster '50 ms' -q && ls *.png").out, "g.png\n");
+    const Finished late = shell(folder, "$BEAMCAM render s.json -o h.mkv --to 0.1 --poster 0.3");
+    EXPECT_EQ(late.code, 2);
+    EXPECT_THAT(late.err, HasSubstr("the poster at 0.3 s is no frame of a film from 0 s to 0.1 s"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o h-##.png --poster 0.1").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM render s.json -o h.mkv --poster impact:9").code, 3);
+    const Reading clash = testing::read(R"({"outputs": [{"type": "video", "file": "a.mp4", "poster": 0.1},
+        {"type": "still", "file": "a.png", "at": 0.2}]})");
+    EXPECT_FALSE(clash.scene);
+    EXPECT_THAT(clash.report(), HasSubstr("\"a.png\", which outputs.0 writes too"));
+}
+
+// A film that ends before the scene's other pictures tells of itself as if the run had ended with it.
+TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
+    const Folder folder;
+    for (const char* at : {"\"impact:1\"", "1.2"}) {
+        folder.write(
+            "s.json",
+            std::string(
+                R"({"outputs": [{"type": "still", "file": "t.png", "size": [160, 90], "view": {"style": "flat"}, "at": )") +
+                at +
+                R"(}, {"type": "video", "file": "f.mkv", "to": 0.3, "fps": 10, "size": [160, 90], "view": {"style": "flat"}}]})");
+        EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0) << at;
+        EXPECT_EQ(shell(folder, "$BEAMCAM hash f.mkv").out.size(),
+                  shell(folder, "$BEAMCAM hash f.mkv | head -n 3").out.size());
+    }
+}
+
+// ---- what scales are chosen by ---------------------------------------------------------------
+
+TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
+    const auto surveyed = [](const std::string& output) {
+        const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [)" + output + "]}");
+        const Plan made = plan(*reading.scene);
+        return made.simulation->request.poses.at(made.pictures.front().survey).times;
+    };
+    const auto thirty = surveyed(R"({"type": "video", "fps": 30, "from": 0.2, "to": 0.4})"),
+               sixty = surveyed(R"({"type": "video", "fps": 60, "from": 0.2, "to": 0.4})");
+    EXPECT_EQ(thirty, sixty);
+    EXPECT_EQ(thirty.front(), 0.2);
+    EXPECT_EQ(thirty.back(), 0.4);
+    EXPECT_EQ(surveyed(R"({"type": "still", "at": 0.3})").back(), 0.3);
+}
+
+// A picture of an impact has the factor of the film: "deflection ×5", not what the beam's bend in free fall would bear.
+TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
+        {"type": "video", "fps": 30}]})");
+    Plan made = plan(*reading.scene);
+    settle(made, *reading.scene, [](const sim::Problem& problem, double until) {
+        sim::Request request;
+        request.end_time = until;
+        return sim::simulate(problem, request);
+    });
+    const auto& poses = made.simulation->request.poses;
+    EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
+}
+
+// ---- what can come to nothing ----------------------------------------------------------------
+
+TEST(Films, TellOfWhatTheyWillNotShow) {
+    const auto told = [](const std::string& output, const std::string& physics = {}) {
+        const Reading reading = testing::read("{" + physics + "\"time\": {\"end\": 1}, \"outputs\": [" + output + "]}");
+        return std::pair{reading.scene.has_value(), reading.report()};
+    };
+    const auto late = told(R"({"type": "video", "to": 0.3, "events": [{"at": 0.5, "text": "late"}]})");
+    EXPECT_TRUE(late.first);
+    EXPECT_THAT(late.second, HasSubstr("outputs.0.events.0.at = 0.5 s is no instant of a film from 0 s to 0.3 s"));
+    const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
+    EXPECT_TRUE(alone.first);
+    EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
+    const auto flat = told(R"({"type": "still", "at": 0.1, "view": {"style": "flat", "camera": {"yaw": 0.5}}})");
+    EXPECT_TRUE(flat.first);
+    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera moves in the solid view alone"));
+    const std::string two = R"("compare": [{"label": "a"}, {"label": "b", "set": {"cam": null}}])";
+    const auto collisions =
+        told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
+    EXPECT_FALSE(collisions.first);
+    EXPECT_THAT(collisions.second, HasSubstr("is of one motion's collisions, and the picture compares 2"));
+    EXPECT_TRUE(told(R"({"type": "video", "layout": {"rows": ["mechanism", "contact_force"]}, )" + two + "}").first);
+    EXPECT_FALSE(
+        told(R"({"type": "video", "layout": {"rows": ["mechanism", {"panel": "close-up", "motion": 2}]}, )" + two + "}")
+            .first);
+}
+
+TEST(Films, AFirstMotionWithoutACamHidesNoContactOfTheOthers) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": 0.5,
+        "compare": [{"label": "free", "set": {"cam": null}}, {"label": "cam"}]}]})");
+    const Plan made = plan(*reading.scene);
+    EXPECT_THAT(made.pictures.front().chart_channels,
+                ::testing::Contains(sim::Channel{sim::ChannelKind::contact_force, 0}));
+}
+
+TEST(Films, AFactorThatYieldsIsTold) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7, "size": [160, 90],
+        "view": {"style": "flat", "exaggeration": 1e6}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err,
+                HasSubstr("instead of ×1e+06, which would draw the beam into the cam"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.view.exaggeration=2").err,
+                ::testing::Not(HasSubstr("warning")));
+}
+
+// One frame has all of the path that led to it.
+TEST(Films, AStillHasThePathOfTheTip) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"cam": null, "time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7,
+        "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}},
+        {"type": "still", "file": "b.png", "at": 0, "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_EQ(shell(folder,
+                    "$BEAMCAM run s.json --force --set outputs.0.file=c.png --set outputs.0.view.tip_path=recent "
+                    "--set outputs.1.file=d.png")
+                  .code,
+              0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png c.png").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff b.png d.png").code, 0);
+}
+
+// ---- what finds no room ------------------------------------------------------------------------
+
+TEST(Films, PanelsThatFindNoRoomAreTold) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.1,
+        "size": [640, 300], "view": {"style": "flat"},
+        "layout": {"columns": ["mechanism", {"rows": ["theta", "contact_force", "energy"]}]}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("panels energy of a.png: 640 × 300 is too small"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("warning: a.png shows no energy: 640 × 300"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json -q --force").err, ::testing::IsEmpty());
+    // The standard arrangement is nobody's wish.
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.layout=auto").err,
+                ::testing::Not(HasSubstr("warning")));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

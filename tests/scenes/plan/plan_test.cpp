@@ -1,0 +1,274 @@
+#include "scenes/plan/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::read;
+
+Scene scene_of(const std::string& text) {
+    Reading reading = read(text);
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return *reading.scene;
+}
+
+Plan plan_of(const std::string& outputs, const std::string& physics = "") {
+    return plan(scene_of("{" + physics + "\"outputs\": " + outputs + "}"));
+}
+
+std::string text_of(const std::string& scene_text) {
+    const Scene scene = scene_of(scene_text);
+    return to_text(plan(scene), scene);
+}
+
+TEST(Plan, WithoutOutputsNothingIsDone) {
+    const Plan p = plan_of("[]");
+    EXPECT_FALSE(p.simulation);
+    EXPECT_EQ(p.frames(), 0u);
+    EXPECT_FALSE(p.needs_gl());
+    EXPECT_FALSE(p.needs_encoder());
+}
+
+TEST(Plan, ATableNeedsNeitherPicturesNorEncoderNorOpenGl) {
+    const Plan p = plan_of(R"([{"type": "trajectory", "channels": ["theta"], "times": [0.3, 0.1]}])");
+    EXPECT_TRUE(p.pictures.empty());
+    EXPECT_FALSE(p.needs_gl());
+    EXPECT_FALSE(p.needs_encoder());
+    EXPECT_TRUE(p.simulation->request.poses.empty());
+    EXPECT_TRUE(p.simulation->request.extrema.empty());
+    ASSERT_EQ(p.simulation->request.tables.size(), 1u);
+    EXPECT_THAT(p.simulation->request.tables[0].times, ElementsAre(0.3, 0.1));
+    EXPECT_THAT(p.simulation->request.tables[0].channels,
+                ElementsAre(sim::Channel{sim::ChannelKind::t, 0}, sim::Channel{sim::ChannelKind::theta, 0}));
+}
+
+TEST(Plan, SimulationEndsWhereTheLastOutputLooks) {
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}])").simulation->request.end_time, 0.3);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "trajectory", "times": [0.7]}])")
+                  .simulation->request.end_time,
+              0.7);
+    EXPECT_EQ(plan_of(R"([{"type": "video", "to": 0.5}])").simulation->request.end_time, 0.5);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "impacts"}])").simulation->request.end_time, 1.5);
+    EXPECT_EQ(plan_of(R"([{"type": "trajectory", "times": [2.5]}])").simulation->request.end_time, 2.5);
+    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0}])").simulation->request.end_time, 0);
+}
+
+TEST(Plan, FramesStandAtMultiplesOfTheFramePeriod) {
+    const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
+    EXPECT_EQ(p.pictures[0].first_frame, 2);
+    EXPECT_THAT(p.simulation->request.poses[0].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
+    EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").frames(), 600u);
+    EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").frames(), 300u);
+}
+
+TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
+    const auto rows = [](const char* end) {
+        return plan_of(R"([{"type": "trajectory", "rate": 10}])", std::string("\"time\": {\"end\": ") + end + "},")
+            .simulation->request.tables[0]
+            .times;
+    };
+    EXPECT_THAT(rows("0.3"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.3));
+    EXPECT_THAT(rows("0.25"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.25));
+    EXPECT_THAT(rows("0.05"), ElementsAre(0, 0.05));
+}
+
+TEST(Plan, AFlatViewNeedsNoOpenGl) {
+    EXPECT_FALSE(plan_of(R"([{"type": "video", "view": {"style": "flat"}}])").needs_gl());
+    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").needs_gl());
+    EXPECT_FALSE(plan_of(R"([{"type": "still", "at": 0}])").needs_encoder());
+}
+
+TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
+    EXPECT_FALSE(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0].trace);
+    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").pictures[0].trace);
+}
+
+TEST(Plan, OneSimulationServesEveryOutput) {
+    const Plan p = plan_of(
+        R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
+    EXPECT_EQ(p.simulation->request.poses.size(), 4U);   // of each its frames, and what its scales are chosen by
+    EXPECT_EQ(p.simulation->request.tables.size(), 5u);  // chart and trace of each picture, and the table
+    EXPECT_NE(p.pictures[0].poses, p.pictures[1].poses);
+}
+
+// ---- golden texts ------------------------------------------------------------------------------
+
+TEST(PlanText, AFilm) {
+    EXPECT_EQ(text_of(R"({"time": {"end": 10}, "outputs": [{"type": "video"}]})"), R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 10 s, because of scene.mp4
+  video     scene.mp4: 600 frames of 0 s to 9.98333 s at 60 a second, 1920 × 1080, lit; H.264, crf 18, veryfast
+skipped
+  20 of 24 channels: no output reads them
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
+)");
+}
+
+TEST(PlanText, ATableOfTheRigidBeamWithoutACam) {
+    EXPECT_EQ(
+        text_of(
+            R"({"cam": null, "beam": {"model": "rigid"}, "outputs": [{"type": "trajectory", "channels": ["theta"], "times": [0.37]}]})"),
+        R"(to do
+  simulate  rigid, no contact; until 0.37 s, because of scene.csv
+  table     scene.csv: 1 rows of 2 channels
+skipped
+  simulation from 0.37 s to 1.5 s: no output looks that far
+  contact: the scene has no cam
+  21 of 22 channels: no output reads them
+  pictures, fonts and OpenGL: no output is a picture
+  video encoder: no output is a video
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
+)");
+}
+
+TEST(PlanText, AFlatStillOfTheStart) {
+    EXPECT_EQ(text_of(R"({"outputs": [{"type": "still", "at": 0, "view": {"style": "flat"}, "size": [800, 600]}]})"),
+              R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; the initial state only, nothing to integrate
+  still     scene.png: one picture of 0 s, 800 × 600, flat
+skipped
+  simulation from 0 s to 1.5 s: no output looks that far
+  20 of 24 channels: no output reads them
+  OpenGL: every view is flat
+  video encoder: no output is a video
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
+)");
+}
+
+TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
+    const Scene scene = scene_of(
+        R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
+    Plan p = plan(scene);
+    note_unwritten(p, scene);
+    EXPECT_THAT(
+        to_text(p, scene),
+        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10^8 N m^−1.5, c = 0.7; "
+                  "frictionless; colour scales on a.png: 320 × 180 leaves no room to write them; a larger \"size\" "
+                  "would\n  simulation from 0 s"));
+}
+
+TEST(PlanText, EveryOutputAtOnce) {
+    EXPECT_EQ(
+        text_of(
+            R"({"beam": {"model": "exact", "modes": 6}, "outputs": [{"type": "frames", "fps": 30, "from": 0.5}, {"type": "trajectory"}, {"type": "impacts"}, {"type": "summary", "horizon": true}]})"),
+        R"(to do
+  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, because of scene-####.png; a second run finds until when it is reproducible
+  frames    scene-####.png: 30 frames of 0.5 s to 1.46667 s at 30 a second, 1920 × 1080, lit
+  table     scene.csv: 1501 rows of 29 channels
+  impacts   scene-impacts.json
+  summary   scene-summary.json
+skipped
+  video encoder: no output is a video
+)");
+}
+
+// ---- in the light of what is there -------------------------------------------------------------
+
+constexpr const char* kTwo = R"({"outputs": [
+    {"type": "frames", "file": "f-##.png", "fps": 20, "to": 0.5, "size": [320, 180], "view": {"style": "flat"}},
+    {"type": "trajectory", "file": "t.csv", "times": [0.4]}]})";
+
+std::string text_with(const Known& known, const Ask& ask = {}) {
+    const Scene scene = scene_of(kTwo);
+    return to_text(plan(scene, ask, known), scene);
+}
+
+TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
+    Known known;
+    known.finished = {1};
+    known.frames[0] = {0, 1, 2, 7};
+    known.keeps = true;
+    known.kept_until = 0.6;
+    EXPECT_EQ(text_with(known), R"(to do
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, because of f-##.png; kept from an earlier run
+  frames    f-##.png: 6 frames of 0.15 s to 0.45 s at 20 a second, 320 × 180, flat
+skipped
+  4 frames of f-##.png: they are there already, made from the same inputs
+  t.csv: it is there already, made from the same inputs
+  simulation from 0.5 s to 1.5 s: no output looks that far
+  integration: the motion is kept from an earlier run
+  20 of 24 channels: no output reads them
+  OpenGL: every view is flat
+  video encoder: no output is a video
+  extrema and turning points: no output is a summary
+  second run for the reproducible horizon: nothing asks for it
+)");
+    known.kept_until = 0.4;  // too short
+    EXPECT_THAT(text_with(known), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
+    known.finished = {0, 1};
+    EXPECT_EQ(text_with(known), R"(to do
+skipped
+  f-##.png: it is there already, made from the same inputs
+  t.csv: it is there already, made from the same inputs
+  simulation: everything is there already
+)");
+}
+
+TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
+    Ask ask;
+    ask.shard = 2;
+    ask.shards = 3;
+    const std::string text = text_with({}, ask);
+    EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames of 0.15 s to 0.25 s"));
+    EXPECT_THAT(text, HasSubstr("  7 of 10 frames of f-##.png: other shards draw them\n"));
+    EXPECT_THAT(text, HasSubstr("  t.csv: the first shard makes it\n"));
+}
+
+TEST(Plan, ShardsCoverEveryFrameOnce) {
+    const Scene scene = scene_of(R"({"outputs": [{"type": "video", "fps": 20, "from": 0.3}]})");
+    for (int shards : {1, 2, 3, 7, 24}) {
+        std::vector<int> all;
+        for (int shard = 1; shard <= shards; ++shard) {
+            Ask ask;
+            ask.shard = shard;
+            ask.shards = shards;
+            const Plan p = plan(scene, ask);
+            ASSERT_EQ(p.pictures.size(), 1u);
+            all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
+            // Scales and camera are those of the whole film.
+            EXPECT_EQ(p.simulation->request.poses[0].times.size(), 24u);
+        }
+        EXPECT_EQ(all.size(), 24u);
+        EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+    }
+    Ask ask;
+    ask.shard = 25;
+    ask.shards = 30;
+    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), ask).pictures.empty());
+    EXPECT_EQ(shard_file("out/fall.mp4", 2, 3), "out/fall.2of3.mp4");
+}
+
+TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
+    Known known;
+    known.keeps = true;
+    const auto keeps = [&](const char* outputs) {
+        return plan(scene_of(std::string("{\"outputs\": ") + outputs + "}"), {}, known).simulation->keep;
+    };
+    EXPECT_FALSE(keeps(R"([{"type": "summary"}, {"type": "impacts"}])"));
+    EXPECT_FALSE(keeps(R"([{"type": "still", "at": 0}])"));
+    EXPECT_TRUE(keeps(R"([{"type": "summary"}, {"type": "trajectory"}])"));
+    EXPECT_TRUE(keeps(R"([{"type": "still", "at": 0.1}])"));
+}
+
+TEST(Plan, PicturesThatEndBeforeTheRunAreToldOfNoMoreThanTheirs) {
+    const Plan p = plan_of(
+        R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
+    EXPECT_THAT(p.simulation->ends, ElementsAre(0.5));
+    EXPECT_EQ(p.pictures[0].until, 0u);
+    EXPECT_FALSE(p.pictures[1].until);
+    EXPECT_EQ(p.pictures[2].until, 0u);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

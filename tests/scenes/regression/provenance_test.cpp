@@ -1,0 +1,152 @@
+// `beamcam info` and `beamcam doctor`.
+#include "scenes/regression/provenance.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::shell;
+
+constexpr const char* kScene = R"({"title": "θ", "time": {"end": 0.3}, "outputs": [
+    {"type": "still", "file": "a.png", "at": 0.2, "size": [192, 108], "view": {"style": "flat"}},
+    {"type": "video", "file": "a.mp4", "fps": 20, "size": [192, 108], "view": {"style": "flat"}},
+    {"type": "trajectory", "file": "a.npz", "rate": 50, "channels": ["theta"]},
+    {"type": "trajectory", "file": "a.csv", "rate": 50, "channels": ["theta"]},
+    {"type": "impacts", "file": "a.json"}]})";
+
+TEST(Info, EveryOutputGivesBackASceneThatMakesItAgain) {
+    const Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
+    for (const char* file : {"a.png", "a.mp4", "a.npz", "a.csv", "a.json"}) {
+        const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
+        EXPECT_EQ(info.code, 0) << info.err;
+        EXPECT_THAT(info.out, HasSubstr("made by        beamcam 0.")) << file;
+        const std::string again =
+            std::string("$BEAMCAM info --scene ") + file + " > again.json && $BEAMCAM run -q again.json -o again";
+        EXPECT_EQ(shell(folder, again).code, 0) << file;
+        const std::string ending = std::string(file).substr(1);
+        if (ending == ".png" || ending == ".mp4")
+            EXPECT_EQ(shell(folder, std::string("$BEAMCAM diff a") + ending + " again/a" + ending).code, 0) << file;
+        else
+            EXPECT_EQ(testing::slurp(folder / file), testing::slurp(folder / ("again/" + std::string(file)))) << file;
+        std::filesystem::remove_all(folder / "again");
+    }
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.mp4").out, HasSubstr("frames         6"));
+    ASSERT_EQ(shell(folder,
+                    "for e in webm gif; do $BEAMCAM render -q s.json --style flat --fps 10 --size 96x64 -o b.$e; done")
+                  .code,
+              0);
+    for (const char* file : {"b.webm", "b.gif"})
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM info --scene ") + file +
+                                    " > again.json && $BEAMCAM run -q again.json -o again && $BEAMCAM diff " + file +
+                                    " again/" + file)
+                      .code,
+                  0)
+            << file;
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.png --json").out, HasSubstr("\"title\": \"θ\""));
+}
+
+TEST(Info, FiguresGiveBackTheSceneThatMakesTheSameBytes) {
+    const Folder folder;
+    folder.write("s.json", R"({"title": "a < b & θ", "cam": {"speed": 2}})");
+    for (const char* file : {"deflection.svg", "deflection.pdf", "deflection.png"}) {
+        const std::string name(file);
+        ASSERT_EQ(shell(folder, "$BEAMCAM figure -q s.json deflection --lang zh --column aps -o " + name).code, 0);
+        EXPECT_THAT(shell(folder, "$BEAMCAM info " + name).out, HasSubstr("made by        beamcam 0."));
+        ASSERT_EQ(shell(folder, "$BEAMCAM info --scene " + name + " > t.json && $BEAMCAM run -q t.json -o again").code,
+                  0);
+        EXPECT_EQ(testing::slurp(folder / name), testing::slurp(folder / ("again/" + name))) << name;
+    }
+}
+
+TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    ASSERT_EQ(shell(folder, "$BEAMCAM render -q s.json --style flat --at 0.1 --size 96x96 -o \"$PWD/x.png\"").code, 0);
+    EXPECT_EQ(shell(folder,
+                    "$BEAMCAM info x.png --scene > t.json && $BEAMCAM run -q t.json -o again && $BEAMCAM diff x.png "
+                    "again/x.png")
+                  .code,
+              0);
+}
+
+TEST(Info, ForeignAndDamagedFilesAreToldApart) {
+    const Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json && ffmpeg -v error -i a.png -map_metadata -1 f.png").code, 0);
+    const Finished foreign = shell(folder, "$BEAMCAM info f.png");
+    EXPECT_EQ(foreign.code, 0);
+    EXPECT_THAT(foreign.out, HasSubstr("not by beamcam"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM info f.png --scene").code, 6);
+    folder.write("a.csv", "t,theta\n0,1\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.csv").out, HasSubstr("changed since  yes"));
+    const std::string film = testing::slurp(folder / "a.mp4");
+    folder.write("cut.mp4", film.substr(0, 40));
+    for (const char* file : {"cut.mp4", "absent.png", "."})
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM info ") + file).code, 6) << file;
+}
+
+TEST(Info, ReadsFiguresOfBothVectorFormats) {
+    const Folder folder;
+    folder.write("a.svg",
+                 "<?xml version=\"1.0\"?>\n<svg>\n<title>T</title>\n<desc>D</desc>\n<metadata>\n<creator>beamcam "
+                 "0.1.0</creator>\n"
+                 "<scene>{&quot;title&quot;: &quot;a &amp;lt; b&quot;}</scene>\n</metadata></svg>");
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.svg --scene").out, HasSubstr("\"title\": \"a &lt; b\""));
+    folder.write("a.pdf",
+                 "%PDF-1.5\n1 0 obj << /Title <FEFF03C9> /Creator (beamcam 0.1.0) /Keywords ({\"gravity\": \\(1\\)}) "
+                 ">>\n%%EOF\n");
+    const Finished pdf = shell(folder, "$BEAMCAM info a.pdf");
+    EXPECT_THAT(pdf.out, HasSubstr("title          ω"));
+    EXPECT_THAT(pdf.out, HasSubstr("beamcam 0.1.0"));
+    folder.write("a.pdf", "%PDF-1.5\n1 0 obj");
+    EXPECT_EQ(shell(folder, "$BEAMCAM info a.pdf").code, 6);
+}
+
+TEST(GlDoctor, NamesThePackageOfWhatIsMissing) {
+    const Folder folder;
+    const Finished whole = shell(folder, "$BEAMCAM doctor");
+    EXPECT_EQ(whole.code, 0) << whole.out;
+    EXPECT_THAT(whole.out, HasSubstr("cairo"));
+    const Finished fonts = shell(folder, "BEAMCAM_FONT_DIR=/nowhere $BEAMCAM doctor --json");
+    EXPECT_EQ(fonts.code, 5);
+    EXPECT_THAT(fonts.out, HasSubstr("fonts-inter"));
+    const Finished gl = shell(folder, "BEAMCAM_MODULE_DIR=/nowhere $BEAMCAM doctor");
+    EXPECT_EQ(gl.code, 5);
+    EXPECT_THAT(gl.out, HasSubstr("libosmesa6"));
+}
+
+// Drivers that this machine lacks, and switches that make Mesa crash.
+TEST(GlEnvironment, SettingsOfMesaAreIgnoredAndNamed) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const char* render = "$BEAMCAM render s.json -o x.png --at 0 --size 64x48 --force";
+    ASSERT_EQ(shell(folder, std::string(render) + "; $BEAMCAM hash x.png >a").code, 0);
+    for (const char* setting :
+         {"GALLIUM_DRIVER=d3d12", "GALLIUM_DRIVER=zink", "GALLIUM_DRIVER=virpipe", "GALLIUM_DRIVER=softpipe",
+          "GALLIUM_DRIVER=nonsense", "DRAW_USE_LLVM=0", "LP_NATIVE_VECTOR_WIDTH=512", "LP_NATIVE_VECTOR_WIDTH=64",
+          "MESA_EXTENSION_OVERRIDE=-GL_ARB_vertex_array_object", "MESA_GL_VERSION_OVERRIDE=2.1",
+          "MESA_GLSL_VERSION_OVERRIDE=110", "LIBGL_ALWAYS_INDIRECT=1"}) {
+        const Finished doctor = shell(folder, std::string(setting) + " $BEAMCAM doctor");
+        EXPECT_EQ(doctor.code, 0) << setting << doctor.out;
+        EXPECT_THAT(doctor.out, HasSubstr(setting));
+        const Finished drawn =
+            shell(folder, std::string("export ") + setting + "; " + render + " && $BEAMCAM hash x.png | cmp - a");
+        EXPECT_EQ(drawn.code, 0) << setting << drawn.err;
+        EXPECT_THAT(drawn.err, HasSubstr(setting));
+    }
+    EXPECT_THAT(shell(folder, std::string("LP_NUM_THREADS=1 GALLIUM_DRIVER=llvmpipe ") + render).err,
+                ::testing::Not(HasSubstr("ignored")));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,451 @@
+// `beamcam test`: what it catches, what it lets pass, what it touches.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/regression/baselines.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::shell;
+using testing::slurp;
+
+// Two pictures and a table of one motion, and one of another; written as people write it.
+constexpr const char* kBaselines = R"({
+  // guarded since the beginning
+  "entries": {
+    "fall": {"scene": "s.json", "output": {"type": "still", "at": "0.2 s", "size": [480, 270], "view": {"style": "flat"}}},
+    "hit": {"scene": "s.json", "output": {"type": "frames", "from": 0.25, "to": 0.35, "fps": 20, "size": [480, 270],
+            "view": {"style": "flat"}}, /* the first touch */},
+    "motion": {"scene": "s.json", "output": {"type": "trajectory", "rate": 50, "channels": ["theta"]}},
+    "fast": {"scene": {"time": {"end": 0.1}}, "set": ["cam.speed=5"], "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}},
+  },
+}
+)";
+
+struct Guarded : Folder {
+    Guarded() {
+        write("b.json", kBaselines);
+        write("s.json", R"({"time": {"end": 0.35}})");
+    }
+    Finished update() const { return shell(*this, "$BEAMCAM test b.json --update fall hit motion fast"); }
+    void swap(const std::string& file, const std::string& from, const std::string& to) const {
+        std::string text = slurp(*this / file);
+        const std::size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << text;
+        write(file, text.replace(at, from.size(), to));
+    }
+};
+
+TEST(Regression, WhatWasNeverAcceptedIsMissingAndFails) {
+    const Guarded folder;
+    const Finished finished = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(finished.code, 7) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("missing     fall"));
+    EXPECT_EQ(slurp(folder / "b.json"), kBaselines);
+}
+
+TEST(Regression, UpdateEndsWithSevenAndThenAllIsIdentical) {
+    const Guarded folder;
+    const Finished updated = folder.update();
+    EXPECT_EQ(updated.code, 7) << updated.err;
+    EXPECT_THAT(updated.out, HasSubstr("updated"));
+    const std::string text = slurp(folder / "b.json");
+    EXPECT_THAT(text, HasSubstr("// guarded since the beginning"));
+    EXPECT_THAT(text, HasSubstr("/* the first touch */"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "b/hit/0001.png"));
+    const Finished again = shell(folder, "$BEAMCAM test b.json --strict -j1");
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_THAT(again.err, HasSubstr("4 entries: 4 identical"));
+    EXPECT_THAT(again.err, HasSubstr("2 simulations, 4 pictures"));  // three entries share one motion
+    EXPECT_EQ(slurp(folder / "b.json"), text);
+}
+
+TEST(Regression, AnEntryAloneIsJudgedAsAmongOthers) {
+    const Guarded folder;
+    folder.update();
+    for (const char* name : {"fall", "hit", "motion", "fast"})
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM test b.json --strict --only ") + name).code, 0) << name;
+}
+
+TEST(Regression, DigestsAreThoseOfTheReferencePictures) {
+    const Guarded folder;
+    folder.update();
+    const std::string digest = shell(folder, "$BEAMCAM hash b/fall/0000.png").out.substr(0, 64);
+    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(digest));
+}
+
+TEST(Regression, TellsAPictureThatMovedFromAMotionThatMoved) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another title"})");
+    const Finished picture = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(picture.code, 7);
+    EXPECT_THAT(picture.out, HasSubstr("different   fall"));
+    EXPECT_THAT(picture.out, HasSubstr("motion identical"));
+    EXPECT_THAT(picture.out, HasSubstr("identical   motion"));
+    EXPECT_THAT(picture.out, HasSubstr("expected    b/fall/0000.png"));
+    folder.write("s.json", R"({"time": {"end": 0.35}, "contact": {"stiffness": 1.001e8}})");
+    const Finished motion = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(motion.code, 7);
+    EXPECT_THAT(motion.out, HasSubstr("motion different: impact 1 of 1"));
+    EXPECT_THAT(motion.out, HasSubstr("different   motion"));
+}
+
+// One looks at the scene's motion, one at a variant of it, one at none.
+TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    folder.write("b.json", R"({"entries": {
+        "angle": {"scene": "s.json", "output": {"type": "figure", "figure": "angle", "file": "a.pdf", "dpi": 60}},
+        "fall": {"scene": "s.json", "output": {"type": "figure", "figure": "free-fall", "dpi": 60}},
+        "sketch": {"scene": "s.json", "output": {"type": "figure", "figure": "schematic", "dpi": 60, "lang": "zh"}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update angle fall sketch").code, 7);
+    const Finished again = shell(folder, "$BEAMCAM test b.json --strict -j2");
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_THAT(again.out, HasSubstr("angle   picture identical | motion identical"));
+    EXPECT_THAT(again.out, HasSubstr("fall    picture identical | motion identical"));
+    EXPECT_THAT(again.out, HasSubstr("sketch  picture identical\n"));
+    EXPECT_THAT(again.err, HasSubstr("1 simulations, 3 pictures"));
+    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("font LiberationSans-Regular.ttf"));
+    // The same pixels as the file that the command makes.
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.png --dpi 60 -q").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b/angle/0000.png").code, 0);
+    folder.write("s.json", R"({"time": {"end": 0.3}, "beam": {"length": 1.02}})");
+    const Finished longer = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(longer.code, 7);
+    for (const char* part : {"different   angle", "different   fall", "picture different", "motion different"})
+        EXPECT_THAT(longer.out, HasSubstr(part));
+    // No collision in time: a verdict, not a failure of the test itself.
+    folder.write("c.json", R"({"entries": {"close": {"scene": {"time": {"end": 0.1}},
+        "output": {"type": "figure", "figure": "collision"}}}})");
+    const Finished none = shell(folder, "$BEAMCAM test c.json");
+    EXPECT_EQ(none.code, 7) << none.err;
+    EXPECT_THAT(none.out, HasSubstr("time.end"));
+}
+
+TEST(Regression, UpdateTouchesOnlyTheEntriesItNames) {
+    const Guarded folder;
+    folder.update();
+    const std::string before = slurp(folder / "b.json"), fast = slurp(folder / "b/fast/0000.png");
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --update fall");
+    EXPECT_EQ(finished.code, 7);
+    EXPECT_THAT(finished.out, HasSubstr("pixels"));
+    EXPECT_THAT(finished.out, HasSubstr("→"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall fast motion").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only hit").code, 7);
+    EXPECT_EQ(slurp(folder / "b/fast/0000.png"), fast);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fal").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fal").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fall --only hit").code, 2);
+}
+
+// Another machine's pixels, accepted and kept: two levels off those of this one.
+TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
+    const Guarded folder;
+    folder.update();
+    const std::string own = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
+    ASSERT_EQ(
+        shell(
+            folder,
+            "ffmpeg -v error -i b/fast/0000.png -vf 'lutrgb=r=max(val-2\\,0)' -y b/x.png && mv b/x.png b/fast/0000.png")
+            .code,
+        0);
+    const std::string digest = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
+    folder.swap("b.json", own, digest);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast").code, 7);  // flat views are exact by default
+    const Finished equivalent = shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2");
+    EXPECT_EQ(equivalent.code, 0) << equivalent.out << equivalent.err;
+    EXPECT_THAT(equivalent.out, HasSubstr("equivalent  fast"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=1").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=1,share=1").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --strict").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --add-digest").code, 7);
+    for (const std::string& each : {own, digest}) EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(each));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+}
+
+TEST(Regression, ReportsAreWholePagesAndValidXml) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "a <b> & \"c\""})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --report r --junit j.xml --json");
+    EXPECT_EQ(finished.code, 7) << finished.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "r/fall/0000-difference.png"));
+    const std::string page = slurp(folder / "r/index.html");
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+    EXPECT_THAT(page, HasSubstr("type=\"range\""));
+    EXPECT_THAT(page, Not(HasSubstr("http")));  // nothing from elsewhere
+    const Finished xml =
+        shell(folder,
+              "/usr/bin/python3 -c \"import xml.dom.minidom as m, json; d = m.parse('j.xml').documentElement; "
+              "print(d.getAttribute('tests'), d.getAttribute('failures'), len(d.getElementsByTagName('failure')))\"");
+    EXPECT_EQ(xml.out, "7 2 2\n") << xml.err;
+    EXPECT_THAT(finished.out, HasSubstr("\"verdict\": \"different\""));
+    folder.write("mine.xml", "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit mine.xml").code, 6);
+    EXPECT_EQ(slurp(folder / "mine.xml"), "mine");
+}
+
+TEST(Regression, ReadsOnlyAsFarAsTheEntryLooks) {
+    const Folder folder;
+    folder.write(
+        "b.json",
+        R"({"entries": {"e": {"scene": {"time": {"end": 1000}}, "output": {"type": "still", "at": 0.05, "size": [64, 64], "view": {"style": "flat"}}}}})");
+    EXPECT_EQ(shell(folder, "timeout 20 $BEAMCAM test b.json --update e").code, 7);
+    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("\"reproducible_until\": 0.05"));
+}
+
+TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    folder.write("b.json", R"({
+  "tolerance": {"chanel": 2, "share": 3},
+  "entries": {
+    "a": {"scene": "s.json", "output": {"type": "still"}},
+    "b": {"scene": "absent.json", "output": {"type": "still", "at": 0}},
+    "c": {"scene": {"beam": {"lenght": 1}}, "output": {"type": "still", "at": 0}},
+    "d": {"scene": "s.json", "output": {"type": "video"}, "accepted": [{"sha256": ["xyz"]}]},
+    "../e": {},
+    "f": 3
+  }
+})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(finished.code, 3) << finished.err;
+    for (const char* part : {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
+                             "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
+                             "b.json:6:30: unknown key \"lenght\"", "films are guarded before they are encoded",
+                             "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
+        EXPECT_THAT(finished.err, HasSubstr(part));
+    for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
+                             "nonsense", "\xff\xfe"}) {
+        folder.write("b.json", text);
+        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json").code, 3) << text;
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM test absent.json").code, 6);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test .").code, 6);
+}
+
+TEST(Regression, DamagedReferencesAreErrorsNotVerdicts) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    const std::string png = slurp(folder / "b/fall/0000.png");
+    folder.write("b/fall/0000.png", png.substr(0, png.size() / 2));
+    const Finished cut = shell(folder, "$BEAMCAM test b.json --only fall");
+    EXPECT_EQ(cut.code, 6);
+    EXPECT_THAT(cut.out, HasSubstr("b/fall/0000.png"));
+    folder.write("b/fall/0000.png", png);
+    folder.write("b/fall/motion.csv", "t,theta\n0,zero\n");
+    const Finished table = shell(folder, "$BEAMCAM test b.json --only fall");
+    EXPECT_EQ(table.code, 6);
+    EXPECT_THAT(table.out, HasSubstr("motion.csv:2:3"));
+    std::filesystem::remove(folder / "b/fall/motion.csv");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --only fall").out, HasSubstr("motion missing"));
+}
+
+TEST(Regression, AnUpdateThatCannotBeWrittenLosesNothing) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    const std::string text = slurp(folder / "b.json"), picture = slurp(folder / "b/fall/0000.png");
+    const Finished finished = shell(folder, "ulimit -f 2; $BEAMCAM test b.json --update fall");
+    EXPECT_EQ(finished.code, 6) << finished.out << finished.err;
+    EXPECT_EQ(slurp(folder / "b.json"), text);
+    EXPECT_EQ(slurp(folder / "b/fall/0000.png"), picture);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
+}
+
+// ---- what must not pass ----------------------------------------------------------------------------
+
+TEST(Regression, AMotionThatThePictureComparesIsJudgedAsTheScenesOwn) {
+    const Folder folder;
+    const auto write = [&](const std::string& text, const std::string& stiffness) {
+        std::string changed = text;
+        if (const std::size_t at = changed.find("1e8"); at != std::string::npos) changed.replace(at, 3, stiffness);
+        folder.write("b.json", changed);
+    };
+    write(R"({"entries": {"g": {"scene": {"time": {"end": 0.6}}, "output": {"type": "still", "at": 0.4,
+        "size": [320, 180], "view": {"style": "flat"}, "compare": [{"label": "stiff"},
+        {"label": "soft", "set": {"beam.modes": 3, "contact.stiffness": 1e8}}]}}}})",
+          "1e8");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update g").code, 7);
+    const std::string accepted = slurp(folder / "b.json");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+    for (const char* stiffness : {"1.001e8", "1.01e8"}) {
+        write(accepted, stiffness);
+        const Finished changed = shell(folder, "$BEAMCAM test b.json");
+        EXPECT_EQ(changed.code, 7) << stiffness;
+        EXPECT_THAT(changed.out, HasSubstr("motion different: soft: "));
+    }
+    folder.write("b.json", accepted);
+    std::filesystem::remove(folder / "b/g/motion-2.csv");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json").out, HasSubstr("soft: no motion is kept"));
+}
+
+TEST(Regression, AReferenceWhoseDigestWasNotAcceptedFails) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --report r").code, 7);
+    const std::string right = slurp(folder / "b/fall/0000.png");
+    folder.write("b/fall/0000.png", slurp(folder / "r/fall/0000-actual.png"));
+    for (const char* title : {"another", ""}) {  // also where the picture itself is the accepted one
+        folder.write("s.json", std::string(R"({"time": {"end": 0.35}, "title": ")") + title + "\"}");
+        const Finished finished = shell(folder, "$BEAMCAM test b.json --only fall");
+        EXPECT_EQ(finished.code, 7) << title;
+        EXPECT_THAT(finished.out, HasSubstr("b/fall/0000.png is not the picture that was accepted"));
+    }
+    folder.write("b/fall/0000.png", right);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --strict").code, 0);
+}
+
+TEST(Regression, AMotionThatUpdateDidNotAcceptFails) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "contact": {"stiffness": 1.01e8}})");
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM simulate s.json --trajectory b/motion/motion.csv --channels theta --rate 50 "
+                    "--impacts b/motion/impacts.json --force -q")
+                  .code,
+              0);
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --only motion");
+    EXPECT_EQ(finished.code, 7);
+    EXPECT_THAT(finished.out, HasSubstr("b/motion/motion.csv is not what --update put there"));
+}
+
+// ---- what an update must not touch -------------------------------------------------------------------
+
+TEST(Regression, UpdateRefusesAFolderThatIsNotItsOwn) {
+    for (const char* references : {"scenes", ".", "..", "ABSOLUTE"}) {
+        const Folder folder;
+        std::filesystem::create_directories(folder / "scenes/fall");
+        std::filesystem::create_directories(folder / "x/fall");
+        std::filesystem::create_directories(folder / "fall");
+        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
+            folder.write(each, "two weeks of work");
+        std::string named = references;
+        if (named == "ABSOLUTE") named = (folder / "scenes").string();
+        const std::string at = std::string(references) == ".." ? "x/b.json" : "b.json";
+        folder.write(at, R"({"references": ")" + named + R"(", "entries": {"fall": {"scene": {"time": {"end": 0.1}},
+            "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}}}})");
+        const Finished finished = shell(folder, "$BEAMCAM test " + at + " --update fall");
+        EXPECT_EQ(finished.code, 6) << references << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("fall is not a folder of references"));
+        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
+            EXPECT_EQ(slurp(folder / each), "two weeks of work") << references;
+        EXPECT_EQ(shell(folder, "$BEAMCAM test " + at + " --update fall --force").code, 7);
+        EXPECT_EQ(slurp(folder / "scenes/fall/notes.txt"), "two weeks of work") << references;
+    }
+}
+
+// ---- one entry's misfortune --------------------------------------------------------------------------
+
+TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
+    const Guarded folder;
+    folder.update();
+    const std::string right = slurp(folder / "b.json");
+    folder.write("b/hit/motion.csv", "t,theta\n0,zero\n");
+    const Finished damaged = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(damaged.code, 6) << damaged.out;
+    for (const char* line : {"identical   fall", "identical   fast", "missing     hit", "b/hit/motion.csv:2:3"})
+        EXPECT_THAT(damaged.out, HasSubstr(line));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit").code, 6);  // it was changed by hand
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit --force").code, 7);
+    folder.swap("b.json", R"("motion": {"scene": "s.json")", R"("motion": {"scene": "gone.json")");
+    const Finished gone = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(gone.code, 3) << gone.out;
+    EXPECT_THAT(gone.err, HasSubstr(":25: entries.motion.scene: gone.json: there is no such file"));
+    for (const char* line : {"identical   fall", "identical   fast", "identical   hit", "missing     motion"})
+        EXPECT_THAT(gone.out, HasSubstr(line));
+    folder.write("b.json", right);
+    folder.swap("b.json", R"("at": "0.2 s")", R"("at": "impact:9")");
+    const Finished unreachable = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(unreachable.code, 7);
+    EXPECT_THAT(unreachable.out, HasSubstr("there is no impact 9"));
+    for (const char* line : {"different   fall", "identical   hit", "identical   motion"})
+        EXPECT_THAT(unreachable.out, HasSubstr(line));
+}
+
+// ---- what is no change -------------------------------------------------------------------------------
+
+TEST(Regression, AnErrorOfTheSolverIsNoMotion) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.6}})");
+    folder.write("b.json", R"({"entries": {"m": {"scene": "s.json", "output": {"type": "trajectory", "rate": 200}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update m").code, 7);
+    EXPECT_THAT(slurp(folder / "b/m/motion.csv"), Not(HasSubstr("energy_residual")));
+    for (const char* solver : {R"("rtol": 1e-9)", R"("method": "rk8")"}) {
+        folder.write("s.json", std::string(R"({"time": {"end": 0.6}, "solver": {)") + solver + "}}");
+        const Finished finished = shell(folder, "$BEAMCAM test b.json");
+        EXPECT_EQ(finished.code, 0) << finished.out;
+        EXPECT_THAT(finished.out, HasSubstr("equivalent  m"));
+    }
+}
+
+// The schema that editors use says the same as the reader, but for what only the reader can know.
+TEST(Baselines, TheSchemaAndTheReaderAgree) {
+    const Guarded folder;
+    folder.update();
+    const std::string whole = slurp(folder / "b.json");
+    const std::pair<const char*, bool> cases[] = {
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})", true},
+        {R"({"entries": {"a": {"scene": {}, "set": ["gravity=9"], "physics": false, "tolerance": {"channel": 3, "share": 0.1, "motion": 0, "impacts": 1}, "output": {"type": "still", "at": 0}}}, "x-note": 1})",
+         true},
+        {R"({"entries": {}})", false},
+        {R"({"entries": {"a/b": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json"}}})", false},
+        {R"({"entries": {"a": {"output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": 3, "output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"channel": 256}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"channel": 1.5}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "accepted": [{"sha256": ["0"]}]}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "accepted": [{}]}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "set": "gravity=9"}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "physics": 1}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}, "referenzes": "x"})", false}};
+    for (const auto& [text, valid] : cases) {
+        folder.write("c.json", text);
+        const Finished read = shell(folder, "$BEAMCAM test c.json -q --report r");
+        EXPECT_EQ(read.code == 3, !valid) << text << read.err;
+        const Finished schema = shell(
+            folder,
+            "$BEAMCAM schema --baselines > schema.json && /usr/bin/python3 -W ignore -c \"import json, jsonschema; "
+            "jsonschema.Draft202012Validator(json.load(open('schema.json'))).validate(json.load(open('c.json')))\"");
+        EXPECT_EQ(schema.code == 0, valid) << text << schema.err;
+    }
+}
+
+TEST(Baselines, EditsKeepEveryOtherByte) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const std::string text =
+        "{ // head\n  \"entries\": {\n    \"a\": {\"scene\": \"s.json\", \"output\": {\"type\": \"still\", \"at\": 0}, "
+        "// why\n"
+        "      \"accepted\": [], \"x-note\": \"a } in text\"}\n  }\n}\n";
+    folder.write("b.json", text);
+    const Baselines baselines = read_baselines((folder / "b.json").string());
+    const std::string digest(64, 'a');
+    const std::string changed = edited(baselines, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}});
+    folder.write("b.json", changed);
+    const Baselines again = read_baselines((folder / "b.json").string());
+    EXPECT_EQ(again.entries.front().accepted.front().sha256, std::vector<std::string>{digest});
+    EXPECT_EQ(again.entries.front().reproducible_until, 0.25);
+    EXPECT_EQ(again.renderers.at("r1").at("cairo"), "1.16");
+    for (const char* kept : {"{ // head\n", "// why\n", "\"x-note\": \"a } in text\""})
+        EXPECT_THAT(changed, HasSubstr(kept));
+    EXPECT_EQ(edited(again, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}}), changed);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,186 @@
+#include "sim/beam/drive.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+void expect_consistent(const DriveLaw& law, double t) {
+    const double h = 1e-4;
+    const HubMotion m = law.motion(t);
+    EXPECT_NEAR(scalar_slope_at_zero([&](double e) { return law.motion(t + e).angle; }, h), m.rate, 1e-9) << t;
+    EXPECT_NEAR(scalar_slope_at_zero([&](double e) { return law.motion(t + e).rate; }, h), m.acceleration, 1e-9) << t;
+}
+
+TEST(Drive, ConstantSpeedTurnsFromTheInitialAngle) {
+    const DriveLaw law(ConstantSpeed{-2}, 0.3);
+    EXPECT_TRUE(law.prescribed());
+    EXPECT_FALSE(law.has_torque());
+    EXPECT_EQ(law.motion(0).angle, 0.3);
+    EXPECT_NEAR(law.motion(1.5).angle, 0.3 - 3, 1e-15);
+    expect_consistent(law, 2);
+}
+
+TEST(Drive, SpinUpIsSmoothAndEndsAtItsSpeed) {
+    const DriveLaw law(SpinUp{4, 15}, 0.1);
+    EXPECT_EQ(law.motion(0).angle, 0.1);
+    EXPECT_EQ(law.motion(0).rate, 0);
+    EXPECT_NEAR(law.motion(7.5).rate, 2, 1e-14);
+    EXPECT_NEAR(law.motion(15).rate, 4, 1e-14);
+    for (double t : {0.5, 5.0, 12.0, 14.9, 17.0}) expect_consistent(law, t);
+    const HubMotion before = law.motion(15 - 1e-9), after = law.motion(15 + 1e-9);
+    EXPECT_NEAR(before.angle, after.angle, 2e-8);
+    EXPECT_NEAR(before.rate, after.rate, 1e-9);
+    EXPECT_NEAR(before.acceleration, after.acceleration, 1e-9);
+    ASSERT_EQ(law.kinks().size(), 1u);
+    EXPECT_EQ(law.kinks()[0], 15);
+}
+
+TEST(Drive, AngleTablePassesThroughItsPointsSmoothly) {
+    const AngleTable table{{0, 0.5, 0.9, 2}, {0.2, 0.7, 0.1, 0.4}};
+    const DriveLaw law(table, 99);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(law.motion(table.t[i]).angle, table.theta[i], 1e-15);
+    for (double t : {0.1, 0.7, 1.5}) expect_consistent(law, t);
+    for (double t : {0.5, 0.9}) {
+        const HubMotion before = law.motion(t - 1e-12), after = law.motion(t + 1e-12);
+        EXPECT_NEAR(before.rate, after.rate, 1e-9);
+        EXPECT_NEAR(before.acceleration, after.acceleration, 1e-8);
+    }
+    // Outside it goes straight on: no jump of angle, speed or acceleration at the ends.
+    for (double t : {0.0, 2.0}) {
+        const HubMotion before = law.motion(t - 1e-12), after = law.motion(t + 1e-12);
+        EXPECT_NEAR(before.rate, after.rate, 1e-9);
+        EXPECT_NEAR(before.acceleration, after.acceleration, 1e-8);
+    }
+    EXPECT_NEAR(law.motion(5).angle, 0.4 + 3 * law.motion(2).rate, 1e-14);
+    EXPECT_EQ(law.motion(5).rate, law.motion(2).rate);
+    EXPECT_NEAR(law.motion(5).acceleration, 0, 1e-14);
+}
+
+TEST(Drive, AngleTableOfAStraightLineIsAConstantSpeed) {
+    const DriveLaw law(AngleTable{{0, 1, 2, 5}, {0, 3, 6, 15}}, 0);
+    for (double t : {0.0, 0.4, 1.7, 4.9}) {
+        EXPECT_NEAR(law.motion(t).angle, 3 * t, 1e-14);
+        EXPECT_NEAR(law.motion(t).rate, 3, 1e-14);
+        EXPECT_NEAR(law.motion(t).acceleration, 0, 1e-13);
+    }
+}
+
+TEST(Drive, TorqueLawsAreWhatTheySay) {
+    const DriveLaw constant(ConstantTorque{-3}, 0);
+    EXPECT_TRUE(constant.has_torque());
+    EXPECT_FALSE(constant.prescribed());
+    EXPECT_EQ(constant.torque(7), -3);
+    const DriveLaw harmonic(HarmonicTorque{2, 5, 0.4}, 0);
+    EXPECT_NEAR(harmonic.torque(0.03), 2 * std::sin(2 * std::numbers::pi * 5 * 0.03 + 0.4), 1e-15);
+    const DriveLaw table(TorqueTable{{1, 2, 4}, {10, 20, -20}}, 0);
+    EXPECT_EQ(table.torque(0), 10);
+    EXPECT_NEAR(table.torque(1.5), 15, 1e-14);
+    EXPECT_NEAR(table.torque(3), 0, 1e-14);
+    EXPECT_EQ(table.torque(9), -20);
+    EXPECT_EQ(table.kinks().size(), 3u);
+    EXPECT_EQ(DriveLaw(FreeDrive{}, 0).torque(1), 0);
+}
+
+// ---- spin-up of a flexible beam: Kane, Ryan & Banerjee 1987 -----------------------------------------
+
+Problem spin_up(double speed, int modes) {
+    Problem p;
+    p.cam.reset();
+    p.gravity = 0;
+    p.beam.length = 8;
+    p.beam.density = 2766.67;
+    p.beam.modes = modes;
+    p.initial.angle = 0;
+    p.hub.drive = SpinUp{speed, 15};
+    p.solver.rtol = 1e-10;
+    p.solver.atol = 1e-13;
+    return p;
+}
+
+TEST(SpinUp, LagsByThePublishedTipDeflection) {
+    struct Row {
+        double speed;
+        int modes;
+        double t_peak, peak;
+    };
+    for (const Row& row : {Row{0.5, 6, 7.18801, -0.07132505}, Row{4, 2, 6.76126, -0.53383089},
+                           Row{4, 4, 6.76549, -0.53437274}, Row{4, 6, 6.76567, -0.53439386}}) {
+        const Extremum tip = extremum(spin_up(row.speed, row.modes), "tip_deflection", 10);
+        EXPECT_NEAR(tip.min, row.peak, 1e-8) << row.speed << " rad/s, " << row.modes << " modes";
+        EXPECT_NEAR(tip.t_min, row.t_peak, 1e-5) << row.speed << " rad/s, " << row.modes << " modes";
+    }
+}
+
+TEST(SpinUp, HasThePublishedDeflectionsOnTheWay) {
+    const std::vector<double> slow = series(spin_up(0.5, 6), "tip_deflection", {5, 10});
+    EXPECT_NEAR(slow[0], -0.0535621, 6e-8);
+    EXPECT_NEAR(slow[1], -0.0531615, 6e-8);
+    const std::vector<double> fast = series(spin_up(4, 6), "tip_deflection", {10, 5});
+    EXPECT_NEAR(fast[1], -0.4230384, 6e-8);
+    EXPECT_NEAR(fast[0], -0.3477255, 6e-8);
+}
+
+TEST(SpinUp, OfTheZerothOrderModelIsBoundedBelowTheFirstBendingFrequencyAndDivergesAbove) {
+    Problem p = spin_up(2.9, 2);
+    p.beam.model = ModelKind::zeroth_order;
+    p.solver.rtol = 1e-8;
+    EXPECT_LT(std::fabs(extremum(p, "tip_deflection", 40).min), 10);
+    p.hub.drive = SpinUp{3.0, 15};
+    const Extremum tip = extremum(p, "tip_deflection", 40);
+    EXPECT_GT(std::max(std::fabs(tip.min), tip.max), 1000);
+    p.beam.model = ModelKind::first_order;
+    EXPECT_LT(std::fabs(extremum(p, "tip_deflection", 40).min), 1);
+}
+
+TEST(SpinUp, WorkOfTheDriveBecomesEnergy) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
+        Problem p = spin_up(4, 2);
+        p.beam.model = kind;
+        Request request;
+        request.tables.push_back({{16}, {channel("work_drive"), channel("energy_kinetic"), channel("energy_elastic")}});
+        const Result r = simulate(p, request);
+        const auto& row = r.tables[0].values;
+        EXPECT_NEAR(row[0][0], row[1][0] + row[2][0], 1e-8 * row[1][0]) << name(kind);
+        EXPECT_GT(row[0][0], 100);
+    }
+}
+
+TEST(TorqueDrive, AcceleratesTheRigidRodByTorqueOverInertia) {
+    Problem p = falling_beam(ModelKind::rigid);
+    p.gravity = 0;
+    p.initial.angle = 0;
+    p.hub.inertia = 0.1;
+    p.hub.drive = ConstantTorque{0.5};
+    const double j = 0.1 + p.beam.line_density() / 3;
+    EXPECT_NEAR(series(p, "theta", {2})[0], 0.5 * 0.5 / j * 4, 1e-11);
+    p.hub.drive = HarmonicTorque{1, 0.5, 0};  // ∫∫ sin πt = t/π − sin(πt)/π²
+    EXPECT_NEAR(series(p, "theta", {2})[0], 2 / std::numbers::pi / j, 1e-11);
+    p.hub.drive = TorqueTable{{0, 1, 1.5}, {0, 1, 0}};
+    EXPECT_NEAR(series(p, "theta_dot", {2})[0], 0.75 / j, 1e-11);
+}
+
+TEST(TorqueDrive, WorksOnTheHubAngleInBothBases) {
+    std::vector<double> theta;
+    for (const Basis basis : {Basis::cantilever, Basis::hub_beam}) {
+        Problem p = falling_beam(ModelKind::first_order, basis, 12);
+        p.gravity = 0;
+        p.hub.inertia = 0.2;
+        p.hub.radius = 0.1;
+        p.hub.drive = ConstantTorque{2};
+        p.solver.rtol = 1e-9;
+        Request request;
+        request.end_time = 0.05;
+        request.tables.push_back({{0.05}, {channel("theta"), channel("energy_residual"), channel("work_drive")}});
+        const Result r = simulate(p, request);
+        theta.push_back(r.tables[0].values[0][0]);
+        EXPECT_LT(std::fabs(r.tables[0].values[1][0]), 1e-8 * r.tables[0].values[2][0]) << name(basis);
+    }
+    EXPECT_NEAR(theta[0], theta[1], 2e-6);  // twelve modes of either basis
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

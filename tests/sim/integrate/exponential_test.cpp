@@ -1,0 +1,633 @@
+// The exponential collocation: its oscillators against closed forms, its flights and contacts against the Runge–Kutta
+// method at tight tolerance, and what observing or ending a run must not change.
+#include "sim/integrate/exponential.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "sim/base/numerics.hpp"
+#include "sim/integrate/gap_probe.hpp"
+#include "sim/integrate/lane_kernels.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+// ---- oscillators ---------------------------------------------------------------------------------
+
+// ∫₀^τ s(τ−u) uʲ/j! du by quadrature of resolved pieces.
+double response_by_quadrature(const Oscillator& o, double tau, int j) {
+    const double square = o.omega * o.omega - o.gamma * o.gamma, turning = std::sqrt(std::fabs(square));
+    const int pieces = 1 + static_cast<int>((o.omega + 2 * o.gamma) * tau);
+    const auto impulse = [&](double t) {
+        if (turning == 0) return t * std::exp(-o.gamma * t);
+        if (square > 0) return std::exp(-o.gamma * t) * std::sin(turning * t) / turning;
+        return std::exp((turning - o.gamma) * t) * -std::expm1(-2 * turning * t) / (2 * turning);
+    };
+    const Quadrature rule = gauss_legendre(20, tau / pieces);
+    double total = 0;
+    for (int p = 0; p < pieces; ++p)
+        for (Eigen::Index k = 0; k < rule.x.size(); ++k) {
+            const double u = p * tau / pieces + rule.x[k];
+            total += rule.w[k] * impulse(tau - u) * std::pow(u, j) / std::tgamma(j + 1);
+        }
+    return total;
+}
+
+TEST(Oscillators, AnswerPowersOfTimeExactly) {
+    for (const double ratio : {0.0, 0.01, 0.5, 0.9, 1.0, 1.01, 1.05, 3.0, 40.0})
+        for (const double omega_tau : {0.0, 1e-3, 0.5, 1.9, 2.1, 7.0, 60.0}) {
+            const double tau = 0.004;
+            const Oscillator o{omega_tau / tau, ratio * omega_tau / tau};
+            double r[kResponse];
+            respond(o, tau, r);
+            for (int j = 0; j < kNodes; ++j) {
+                const double expected = response_by_quadrature(o, tau, j);
+                // What is lost by the recursion is lost against the response to a constant.
+                const double scale =
+                    decays(o) ? expected : response_by_quadrature({0, 0}, tau, j) / (1 + omega_tau * omega_tau);
+                EXPECT_NEAR(r[2 + j], expected, 1e-12 * scale) << ratio << " " << omega_tau << " " << j;
+            }
+        }
+}
+
+TEST(Oscillators, NoDampingMakesTheirAnswersOverflow) {
+    for (const double gamma : {1.0, 1e12, 1e13, 1e20, 1e30, 1e33})
+        for (const double omega : {1.0, 1e3, 1e6})
+            for (const double tau : {0.0, 1e-300, 1e-31, 1e-20, 1e-9, 1.0}) {
+                double r[kResponse];
+                respond(Oscillator{omega, gamma}, tau, r);
+                for (int j = 0; j < kResponse; ++j)
+                    ASSERT_TRUE(std::isfinite(r[j]))
+                        << "g" << j - 2 << ", γ " << gamma << ", ω " << omega << ", τ " << tau;
+                if (tau == 0) {
+                    EXPECT_EQ(r[0], 1);
+                    for (int j = 1; j < kResponse; ++j) EXPECT_EQ(r[j], 0);
+                }
+            }
+}
+
+TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
+    // f = 5 + 3u − 2u³ in the step's own time, as eight nodal values; end and nodes.
+    const double h = 0.003;
+    std::vector<Oscillator> oscillators{{0, 0}, {300, 0}, {3000, 40}, {2e5, 0}, {300, 290}, {300, 400}, {3000, 3e6}};
+    StepTable table;
+    table.build(oscillators, side_by_side(oscillators), h);
+    const Collocation& gauss = Collocation::get();
+    for (std::size_t i = 0; i < oscillators.size(); ++i) {
+        const StepTable::Row& row = table.rows[i];
+        const double q0 = 0.7, v0 = -20;
+        double nodal[kNodes];
+        for (int l = 0; l < kNodes; ++l) nodal[l] = 5 + 3 * gauss.c[l] - 2 * std::pow(gauss.c[l], 3);
+        const auto exact = [&](double t) {
+            double r[kResponse];
+            respond(oscillators[i], t, r);
+            return (r[0] + 2 * oscillators[i].gamma * r[1]) * q0 + r[1] * v0 + 5 * r[2] + 3 / h * r[3] -
+                   12 / (h * h * h) * r[5];
+        };
+        for (int k = 0; k < kNodes; ++k) {
+            double q = row.qq[k] * q0 + row.qv[k] * v0;
+            for (std::size_t l = 0; l < kNodes; ++l) q += row.q[l][k] * nodal[l];
+            EXPECT_NEAR(q, exact(gauss.c[k] * h), 1e-13) << i << " " << k;
+        }
+        double end = row.end_qq * q0 + row.end_qv * v0;
+        for (int l = 0; l < kNodes; ++l) end += row.end_q[l] * nodal[l];
+        EXPECT_NEAR(end, exact(h), 1e-13) << i;
+    }
+}
+
+TEST(Oscillators, SideBySideTheyAnswerAsAlone) {
+    Dice dice(11);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Oscillator> oscillators;
+        double omega = 1;
+        for (int i = 0; i < 11; ++i) {
+            omega *= 1 + 3 * std::fabs(dice.about_zero(1));
+            oscillators.push_back(
+                {omega, round % 2 ? (round % 3 ? 0.5 : 5) * std::fabs(dice.about_zero(1)) * omega : 0});
+        }
+        if (round % 5 == 0) oscillators.front() = {0, 0};
+        const double tau = std::pow(10, -4 + 3 * dice.about_zero(1));
+        const std::vector<OscillatorLanes> groups = side_by_side(oscillators);
+        ASSERT_EQ(groups.size(), 2u);
+        for (std::size_t i = 0; i < oscillators.size(); ++i) {
+            Lanes all[kResponse];
+            double one[kResponse];
+            respond(groups[i / kNodes], tau, all);
+            respond(oscillators[i], tau, one);
+            const double reach = oscillators[i].omega * tau;
+            double scale = 1 + 4e-16 * reach / 1e-12;  // of what an ulp of the argument turns the phase by
+            for (int j = 0; j < kResponse; ++j) {
+                if (j == 1) scale *= tau / (1 + reach);
+                if (j > 1) scale *= tau / j;
+                EXPECT_NEAR(all[j][static_cast<int>(i % kNodes)], one[j], 1e-12 * scale) << reach << " " << j;
+            }
+        }
+    }
+}
+
+TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
+    Dice dice(5);
+    constexpr std::size_t kRows = 7, kColumns = 9;
+    const OscillatorLanes group =
+        side_by_side({{90, 0}, {300, 5}, {3e3, 2}, {8e3, 0}, {2e4, 0}, {4e4, 7}, {1e5, 0}, {3e5, 9}}).front();
+    std::vector<double> a(kRows * kColumns);
+    for (double& value : a) value = dice.about_zero(3);
+    std::vector<Lanes> x(kColumns), first, y(kRows);
+    for (Lanes& lanes : x)
+        for (int k = 0; k < kNodes; ++k) lanes[k] = dice.about_zero(2);
+    for (const LaneKernels& kernels : runnable_lane_kernels()) {
+        kernels.multiply(kRows, kColumns, a.data(), x.data(), y.data());
+        for (const double tau : {1e-6, 1e-4, 1e-2}) {  // all slow, some, none
+            Lanes r[kResponse], q, v, derivatives[kNodes];
+            kernels.respond(group, tau, x[0], r);
+            kernels.combine(x.data(), x.data() + 1, derivatives);
+            kernels.evolve(group, r, derivatives, x[1], x[2], q, v);
+            y.insert(y.end(), {q, v});
+            y.insert(y.end(), std::begin(r), std::end(r));
+        }
+        if (first.empty()) first = y;
+        ASSERT_EQ(y.size(), first.size());
+        for (std::size_t r = 0; r < y.size(); ++r)
+            for (int k = 0; k < kNodes; ++k) EXPECT_EQ(y[r][k], first[r][k]) << kernels.name << " " << r;
+        y.resize(kRows);
+    }
+}
+
+// ---- gap -----------------------------------------------------------------------------------------
+
+TEST(GapProbe, SeesWhatTheContactIs) {
+    Dice dice(3);
+    int expanded = 0;
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid, ModelKind::paper})
+        for (const int modes : {1, 3, 12}) {
+            Problem p;
+            p.beam.model = kind;
+            p.beam.modes = modes;
+            p.hub.radius = 0.02;
+            System system(p), alone(p);
+            GapProbe probe(system);
+            std::vector<double> y(static_cast<std::size_t>(system.size));
+            const auto n = static_cast<std::size_t>(system.coordinates());
+            double angle = 0.5;
+            for (int k = 0; k < 60; ++k) {
+                angle += 0.02 * dice.about_zero(1);
+                y[0] = angle;
+                y[n] = dice.about_zero(5);
+                for (std::size_t i = 1; i < n; ++i) {
+                    y[i] = dice.about_zero(2e-3) / std::pow(static_cast<double>(i), 4);
+                    y[n + i] = dice.about_zero(0.5);
+                }
+                const double t = 0.01 * k;
+                const ContactState is = alone.contact(t, y.data(), true), seen = probe.look(t, y.data(), k % 7 == 0);
+                if (is.at_end) continue;
+                ++expanded;
+                EXPECT_NEAR(seen.gap, is.gap, 1e-13) << modes;
+                EXPECT_NEAR(seen.gap_rate, is.gap_rate, 1e-10) << modes;
+                EXPECT_NEAR(seen.x, is.x, 1e-9) << modes;
+            }
+        }
+    EXPECT_GT(expanded, 400);
+}
+
+// ---- flight --------------------------------------------------------------------------------------
+
+struct Flight {
+    const char* name;
+    Problem problem;
+};
+
+std::vector<Flight> flights() {
+    std::vector<Flight> all;
+    const auto add = [&](const char* name, ModelKind kind, int modes, auto&& change) {
+        Problem p = falling_beam(kind, Basis::automatic, modes);
+        p.beam.youngs_modulus = 5e9;
+        change(p);
+        all.push_back({name, p});
+    };
+    const auto nothing = [](Problem&) {};
+    add("rigid", ModelKind::rigid, 2, nothing);
+    add("zeroth-order", ModelKind::zeroth_order, 3, nothing);
+    add("first-order", ModelKind::first_order, 6, nothing);
+    add("hub", ModelKind::first_order, 3, [](Problem& p) {
+        p.hub.radius = 0.15;
+        p.hub.inertia = 0.02;
+        p.initial.angular_velocity = -3;
+    });
+    add("static start", ModelKind::first_order, 4,
+        [](Problem& p) { p.initial.shape = InitialShape::static_equilibrium; });
+    add("damped", ModelKind::first_order, 5, [](Problem& p) { p.beam.damping_ratio = {0.02, 0.1, 0.45, 0.3, 0}; });
+    add("overdamped", ModelKind::first_order, 6, [](Problem& p) { p.beam.damping_ratio = {0.6, 1, 1.2, 30, 0, 3}; });
+    add("overdamped spin-up", ModelKind::first_order, 3, [](Problem& p) {
+        p.hub.drive = SpinUp{6, 0.2};
+        p.beam.damping_ratio = {2, 50, 5};
+    });
+    add("overdamped torque", ModelKind::first_order, 3, [](Problem& p) {
+        p.hub.drive = HarmonicTorque{1, 4, 0.3};
+        p.beam.damping_ratio = {1.5, 20, 4};
+    });
+    add("creeping", ModelKind::first_order, 2, [](Problem& p) { p.beam.kelvin_voigt = 0.3; });
+    add("Kelvin–Voigt", ModelKind::first_order, 4, [](Problem& p) { p.beam.kelvin_voigt = 1e-5; });
+    add("torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = ConstantTorque{0.8}; });
+    add("swinging torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = HarmonicTorque{1, 4, 0.3}; });
+    add("torque table", ModelKind::first_order, 3, [](Problem& p) {
+        p.hub.drive = TorqueTable{{0, 0.11, 0.2}, {1, -1, 2}};
+    });
+    add("spin-up", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
+    add("damped spin-up", ModelKind::zeroth_order, 3, [](Problem& p) {
+        p.hub.drive = SpinUp{3, 0.2};
+        p.beam.damping_ratio = {0.05};
+    });
+    add("constant speed", ModelKind::first_order, 4, [](Problem& p) { p.hub.drive = ConstantSpeed{2}; });
+    add("angle table", ModelKind::first_order, 2, [](Problem& p) {
+        p.hub.drive = AngleTable{{0, 0.1, 0.25}, {0.5, 0.7, 0.4}};
+    });
+    add("paper, prescribed", ModelKind::paper, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
+    return all;
+}
+
+TEST(ExponentialFlight, AgreesWithRungeKuttaAtEveryInstant) {
+    for (const Flight& flight : flights()) {
+        std::vector<double> times;
+        for (int k = 1; k <= 60; ++k) times.push_back(0.3 * k / 60);
+        Request request;
+        request.tables.push_back({times,
+                                  {channel("theta"), channel("theta_dot"), channel("tip_deflection"),
+                                   channel("loss_structural"), channel("work_drive"), channel("energy_residual")}});
+        Problem p = flight.problem;
+        p.solver.rtol = 1e-10;
+        p.solver.atol = 1e-13;
+        p.solver.method = Method::exponential;
+        const Result fast = simulate(p, request);
+        p.solver.rtol = 1e-12;
+        p.solver.atol = 1e-15;
+        p.solver.method = Method::rk8;
+        const Result slow = simulate(p, request);
+        if (p.beam.model != ModelKind::rigid) {
+            EXPECT_LT(fast.counters.steps, slow.counters.steps / 2) << flight.name;
+        }
+        for (std::size_t c = 0; c < 5; ++c) {
+            double size = c < 3 ? 1e-6 : 1e-3 * slow.energy_scale;  // energies are parts of one sum
+            for (const double value : slow.tables[0].values[c]) size = std::max(size, std::fabs(value));
+            for (std::size_t row = 0; row < times.size(); ++row)
+                EXPECT_NEAR(fast.tables[0].values[c][row], slow.tables[0].values[c][row], 2e-8 * size)
+                    << flight.name << ", " << name(slow.tables[0].channels[c]) << " at " << times[row];
+        }
+        if (p.beam.model == ModelKind::paper) continue;
+        for (const double residual : fast.tables[0].values[5])
+            EXPECT_LT(std::fabs(residual), 1e-8 * fast.energy_scale) << flight.name;
+        EXPECT_LT(fast.energy_residual_max, 1e-9 * fast.energy_scale) << flight.name;
+    }
+}
+
+TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
+    Problem p = falling_beam(ModelKind::first_order, Basis::hub_beam, 20);
+    p.solver.rtol = 1e-5;
+    p.solver.atol = 1e-8;
+    const Result r = run(p, 0.36);
+    System system(p);
+    EXPECT_LT(static_cast<double>(r.counters.steps), 1e-2 * 0.36 * system.highest_frequency());
+}
+
+TEST(ExponentialFlight, LeavesOtherModelsToRungeKutta) {
+    Problem p = falling_beam(ModelKind::second_order);
+    p.solver.rtol = 1e-8;
+    System second(p);
+    EXPECT_FALSE(exponential_applies(second));
+    p.solver.method = Method::exponential;
+    const double by_name = series(p, "theta", {0.1})[0];
+    p.solver.method = Method::rk8;
+    EXPECT_EQ(by_name, series(p, "theta", {0.1})[0]);
+    p.beam.model = ModelKind::first_order;
+    p.beam.basis = Basis::cantilever;
+    System clamped(p);
+    EXPECT_FALSE(exponential_applies(clamped));
+    p.beam.basis = Basis::hub_beam;
+    p.beam.damping_ratio = {0.8};
+    System damped(p);
+    EXPECT_TRUE(exponential_applies(damped));
+}
+
+TEST(ExponentialFlight, FindsEveryTurningPointOfASwingingHub) {
+    for (const double modulus : {2e9, 68.952e9}) {  // strong ripple, and hardly any
+        Problem p = falling_beam(ModelKind::first_order, Basis::automatic, 3);
+        p.beam.youngs_modulus = modulus;
+        p.hub.inertia = 0.01;
+        const auto turns = [&](Method method, double rtol) {
+            p.solver.method = method;
+            p.solver.rtol = rtol;
+            p.solver.atol = 1e-3 * rtol;
+            Request request;
+            request.end_time = 4;
+            request.turning_points = true;
+            return simulate(p, request);
+        };
+        const Result fast = turns(Method::exponential, 1e-9), slow = turns(Method::rk8, 1e-11);
+        ASSERT_GE(slow.apexes.size(), 1u);
+        ASSERT_GE(slow.theta_zero.size(), 3u);
+        ASSERT_EQ(fast.apexes.size(), slow.apexes.size()) << modulus;
+        ASSERT_EQ(fast.theta_zero.size(), slow.theta_zero.size()) << modulus;
+        for (std::size_t i = 0; i < slow.apexes.size(); ++i) EXPECT_NEAR(fast.apexes[i].t, slow.apexes[i].t, 1e-6);
+        for (std::size_t i = 0; i < slow.theta_zero.size(); ++i)
+            EXPECT_NEAR(fast.theta_zero[i].t, slow.theta_zero[i].t, 1e-7);
+    }
+}
+
+// What the search for touches relies on, sampled inside long steps of soft beams that turn fast.
+struct FlightSample {
+    double t, spin, angle, rate;
+    std::array<BeamPoint, 5> points;  // in the turning frame, with the velocity against it
+};
+FlightSample flight_sample(System& system, const Segment& segment, double t) {
+    std::vector<double> y(static_cast<std::size_t>(system.size));
+    segment.value(t, y.data());
+    system.place(t, y.data());
+    const Model& model = system.model();
+    const auto n = static_cast<std::size_t>(system.coordinates());
+    FlightSample s{t, y[n], model.hub_angle(), model.hub_rate(), {}};
+    const double c = std::cos(y[0]), w = std::sin(y[0]);
+    const auto turned = [&](Vec2 v) { return Vec2{c * v.x + w * v.y, c * v.y - w * v.x}; };
+    for (std::size_t k = 0; k < s.points.size(); ++k) {
+        BeamPoint& p = s.points[k];
+        model.point(model.length() * static_cast<double>(k + 1) / static_cast<double>(s.points.size()), p);
+        p.v = turned(p.v - s.spin * Vec2{-p.r.y, p.r.x});
+        p.v1 = turned(p.v1 - s.spin * Vec2{-p.r1.y, p.r1.x});
+        p.r1 = turned(p.r1);
+        p.r2 = turned(p.r2);
+    }
+    return s;
+}
+
+TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
+    constexpr int kSamples = 60;
+    constexpr double kSlack = 1 + 1e-9;
+    Dice dice(5);
+    int steps = 0, finite = 0;
+    for (int repeat = 0; repeat < 24; ++repeat) {
+        Problem p = falling_beam(repeat % 4 ? ModelKind::first_order : ModelKind::zeroth_order, Basis::hub_beam,
+                                 1 + dice.one_of(4));
+        p.beam.youngs_modulus *= std::pow(10, dice.between(-3, 0));
+        p.hub.radius = dice.between(-0.3, 0.5);
+        p.hub.inertia = std::pow(10, dice.between(-3, 1));
+        p.gravity = dice.about_zero(20);
+        if (dice.one_of(2)) p.hub.drive = HarmonicTorque{dice.about_zero(5), dice.between(0, 5), 1};
+        if (dice.one_of(3) == 0) p.beam.damping_ratio = {std::pow(10, dice.between(-3, 1))};
+        System system(p);
+        const double rtol = std::pow(10, dice.between(-8, -3));
+        const auto integrator = make_exponential(system, rtol, 1e-3 * rtol);
+        std::vector<double> y(static_cast<std::size_t>(system.size));
+        const auto n = static_cast<std::size_t>(system.coordinates());
+        y[0] = dice.about_zero(3);
+        y[n] = dice.about_zero(10);
+        for (std::size_t i = 1; i < n; ++i) {
+            y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
+            y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
+        }
+        integrator->start(0, y.data());
+        for (int step = 0; step < 25; ++step) {
+            const Segment& segment = integrator->step();
+            const MotionBounds* b = segment.bounds();
+            ASSERT_NE(b, nullptr);
+            ++steps;
+            if (std::isfinite(b->spin_acceleration)) ++finite;
+            FlightSample before = flight_sample(system, segment, segment.t0);
+            for (int k = 1; k <= kSamples; ++k) {
+                const double h = segment.t1 - segment.t0;
+                const FlightSample s = flight_sample(system, segment, segment.t0 + h * k / kSamples);
+                const double dt = s.t - before.t, rounding = 1e-13 * (1 + std::fabs(s.spin));
+                EXPECT_LE(std::fabs(s.spin), kSlack * b->spin) << repeat;
+                EXPECT_LE(std::fabs(s.spin - before.spin), kSlack * b->spin_acceleration * dt + rounding) << repeat;
+                EXPECT_GE(s.angle, b->angle_low - rounding) << repeat;
+                EXPECT_LE(s.angle, b->angle_high + rounding) << repeat;
+                EXPECT_GE(s.rate, b->rate_low - rounding) << repeat;
+                EXPECT_LE(s.rate, b->rate_high + rounding) << repeat;
+                for (std::size_t i = 0; i < s.points.size(); ++i) {
+                    const BeamPoint &a = before.points[i], &c = s.points[i];
+                    EXPECT_LE(norm(c.v), kSlack * b->deflection_speed + rounding) << repeat;
+                    EXPECT_LE(norm(c.v - a.v), kSlack * b->deflection_acceleration * dt + rounding) << repeat;
+                    EXPECT_LE(norm(c.v1), kSlack * b->slope_speed + rounding) << repeat;
+                    EXPECT_LE(std::fabs(c.r1.y), kSlack * b->slope) << repeat;
+                    EXPECT_LE(norm(c.r2), kSlack * b->curvature) << repeat;
+                }
+                before = s;
+            }
+        }
+    }
+    EXPECT_GT(finite, steps / 2);
+}
+
+// ---- contact -------------------------------------------------------------------------------------
+
+TEST(ExponentialContact, StepsOverStrongDamping) {
+    for (const double ratio : {0.9, 1.3, 40.0}) {
+        Problem p;
+        p.beam.damping_ratio = {ratio, 2 * ratio};
+        p.solver.rtol = 1e-9;
+        p.solver.atol = 1e-12;
+        p.solver.method = Method::exponential;
+        Request request;
+        std::vector<double> times;
+        for (int k = 1; k <= 30; ++k) times.push_back(0.02 * k);
+        request.tables.push_back({times, {channel("theta"), channel("loss_structural"), channel("tip_deflection")}});
+        const Result fast = simulate(p, request);
+        p.solver.rtol = 1e-11;
+        p.solver.atol = 1e-14;
+        p.solver.method = Method::rk8;
+        const Result slow = simulate(p, request);
+        EXPECT_LT(fast.counters.steps, 200) << ratio;
+        EXPECT_LT(fast.energy_residual_max, 1e-8 * fast.energy_scale) << ratio;
+        ASSERT_EQ(fast.impacts.size(), slow.impacts.size()) << ratio;
+        for (std::size_t c = 0; c < 3; ++c) {
+            double size = 0;
+            for (const double value : slow.tables[0].values[c]) size = std::max(size, std::fabs(value));
+            for (std::size_t row = 0; row < times.size(); ++row)
+                EXPECT_NEAR(fast.tables[0].values[c][row], slow.tables[0].values[c][row], 1e-6 * size)
+                    << ratio << ", " << c << " at " << times[row];
+        }
+    }
+}
+
+TEST(ExponentialContact, WhatItDoesNotCoverStepsOverStrongDampingToo) {
+    const auto lean = [](auto&& change) {
+        Problem p;
+        p.beam.damping_ratio = {1000};
+        change(p);
+        const Result r = run(p, 0.5);
+        EXPECT_LT(r.counters.steps, 5000) << name(p.beam.model);
+        EXPECT_GE(r.impacts.size(), 1u) << name(p.beam.model);
+        EXPECT_LT(r.energy_residual_max, 10 * p.solver.rtol * r.energy_scale) << name(p.beam.model);
+    };
+    lean([](Problem& p) { p.beam.model = ModelKind::second_order; });
+    lean([](Problem& p) { p.beam.model = ModelKind::exact; });
+    lean([](Problem& p) { p.beam.basis = Basis::cantilever; });
+    lean([](Problem& p) { p.contact.friction = StickSlipFriction{0.3, {}, {}, {}}; });
+}
+
+// A valid scene of any kind that the method covers in contact too.
+Problem random_covered_contact(unsigned seed) {
+    Dice dice(seed);
+    for (;;) {
+        Problem p;
+        const int kind = dice.one_of(4);
+        p.beam.model = kind == 0 ? ModelKind::rigid : kind == 1 ? ModelKind::zeroth_order : ModelKind::first_order;
+        p.beam.modes = 1 + dice.one_of(4);
+        p.cam->speed = dice.about_zero(10);
+        p.cam->eccentricity = dice.between(0, 0.03);
+        p.cam->phase = dice.about_zero(3);
+        p.cam->radius = dice.between(0.05, 0.12);
+        p.cam->centre = {dice.between(0.25, 0.8), dice.about_zero(0.05)};
+        p.initial.angle = dice.between(0.3, 0.9);
+        p.initial.angular_velocity = dice.about_zero(1);
+        if (dice.one_of(2)) p.hub.radius = dice.between(-0.1, 0.2);
+        if (dice.one_of(2)) p.hub.inertia = dice.between(0, 0.05);
+        if (dice.one_of(3) == 0) p.hub.drive = HarmonicTorque{0.2, dice.between(0, 5), 0};
+        if (dice.one_of(3) == 0) p.beam.damping_ratio = {dice.between(0, 0.2)};
+        p.contact.stiffness = std::pow(10, dice.between(6, 9));
+        p.contact.exponent = dice.one_of(2) ? 1.5 : dice.between(1, 2);
+        p.contact.restitution = dice.between(0.2, 1);
+        p.contact.damping = static_cast<DampingLaw>(dice.one_of(9));
+        if (dice.one_of(3) == 0) p.contact.friction = CoulombFriction{dice.between(0, 0.5), 1e-3};
+        if (dice.one_of(3) == 0) p.contact.offset = dice.between(0, 0.02);
+        if (validate(p).empty()) return p;
+    }
+}
+
+Result solve(Problem p, Method method, double rtol, double end, const std::vector<double>& times = {}) {
+    p.solver.method = method;
+    p.solver.rtol = rtol;
+    p.solver.atol = 1e-3 * rtol;
+    Request request;
+    request.end_time = end;
+    request.turning_points = false;
+    if (!times.empty()) request.tables.push_back({times, {channel("theta"), channel("energy_residual")}});
+    return simulate(p, request);
+}
+
+int seeds(int quick) { return std::getenv("BEAMCAM_LONG") ? 10 * quick : quick; }
+
+TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
+    int compared = 0;
+    for (int seed = 1; seed <= seeds(8); ++seed) {
+        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
+        const Result slow = solve(p, Method::rk8, 1e-11, 0.35), fast = solve(p, Method::exponential, 1e-10, 0.35);
+        // Up to the third impact or 10 ms after the first: beyond, errors of 1e-11 have grown.
+        for (std::size_t i = 0; i < std::min<std::size_t>(slow.impacts.size(), 3); ++i) {
+            const Impact &a = slow.impacts[i], &b = fast.impacts.at(i);
+            if (a.t_start > slow.impacts[0].t_start + 0.01) break;
+            ++compared;
+            const double rate = std::fabs(slow.impacts[0].v_n_before);
+            EXPECT_NEAR(b.t_start, a.t_start, 1e-8) << seed;
+            EXPECT_NEAR(b.v_n_before, a.v_n_before, 1e-5 * rate) << seed;
+            EXPECT_NEAR(b.x, a.x, 1e-7) << seed;
+            ASSERT_EQ(a.t_end.has_value(), b.t_end.has_value()) << seed;
+            if (!a.t_end) continue;
+            EXPECT_NEAR(*b.t_end, *a.t_end, 1e-6) << seed;
+            EXPECT_NEAR(*b.v_n_after, *a.v_n_after, 1e-4 * rate) << seed;
+            EXPECT_NEAR(*b.force_peak, *a.force_peak, 1e-4 * *a.force_peak + 1e-3) << seed;
+            EXPECT_NEAR(b.penetration_peak, a.penetration_peak, 1e-4 * a.penetration_peak) << seed;
+            EXPECT_NEAR(b.impulse_n, a.impulse_n, 1e-5 * a.impulse_n) << seed;
+            EXPECT_NEAR(b.impulse_t, a.impulse_t, 1e-4 * a.impulse_n) << seed;
+            EXPECT_NEAR(b.energy_lost, a.energy_lost, 1e-5 * slow.energy_scale) << seed;
+        }
+    }
+    EXPECT_GT(compared, seeds(8) / 2);
+}
+
+TEST(ExponentialContact, KeepsTheLedger) {
+    for (int seed = 1; seed <= seeds(12); ++seed) {
+        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
+        for (const double rtol : {1e-4, 1e-6, 1e-9}) {
+            const Result r = solve(p, Method::exponential, rtol, 0.5);
+            EXPECT_LT(r.energy_residual_max, 3 * rtol * r.energy_scale) << seed << " " << rtol;
+        }
+    }
+}
+
+TEST(ExponentialContact, ServesEveryExponent) {
+    // Without dissipation the ledger is the energy.
+    for (const double n : {1.0, 1.1, 1.4, 1.75, 2.0}) {
+        Problem p;
+        p.contact.exponent = n;
+        p.contact.stiffness = std::pow(10, 4 + 2.5 * n);
+        p.contact.damping = DampingLaw::none;
+        const std::vector<double> times{0.29, 0.3, 0.31};
+        const Result exact = solve(p, Method::rk8, 1e-12, 0.32, times), slow = solve(p, Method::rk8, 1e-9, 0.32),
+                     fast = solve(p, Method::automatic, 1e-9, 0.32, times);
+        ASSERT_FALSE(exact.impacts.empty()) << n;
+        EXPECT_EQ(fast.impacts.size(), exact.impacts.size()) << n;
+        EXPECT_LT(3 * fast.counters.steps, slow.counters.steps) << n;
+        EXPECT_LT(fast.energy_residual_max, 1e-9 * fast.energy_scale) << n;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            EXPECT_NEAR(fast.tables[0].values[0][i], exact.tables[0].values[0][i], 2e-8) << n << " " << times[i];
+    }
+}
+
+TEST(ExponentialContact, ADriveHoldsWhatTheContactPushes) {
+    // The work of a prescribed hub includes that against the cam.
+    Problem p;
+    p.hub.drive = ConstantSpeed{-2};
+    p.initial = {0.4, 0, InitialShape::straight};
+    p.solver.method = Method::automatic;
+    const Result r = run(p, 0.04);
+    ASSERT_FALSE(r.impacts.empty());
+    EXPECT_GT(r.energy_scale, 1);
+    EXPECT_LT(r.energy_residual_max, 10 * p.solver.rtol * r.energy_scale);
+}
+
+TEST(ExponentialContact, MirrorsAMirroredScene) {
+    Problem p;
+    p.beam.modes = 3;
+    p.initial.angle = 0.5;
+    Problem mirrored = p;
+    mirrored.initial.angle = std::numbers::pi - 0.5;
+    mirrored.cam->centre.x *= -1;
+    mirrored.cam->speed *= -1;
+    mirrored.cam->phase = std::numbers::pi - p.cam->phase;
+    const std::vector<double> times{0.1, 0.25, 0.3, 0.35};
+    const Result a = solve(p, Method::exponential, 1e-10, 0.35, times),
+                 b = solve(mirrored, Method::exponential, 1e-10, 0.35, times);
+    for (std::size_t k = 0; k < times.size(); ++k)
+        EXPECT_NEAR(std::numbers::pi - b.tables[0].values[0][k], a.tables[0].values[0][k], 1e-9);
+}
+
+// ---- what must not change the motion -------------------------------------------------------------
+
+TEST(ExponentialRuns, AreBitwisePrefixesOfLongerRuns) {
+    for (const int modes : {2, 7}) {
+        Problem p;
+        p.beam.modes = modes;
+        std::vector<double> times;
+        for (int k = 1; k <= 40; ++k) times.push_back(0.3 * k / 40);
+        const Result brief = solve(p, Method::automatic, 1e-7, 0.3, times),
+                     full = solve(p, Method::automatic, 1e-7, 0.6, times);
+        EXPECT_EQ(brief.tables[0].values, full.tables[0].values);
+    }
+}
+
+TEST(ExponentialRuns, AreNotDisturbedByObservers) {
+    Problem p;
+    p.beam.modes = 3;
+    const std::vector<double> times{0.2, 0.28, 0.285, 0.4, 0.5};
+    const Result plain = solve(p, Method::automatic, 1e-7, 0.5, times);
+    p.solver.rtol = 1e-7;
+    p.solver.atol = 1e-10;
+    Request request;
+    request.tables.push_back({times, {channel("theta"), channel("energy_residual")}});
+    TableRequest all;
+    for (int k = 0; k < 300; ++k) all.times.push_back(0.5 * k / 300);
+    all.channels = all_channels(p);
+    request.tables.push_back(all);
+    request.extrema = {channel("theta_dot"), channel("contact_force"), channel("tip_deflection")};
+    request.poses.push_back({{0.1, 0.29}, 33});
+    const Result watched = simulate(p, request);
+    EXPECT_EQ(plain.tables[0].values, watched.tables[0].values);
+    ASSERT_EQ(plain.impacts.size(), watched.impacts.size());
+    for (std::size_t i = 0; i < plain.impacts.size(); ++i)
+        EXPECT_EQ(plain.impacts[i].t_start, watched.impacts[i].t_start);
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

@@ -1,0 +1,317 @@
+// A kept trajectory, and one integration for many: the bits of the run that each would have been alone.
+#include "sim/observe/trajectory.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+// ---- every number of a result, as bits -----------------------------------------------------------
+
+using Bits = std::vector<std::uint64_t>;
+
+struct Collector {
+    Bits bits;
+    void operator()(double value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); }
+    void operator()(long value) { bits.push_back(static_cast<std::uint64_t>(value)); }
+    void operator()(int value) { (*this)(static_cast<long>(value)); }
+    void operator()(const Vec2& v) { (*this)(v.x), (*this)(v.y); }
+    void operator()(const std::optional<double>& value) {
+        (*this)(value.has_value() ? 1L : 0L), (*this)(value.value_or(0));
+    }
+    void operator()(const Impact& i) {
+        (*this)(i.t_start), (*this)(i.t_end), (*this)(i.x), (*this)(i.cam_angle), (*this)(i.v_n_before);
+        (*this)(i.v_t_before), (*this)(i.v_n_after), (*this)(i.v_t_after), (*this)(i.duration), (*this)(i.force_peak);
+        (*this)(i.penetration_peak), (*this)(i.impulse_n), (*this)(i.impulse_t), (*this)(i.restitution);
+        (*this)(i.energy_lost), (*this)(i.collision);
+    }
+    void operator()(const Collision& c) {
+        (*this)(c.t_start), (*this)(c.t_end), (*this)(c.count), (*this)(c.x), (*this)(c.v_n_before);
+        (*this)(c.v_n_after), (*this)(c.restitution), (*this)(c.force_peak), (*this)(c.energy_lost);
+    }
+    void operator()(const Pose& p) {
+        (*this)(p.t), (*this)(p.theta), (*this)(p.theta_dot), (*this)(p.root_slope), (*this)(p.cam_angle);
+        for (Vec2 r : p.centreline) (*this)(r);
+        for (double m : p.moment) (*this)(m);
+        if (p.nearest) (*this)(p.nearest->gap), (*this)(p.nearest->force), (*this)(p.nearest->x), (*this)(p.nearest->s);
+    }
+};
+
+Bits bits_of(const Result& r) {
+    Collector put;
+    put(r.end_time), put(r.energy_residual_max), put(r.energy_scale), put(r.reproducible_until);
+    put(r.counters.steps), put(r.counters.rejected), put(r.counters.rhs_evaluations);
+    put(r.counters.gap_evaluations), put(r.counters.jacobians);
+    for (const Table& table : r.tables)
+        for (const auto& column : table.values)
+            for (double value : column) put(value);
+    for (const auto& poses : r.poses)
+        for (const Pose& pose : poses) put(pose);
+    for (const auto& path : r.points)
+        for (Vec2 point : path) put(point);
+    for (const Impact& i : r.impacts) put(i);
+    for (const Collision& c : r.collisions) put(c);
+    for (const ZeroCrossing& z : r.theta_zero) put(z.t), put(z.theta_dot);
+    for (const Apex& a : r.apexes) put(a.t), put(a.theta);
+    for (const Extremum& e : r.extrema) put(e.min), put(e.t_min), put(e.max), put(e.t_max);
+    return put.bits;
+}
+
+void expect_equal(const Result& a, const Result& b) {
+    EXPECT_EQ(a.end_time, b.end_time);
+    EXPECT_EQ(a.counters.rhs_evaluations, b.counters.rhs_evaluations);
+    EXPECT_EQ(a.counters.gap_evaluations, b.counters.gap_evaluations);
+    EXPECT_EQ(a.impacts.size(), b.impacts.size());
+    EXPECT_EQ(a.energy_residual_max, b.energy_residual_max);
+    EXPECT_EQ(a.warnings, b.warnings);
+    EXPECT_TRUE(bits_of(a) == bits_of(b));
+}
+
+// Asks for something of everything.
+Request curious(const Problem& problem, double end) {
+    Request request;
+    request.end_time = end;
+    std::vector<double> times;
+    for (int k = 0; k <= 14; ++k) times.push_back(end * k / 14);
+    request.tables.push_back({times, all_channels(problem)});
+    request.poses.push_back({times, 9});
+    request.points.push_back({0.5 * problem.beam.length, times});
+    for (const Channel c : all_channels(problem))
+        if (c.kind == ChannelKind::contact_force || c.kind == ChannelKind::tip_deflection) request.extrema.push_back(c);
+    return request;
+}
+
+struct Kept {
+    std::vector<double> numbers;
+    Result result;
+};
+
+Kept keep(const Problem& problem, double end) {
+    Kept kept;
+    TrajectoryWriter writer(
+        [&](std::span<const double> piece) { kept.numbers.insert(kept.numbers.end(), piece.begin(), piece.end()); });
+    const Request request = curious(problem, end);
+    kept.result = simulate(problem, {&request, 1}, {}, &writer).front();
+    EXPECT_TRUE(writer.complete());
+    return kept;
+}
+
+struct Case {
+    const char* name;
+    Problem problem;
+    double end;
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    const auto add = [&](const char* name, double end, auto&& change) {
+        Problem p;
+        change(p);
+        all.push_back({name, p, end});
+    };
+    add("Default", 0.3, [](Problem&) {});
+    add("Rigid", 0.4, [](Problem& p) { p.beam.model = ModelKind::rigid; });
+    add("Exact", 0.15, [](Problem& p) {
+        p.beam.model = ModelKind::exact;
+        p.beam.modes = 1;
+        p.initial.angular_velocity = -3;
+    });
+    add("SecondOrder", 0.15, [](Problem& p) {
+        p.beam.model = ModelKind::second_order;
+        p.initial.angular_velocity = -3;
+    });
+    add("Paper", 0.285, [](Problem& p) { p.beam.model = ModelKind::paper; });
+    add("NoCam", 0.2, [](Problem& p) { p.cam.reset(); });
+    add("StickSlip", 0.3, [](Problem& p) { p.contact.friction = StickSlipFriction{0.3, 0.4, {}, {}}; });
+    add("Coulomb", 0.3, [](Problem& p) { p.contact.friction = CoulombFriction{}; });
+    add("Newton", 0.7, [](Problem& p) { p.contact.model = ContactModel::restitution; });
+    add("Plastic", 0.7, [](Problem& p) {
+        p.contact.model = ContactModel::restitution;
+        p.contact.restitution = 0;
+    });
+    add("Resting", 0.1, [](Problem& p) {
+        p.initial.shape = InitialShape::resting;
+        p.cam->speed = 5;
+    });
+    add("SpinUp", 0.25, [](Problem& p) {
+        p.cam.reset();
+        p.hub.drive = SpinUp{4, 0.2};
+    });
+    add("TorqueTable", 0.3, [](Problem& p) { p.hub.drive = TorqueTable{{0, 0.1, 0.25}, {0, 0.2, 0}}; });
+    add("Exponential", 0.3, [](Problem& p) {
+        p.solver.method = Method::exponential;
+        p.beam.modes = 6;
+        p.beam.damping_ratio = {0.01};
+    });
+    add("Rk8", 0.3, [](Problem& p) { p.solver.method = Method::rk8; });
+    add("Adams", 0.3, [](Problem& p) {
+        p.solver.method = Method::cvode_adams;
+        p.solver.rtol = 1e-6;
+    });
+    add("Bdf", 0.3, [](Problem& p) {
+        p.solver.method = Method::cvode_bdf;
+        p.solver.rtol = 1e-6;
+    });
+    return all;
+}
+
+// Ends in flight, in contact, exactly at events and kinks, at once.
+std::vector<double> ends_for(const Kept& kept, double end) {
+    std::vector<double> ends{0, 0.25, end};
+    if (!kept.result.impacts.empty()) {
+        const Impact& impact = kept.result.impacts.front();
+        for (double t : {impact.t_start, impact.t_start - 1e-5, impact.t_end.value_or(end),
+                         impact.t_start + 0.3 * impact.duration.value_or(0)})
+            ends.push_back(t);
+    }
+    std::erase_if(ends, [&](double t) { return t < 0 || t > end; });
+    return ends;
+}
+
+class Everything : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
+    const auto& [name, problem, end] = GetParam();
+    const Kept kept = keep(problem, end);
+    const Trajectory trajectory(problem, kept.numbers);
+    EXPECT_EQ(trajectory.end(), end);
+    for (const double shorter : ends_for(kept, end)) {
+        SCOPED_TRACE(::testing::Message() << "until " << shorter);
+        const Request request = curious(problem, shorter);
+        Effort effort;
+        const Result replayed = replay(problem, trajectory, {&request, 1}, {}, &effort).front();
+        expect_equal(replayed, simulate(problem, request));
+        EXPECT_EQ(effort.integrations, 0);
+    }
+}
+
+TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
+    const auto& [name, problem, end] = GetParam();
+    std::vector<Request> requests;
+    for (double share : {0.3, 1.0, 0.0}) requests.push_back(curious(problem, share * end));
+    requests.push_back({});
+    requests[3].end_time = 0.97 * end;
+    Effort effort;
+    const std::vector<Result> together = simulate(problem, requests, {}, nullptr, &effort);
+    EXPECT_EQ(effort.integrations, 1);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        SCOPED_TRACE(::testing::Message() << "request " << i);
+        expect_equal(together[i], simulate(problem, requests[i]));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Everything, ::testing::ValuesIn(cases()),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+// Turning points cost a look at every ripple: a run that nobody asked for them has none to keep, and a later one finds
+// them in the kept steps.
+TEST(KeptTrajectory, FindsTheTurningPointsThatTheRunDidNotLookFor) {
+    for (const Method method : {Method::automatic, Method::rk8}) {
+        Problem problem;
+        problem.solver.method = method;
+        problem.cam.reset();
+        problem.initial.angular_velocity = 2;  // it rises, turns back and falls past the horizontal
+        Request request = curious(problem, 0.8);
+        std::vector<double> numbers;
+        TrajectoryWriter writer(
+            [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
+        request.turning_points = false;
+        const Result without = simulate(problem, {&request, 1}, {}, &writer).front();
+        EXPECT_TRUE(without.apexes.empty());
+        request.turning_points = true;
+        const Result direct = simulate(problem, request);
+        ASSERT_FALSE(direct.apexes.empty());
+        ASSERT_FALSE(direct.theta_zero.empty());
+        expect_equal(replay(problem, Trajectory(problem, numbers), {&request, 1}).front(), direct);
+        // Not looking is all that it changes.
+        Result bare = direct;
+        bare.apexes.clear(), bare.theta_zero.clear();
+        expect_equal(without, bare);
+        // Either beside the other in one run.
+        Request ignorant = request;
+        ignorant.turning_points = false;
+        const Request both[] = {ignorant, request};
+        const std::vector<Result> together = simulate(problem, both);
+        expect_equal(together[0], bare);
+        expect_equal(together[1], direct);
+    }
+}
+
+TEST(KeptTrajectory, GivesTheHorizonAfterOneRunMore) {
+    Problem problem;
+    Request request;
+    request.end_time = 0.5;
+    request.horizon = true;
+    const Result direct = simulate(problem, request);
+    ASSERT_TRUE(direct.reproducible_until);
+    const Kept kept = keep(problem, 0.5);
+    Effort effort;
+    const Result replayed = replay(problem, Trajectory(problem, kept.numbers), {&request, 1}, {}, &effort).front();
+    EXPECT_EQ(replayed.reproducible_until, direct.reproducible_until);
+    EXPECT_EQ(effort.integrations, 1);
+    effort = {};
+    simulate(problem, {&request, 1}, {}, nullptr, &effort);
+    EXPECT_EQ(effort.integrations, 2);
+}
+
+TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {
+    const Problem problem;
+    const Kept kept = keep(problem, 0.3);
+    Problem other;
+    other.beam.modes = 3;
+    EXPECT_THROW(Trajectory(other, kept.numbers), std::invalid_argument);
+    const std::span<const double> all(kept.numbers);
+    for (std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{10}, all.size() / 2, all.size() - 1})
+        EXPECT_THROW(Trajectory(problem, all.first(count)), std::invalid_argument) << count;
+    const Request longer = curious(problem, 0.31);
+    EXPECT_THROW(replay(problem, Trajectory(problem, all), {&longer, 1}), std::invalid_argument);
+    const Request request = curious(problem, 0.3);
+    for (std::size_t at = 1; at < kept.numbers.size(); at += kept.numbers.size() / 37) {
+        std::vector<double> bent = kept.numbers;
+        bent[at] = -1e300;
+        try {
+            replay(problem, Trajectory(problem, bent), {&request, 1});  // told, or a wrong number, never a crash
+        } catch (const std::invalid_argument&) {
+        }
+    }
+}
+
+TEST(KeptTrajectory, IsNotCompleteWhereASegmentIsMoreThanNumbers) {
+    Problem problem;
+    problem.solver.method = Method::arkode_erk;
+    Request request;
+    request.end_time = 0.05;
+    std::size_t handed = 0;
+    TrajectoryWriter writer([&](std::span<const double> piece) { handed += piece.size(); });
+    simulate(problem, {&request, 1}, {}, &writer);
+    EXPECT_FALSE(writer.complete());
+    EXPECT_EQ(handed, 0u);
+}
+
+TEST(Prefix, HoldsInTheStepThatAnEventShortens) {
+    // Just before a touch a shorter run must show the step that the longer run takes, which ends at the touch.
+    const Problem problem;
+    const Result longer = run(problem, 1.0);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double touch = longer.impacts.at(i).t_start;
+        const std::vector<double> times{touch - 3e-4, touch - 2e-4, touch - 1e-4};
+        Request request;
+        request.tables.push_back({times, all_channels(problem)});
+        const Result shorter = simulate(problem, request);
+        request.end_time = touch + 0.01;
+        const Result same = simulate(problem, request);
+        for (std::size_t c = 0; c < shorter.tables[0].values.size(); ++c)
+            for (std::size_t row = 0; row < times.size(); ++row)
+                EXPECT_EQ(std::bit_cast<std::uint64_t>(shorter.tables[0].values[c][row]),
+                          std::bit_cast<std::uint64_t>(same.tables[0].values[c][row]))
+                    << name(shorter.tables[0].channels[c]) << " " << i;
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

@@ -1,0 +1,148 @@
+#include "sim/studies/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+AccuracyRequest quick(double end) {
+    AccuracyRequest request;
+    request.end_time = end;
+    request.repeats = 1;
+    request.longest_run = 30;  // sanitizers are slow; nothing here is meant to be left out
+    request.rtols = {1e-3, 1e-6, 1e-10};
+    request.methods = {Method::automatic, Method::rk8, Method::cvode_adams};
+    request.modes = {3, 5, 8};
+    return request;
+}
+
+Problem falling() {
+    Problem p = testing::falling_beam(ModelKind::first_order);
+    p.solver.rtol = 1e-8;
+    p.solver.atol = 1e-11;
+    return p;
+}
+
+void methods_come_nearer_as_their_tolerances_tighten(const Accuracy& found) {
+    EXPECT_DOUBLE_EQ(found.until, 0.1);
+    EXPECT_LT(found.reference_error, 1e-11);
+    ASSERT_EQ(found.work.size(), 9u);
+    for (std::size_t i = 0; i < found.work.size(); i += 3) {
+        ASSERT_TRUE(found.work[i].error && found.work[i + 2].error) << name(found.work[i].method);
+        EXPECT_LT(*found.work[i + 2].error, 1e-2 * *found.work[i].error) << name(found.work[i].method);
+        EXPECT_LT(*found.work[i + 2].error, 1e-8) << name(found.work[i].method);
+        EXPECT_GT(found.work[i + 2].steps, found.work[i].steps) << name(found.work[i].method);
+    }
+}
+
+// A beam that falls freely is a rigid rod to 1e-5: shapes and models hardly matter, and which matter more is known.
+void shapes_and_models_are_compared_with_the_best(const Accuracy& found) {
+    EXPECT_EQ(found.most_modes, 8);
+    ASSERT_EQ(found.modes.size(), 4u);  // the scene's own two as well
+    EXPECT_EQ(*found.modes[3].error, 0);
+    EXPECT_LT(*found.modes[1].error, *found.modes[0].error);
+    EXPECT_LT(*found.modes[0].error, 1e-4);
+    EXPECT_EQ(found.best_model, ModelKind::second_order);
+    ASSERT_EQ(found.models.size(), 4u);
+    EXPECT_EQ(found.models.front().model, ModelKind::rigid);
+    EXPECT_EQ(*found.models.back().error, 0);
+    EXPECT_GT(*found.models.front().error, 1e-7);  // the rigid rod lags by the bending
+    EXPECT_LT(*found.models.front().error, 1e-3);
+    EXPECT_TRUE(found.contact.empty());
+}
+
+void the_recommendation_is_the_loosest_tolerance_that_serves(const Accuracy& found) {
+    ASSERT_TRUE(found.recommendation);
+    for (const WorkRow& row : found.work) {
+        if (row.method != Method::automatic) continue;
+        if (row.rtol > found.recommendation->rtol) {
+            EXPECT_GT(*row.error, found.target / 2);
+        } else if (row.rtol == found.recommendation->rtol) {
+            EXPECT_LE(*row.error, found.target / 2);
+        }
+    }
+    EXPECT_GT(found.recommendation->seconds, 0);
+}
+
+// One assessment, looked at from several sides.
+TEST(Accuracy, OfAFallingBeam) {
+    AccuracyRequest request = quick(0.1);
+    request.target = 1e-6;
+    // `exact` with the same assertions would take minutes under a sanitizer.
+    request.models = {ModelKind::second_order, ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid};
+    const Accuracy found = assess(falling(), request);
+    methods_come_nearer_as_their_tolerances_tighten(found);
+    shapes_and_models_are_compared_with_the_best(found);
+    the_recommendation_is_the_loosest_tolerance_that_serves(found);
+}
+
+// The time of comparison is the reproducible horizon that the summary tells, found another way.
+TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
+    Problem p;
+    AccuracyRequest request = quick(1.8);
+    request.methods = {Method::rk8};
+    request.rtols = {1e-8};
+    request.modes = {1};
+    request.models = {ModelKind::zeroth_order};
+    p.beam.modes = 1;
+    p.beam.model = ModelKind::zeroth_order;
+    Request plain;
+    plain.end_time = 1.8;
+    plain.horizon = true;
+    const double horizon = *simulate(p, plain).reproducible_until;
+    ASSERT_LT(horizon, 1.75);
+    const Accuracy found = assess(p, request);
+    EXPECT_NEAR(found.until, horizon, 0.1);
+    EXPECT_LT(found.until, found.end_time);
+    ASSERT_EQ(found.contact.size(), 3u);
+    EXPECT_GT(*found.contact[0].error, 1e-3);  // 1 % of the stiffness is far more than rtol
+}
+
+// The angle of a driven hub has no error; the tip's has.
+TEST(Accuracy, OfADrivenHubIsTheTips) {
+    Problem p;
+    p.cam.reset();
+    p.hub.drive = ConstantSpeed{0};
+    p.beam.model = ModelKind::first_order;
+    p.beam.youngs_modulus = 1e8;
+    p.initial = {0, 0, InitialShape::straight};
+    AccuracyRequest request = quick(0.5);
+    request.models = {ModelKind::rigid, ModelKind::first_order};
+    const Accuracy found = assess(p, request);
+    EXPECT_TRUE(found.of_tip);
+    for (const WorkRow& row : found.work)
+        if (row.method == Method::rk8 && row.rtol > 1e-4) {
+            EXPECT_GT(*row.error, 1e-12);
+        }
+    ASSERT_EQ(found.modes.size(), 4u);
+    EXPECT_GT(*found.modes.front().error, 1e-6);
+    // The rigid beam does not bend: all of the deflection, several percent of the length, is its error.
+    EXPECT_GT(*found.models.front().error, 0.01);
+}
+
+TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
+    // A driven beam that beats on a fast cam is no more reproducible for its hub being so.
+    Problem p;
+    p.hub.drive = ConstantSpeed{-0.1};
+    p.initial = {0.45, 0, InitialShape::straight};
+    p.cam->speed = 40;
+    p.beam.youngs_modulus = 2e9;
+    p.solver.rtol = 1e-4;
+    p.solver.atol = 1e-7;
+    Request request;
+    request.end_time = 4;
+    request.horizon = true;
+    const Result r = simulate(p, request);
+    ASSERT_GT(r.impacts.size(), 3u);
+    EXPECT_LT(*r.reproducible_until, 4);
+}
+
+TEST(Accuracy, StopsWhenAsked) {
+    EXPECT_THROW(assess(falling(), quick(0.1), [](const std::string&, double share) { return share < 0.2; }),
+                 Interrupted);
+}
+
+}  // namespace
+}  // namespace beamcam::sim

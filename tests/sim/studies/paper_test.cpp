@@ -1,0 +1,123 @@
+#include "sim/studies/paper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/beam/modes.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Torque doubled or inertia halved: only their ratio counts.
+TEST(Paper, AFactorTwoGivesThePapersTime) {
+    EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 1), 0.369998497559697, 1e-14);
+    EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 2), 0.261628446653, 1e-12);
+    EXPECT_NEAR(rod_fall_time(1, 9.81, kPi / 4, 2) * std::sqrt(2.0), rod_fall_time(1, 9.81, kPi / 4, 1), 1e-14);
+}
+
+TEST(Paper, DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot) {
+    const Problem problem;
+    for (const double support : {0.2, 0.23, 0.4, 0.6}) {
+        const double angle = 0.3;
+        const auto at = [&](Printing printing, double x, bool overhang) {
+            return supported_beam(problem, angle, support, x, printing, overhang);
+        };
+        const StaticDeflection left = at(Printing::corrected, support, false),
+                               right = at(Printing::corrected, support, true);
+        EXPECT_NEAR(left.w, 0, 1e-18);
+        EXPECT_NEAR(right.w, 0, 1e-18);
+        EXPECT_NEAR(left.slope, right.slope, 1e-15);
+        const double jump = at(Printing::printed, support, false).slope - at(Printing::printed, support, true).slope;
+        const double q = problem.beam.line_density() * problem.gravity, c = std::cos(angle);
+        EXPECT_NEAR(jump, q * std::pow(support, 3) / (24 * c) / problem.beam.bending_stiffness(), 1e-15);
+        EXPECT_EQ(at(Printing::corrected, 0, false).w, 0);  // hinged at O
+    }
+}
+
+// At the paper's contact nearly all of the error of its eq. (5) is the horizontal in place of the rod.
+TEST(Paper, MissingTermsOfTheDeflectionAreSmall) {
+    const Problem problem;
+    const double angle = std::asin(problem.cam->radius / norm(problem.cam->centre));
+    const double support = tangent_distance(*problem.cam, 0, Printing::printed);
+    const auto at = [&](double x, Printing printing, bool overhang) {
+        return supported_beam(problem, angle, support, x, printing, overhang);
+    };
+    const double end = problem.beam.length * std::cos(angle);
+    const auto tip = [&](Printing printing) { return at(end, printing, true).w; };
+    EXPECT_NEAR(tip(Printing::completed) / tip(Printing::printed) - 1, -0.009, 0.001);
+    EXPECT_NEAR(tip(Printing::corrected) / tip(Printing::completed), 1 / std::pow(std::cos(angle), 2), 1e-12);
+    EXPECT_NEAR(at(support, Printing::completed, false).slope, at(support, Printing::completed, true).slope, 1e-15);
+}
+
+TEST(Paper, TrialMethodFindsTheLocatedTouch) {
+    Problem problem;
+    const auto trial = trial_contact(problem, {0.21, 0.22, 0.23, 0.24, 0.25}, 0.4, 1e-6, Printing::corrected);
+    ASSERT_TRUE(trial);
+    Request request;
+    request.end_time = 0.3;
+    const Result located = simulate(problem, request);
+    ASSERT_FALSE(located.impacts.empty());
+    // The first point of the beam to arrive is the contact point up to the spacing of the points; its arrival is later
+    // than the touch by the square of that.
+    EXPECT_NEAR(trial->t, located.impacts[0].t_start, 1e-6);
+    EXPECT_EQ(trial->instants.size(), 5u);
+    // With e = 0 and a motionless cam the paper's own reading is right: 0.229 m.
+    problem.cam->eccentricity = problem.cam->speed = 0;
+    const auto concentric = trial_contact(problem, {0.21, 0.22, 0.23, 0.24, 0.25}, 0.4, 1e-6, Printing::printed);
+    ASSERT_TRUE(concentric);
+    EXPECT_NEAR(concentric->x, 0.22913, 2e-4);
+    EXPECT_NEAR(tangent_distance(*problem.cam, 0, Printing::printed), std::sqrt(0.25 * 0.25 - 0.01), 1e-15);
+}
+
+TEST(Paper, TrialMethodSaysWhenNothingArrives) {
+    Problem problem;
+    problem.cam->centre = {0.25, -0.9};
+    EXPECT_FALSE(trial_contact(problem, {0.2, 0.3}, 0.3, 1e-3, Printing::corrected));
+}
+
+TEST(Modes, TurningBeamAsPublished) {  // Wright et al. 1982, in the plane: ω² less Ω²
+    Problem problem;
+    problem.beam.model = ModelKind::exact;
+    problem.beam.modes = 16;
+    const double unit = std::sqrt(problem.beam.bending_stiffness() / problem.beam.line_density());
+    for (const auto& [speed, flapwise] :
+         {std::pair{0.0, 3.516015269}, {1.0, 3.681646817}, {2.0, 4.137319576}, {4.0, 5.585001421}}) {
+        const std::vector<Mode> modes = natural_modes(problem, speed * unit);
+        const double omega = modes.at(0).omega / unit;
+        EXPECT_NEAR(std::sqrt(omega * omega + speed * speed), flapwise, 2e-8) << speed;
+        EXPECT_GT(modes[0].shape.back().y, 0);
+    }
+}
+
+// Twice the centrifugal term, as the paper prints its variation of T, would give 7.1.
+TEST(Modes, StiffeningOfTheTurningBeamHasTheFactorOne) {
+    Problem problem;
+    problem.beam.basis = Basis::cantilever;
+    problem.beam.modes = 12;
+    const double unit = std::sqrt(problem.beam.bending_stiffness() / problem.beam.line_density()), turning = 4;
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order}) {
+        problem.beam.model = kind;
+        const double omega = natural_modes(problem, turning * unit).at(0).omega / unit;
+        EXPECT_NEAR(std::sqrt(omega * omega + turning * turning), 5.585001421, 1e-4) << name(kind);
+    }
+}
+
+TEST(Modes, FreeHubAsPublishedInEveryModel) {
+    for (const ModelKind kind :
+         {ModelKind::zeroth_order, ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
+        Problem problem;
+        problem.beam.model = kind;
+        problem.beam.modes = 16;
+        const double unit = std::sqrt(problem.beam.bending_stiffness() / problem.beam.line_density());
+        const std::vector<Mode> modes = natural_modes(problem);
+        EXPECT_NEAR(modes.at(0).omega / unit, 15.41820571698, 1e-8) << name(kind);
+        EXPECT_NEAR(modes.at(1).omega / unit, 49.9648620318, 1e-6) << name(kind);
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::sim
