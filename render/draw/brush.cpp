@@ -151,6 +151,26 @@ void Brush::rectangle(const Box& b) {
     start_ = at_ = {b.x, b.y}, open_ = true;
 }
 
+// A shaft and a filled head; an arrow shorter than its head is a smaller head.
+void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
+    const Vec2 way = to - from;
+    const double length = norm(way);
+    if (!(length > 0)) return;
+    const Vec2 u = way * (1 / length), v = sim::perp(u);
+    const double tip = std::min(head.length, length);
+    if (length > tip) {
+        move_to(from);
+        line_to(to - u * (0.8 * tip));
+        stroke({pen.color, pen.width, pen.dash, Cap::butt});
+    }
+    move_to(to);
+    line_to(to - u * tip + v * (head.half_width * tip));
+    if (head.back < 1) line_to(to - u * (head.back * tip));
+    line_to(to - u * tip - v * (head.half_width * tip));
+    close();
+    fill(pen.color);
+}
+
 // ---- ink ---------------------------------------------------------------------------------------
 
 void Brush::fill(Color c) {

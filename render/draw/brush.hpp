@@ -27,6 +27,12 @@ struct Pen {
     Cap cap = Cap::round;
 };
 
+// In parts of its length: half its width, and how far from the tip its back stands on the shaft.
+struct ArrowHead {
+    double length = 0, half_width = 0.42, back = 1;
+};
+enum class HAlign { left, centre, right };
+
 class Brush {
   public:
     Brush(const Brush&) = delete;
@@ -39,6 +45,7 @@ class Brush {
     void arc(Vec2 centre, double radius, double from, double to);  // angles counter-clockwise, Y up [rad]
     void circle(Vec2 centre, double radius);
     void rectangle(const Box& box);
+    void arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head);
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);

@@ -141,26 +141,6 @@ void Canvas::paint(Color c) {
     if (touched) touched->add_all();
 }
 
-// A shaft and a filled head; an arrow shorter than its head is a smaller head.
-void Canvas::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
-    const Vec2 way = to - from;
-    const double length = norm(way);
-    if (!(length > 0)) return;
-    const Vec2 u = way * (1 / length), v = sim::perp(u);
-    const double tip = std::min(head, length);
-    const Vec2 neck = to - u * tip;
-    if (length > tip) {
-        move_to(from);
-        line_to(neck + u * (0.2 * tip));
-        stroke({pen.color, pen.width, {}, Cap::butt});
-    }
-    move_to(to);
-    line_to(neck + v * (0.42 * tip));
-    line_to(neck - v * (0.42 * tip));
-    close();
-    fill(pen.color);
-}
-
 namespace {
 // In whole pixels, rounded outwards, within the source.
 Box whole_part(const Image& source, const Box& part) {
@@ -237,8 +217,8 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     PangoLayout* layout = prepare(fonts_, markup, style);
     const Metrics m = metrics(layout);
     double x = baseline.x;
-    if (style.align == Align::centre) x -= m.advance / 2;
-    if (style.align == Align::right) x -= m.advance;
+    if (style.align == HAlign::centre) x -= m.advance / 2;
+    if (style.align == HAlign::right) x -= m.advance;
     cairo_move_to(cr_, x, baseline.y - m.baseline);
     const bool halo = style.halo && halos;
     if (halo) {

@@ -26,12 +26,11 @@ std::string escape(std::string_view plain);
 std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
 
 enum class Weight { regular, medium, semibold };
-enum class Align { left, centre, right };
 struct TextStyle {
     double size = 16;  // [px]
     Color color = {};
     Weight weight = Weight::regular;
-    Align align = Align::left;
+    HAlign align = HAlign::left;
     double max_width = 0;            // > 0: cut with an ellipsis there [px]
     std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
 };
@@ -43,7 +42,6 @@ class Canvas : public Brush {
 
     void rounded(const Box& box, double radius);
     void paint(Color color);
-    void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
 
     // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards]. Whole
     // pixels.

@@ -54,7 +54,7 @@ class CloseUpPanel final : public Panel {
         Ticks marks;
         for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
             marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
-        const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
+        const TextStyle label{.size = 17 * u, .color = p.muted, .align = HAlign::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.move_to({plot_.x - 6 * u, y});
@@ -73,7 +73,7 @@ class CloseUpPanel final : public Panel {
         canvas.line_to({x1, y - 4 * u});
         canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = Align::right});
+        canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         for (const std::string& words :
              {how, fmt::format("heights in {}m", unit_.symbol), fmt::format("{}m", unit_.symbol)}) {
@@ -157,7 +157,7 @@ class CloseUpPanel final : public Panel {
         const double u = facts_.unit;
         if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
             const double x = plot_.x + 20 * u;
-            canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, 14 * u);
+            canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
             canvas.text({x + 14 * u, plot_.y + 31 * u}, "beam",
                         {.size = 17 * u, .color = p.motion, .weight = Weight::medium});
             return;
@@ -203,7 +203,7 @@ class CloseUpPanel final : public Panel {
         const auto arrow = [&](double force, Vec2 way) {
             const double length = longest * std::min(1.0, force / facts_.force_scale);
             if (length > 5 * u)
-                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, std::min(16 * u, 0.7 * length));
+                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.7 * length)});
         };
         canvas.circle(foot, 3.5 * u);
         canvas.fill(p.contact);
@@ -228,7 +228,7 @@ class CloseUpPanel final : public Panel {
         const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
         const std::string count = counted(pose.t);
         const double room = plot_.w - canvas.measure("beam", {.size = 17 * u}).w - 40 * u;
-        TextStyle style{.size = 17 * u, .color = p.ink, .align = Align::right, .halo = behind};
+        TextStyle style{.size = 17 * u, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
@@ -244,7 +244,7 @@ class CloseUpPanel final : public Panel {
     // A word and a number that ends at `right`; the word stays where it is however long the number.
     static void told(Canvas& canvas, Vec2 right, const char* word, const std::string& number, const char* widest,
                      TextStyle style) {
-        style.align = Align::right;
+        style.align = HAlign::right;
         canvas.text(right, number, style);
         const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
         canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);

@@ -126,7 +126,7 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(setup.accuracy_note),
-                    {.size = 17 * u, .color = facts.palette->muted, .align = Align::right, .max_width = b->w});
+                    {.size = 17 * u, .color = facts.palette->muted, .align = HAlign::right, .max_width = b->w});
 }
 
 void Film::Prepared::draw_color_bars(Canvas& canvas) const {
@@ -134,7 +134,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const double u = facts.unit;
     const Palette& palette = *facts.palette;
     const Box& b = *facts.places.scales;
-    const TextStyle small{.size = 16 * u, .color = palette.muted, .align = Align::centre};
+    const TextStyle small{.size = 16 * u, .color = palette.muted, .align = HAlign::centre};
     const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks,
                          std::array<double, 3> at) {
         const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
@@ -145,7 +145,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, name, small);
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
-            style.align = i == 0 ? Align::left : i == 1 ? Align::centre : Align::right;
+            style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
             canvas.text({strip.x + at[i] * strip.w, strip.bottom() + 19 * u}, marks[i], style);
         }
     };
@@ -203,7 +203,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         pills.push_back(
             {speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed, facts.palette->contact});
     const auto style_of = [&](const Pill& p) {
-        return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = Align::centre};
+        return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = HAlign::centre};
     };
     const auto width = [&](const Pill& p) {
         const TextStyle style = style_of(p);

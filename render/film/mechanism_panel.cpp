@@ -154,7 +154,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot)
     look_.factor = facts.factor;
     look_.moment_scale = facts.moment_scale;
     place_camera();
-    FreeRoom room = still_room();
+    OccupancyGrid room = still_room();
     note_extent(room);
     place_words(std::move(room));
     find_flashes();
@@ -190,17 +190,18 @@ void MechanismPanel::place_camera() {
 }
 
 // In pieces of a few stations, which the curve leaves by less than a pixel.
-void MechanismPanel::take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const {
+void MechanismPanel::take_beam(OccupancyGrid& room, const std::vector<Vec2>& face,
+                               const std::vector<Vec2>& back) const {
     const std::size_t step = face.size() > 40 ? 4 : 1;
     for (std::size_t i = 0; i + 1 < face.size(); i += step) {
         const std::size_t next = std::min(i + step, face.size() - 1);
-        room.take(std::array{face[i], face[next], back[next], back[i]});
+        room.cover_convex(std::array{face[i], face[next], back[next], back[i]});
     }
 }
 
 // What the motions leave free as far as their survey tells: the same for mechanisms that stand beside each other.
-FreeRoom MechanismPanel::still_room() const {
-    FreeRoom room(box_, std::max(2.0, 4 * u_));
+OccupancyGrid MechanismPanel::still_room() const {
+    OccupancyGrid room(box_, std::max(2.0, 4 * u_));
     const Sight& sight = facts_.sight;
     for (const std::vector<Vec2>& strip : sight.strips) {
         std::vector<Vec2> face, back;
@@ -211,23 +212,23 @@ FreeRoom MechanismPanel::still_room() const {
     for (const sim::Problem* p : sight.problems) {
         const Vec2 o = px({0, 0});
         const double hub = hub_radius(*p, look_.camera, u_), half = support_half_width(hub, marks_);
-        room.take(o, hub + 4 * u_);
-        room.take(Box{o.x - half, o.y, 2 * half, support_reach(hub, marks_)});
-        room.take(Box{box_.x, o.y - 3 * u_, box_.w, 6 * u_});  // the horizontal
+        room.cover_disc(o, hub + 4 * u_);
+        room.cover(Box{o.x - half, o.y, 2 * half, support_reach(hub, marks_)}, 1);
+        room.cover(Box{box_.x, o.y - 3 * u_, box_.w, 6 * u_}, 1);  // the horizontal
         if (!p->cam || !problem().cam) continue;
         const Vec2 axis = px(p->cam->centre);
         const bool arrow = p->cam->speed != 0 && !small_;
-        room.take(axis, (p->cam->radius + p->cam->eccentricity) * look_.camera.scale + (arrow ? 34 : 4) * u_);
-        if (!small_) room.take(speed_box(axis, 150 * u_, nullptr));
+        room.cover_disc(axis, (p->cam->radius + p->cam->eccentricity) * look_.camera.scale + (arrow ? 34 : 4) * u_);
+        if (!small_) room.cover(speed_box(axis, 150 * u_, nullptr), 1);
     }
     for (const Sight::Push& push : sight.pushes) {
         const Vec2 foot = px(push.foot), n{push.normal.x, -push.normal.y};
         const double length = push_length(push.share, small_, marks_), half = 8 * marks_;
         const Vec2 side = Vec2{-n.y, n.x} * half, tip = foot + n * length;
-        room.take(std::array{foot + side, tip + side, tip - side, foot - side});
+        room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
         if (small_) continue;
         const Vec2 at = foot + n * push_label(length, look_.depth * look_.camera.scale, u_);
-        room.take(Box{at.x - 150 * u_, at.y - 16 * u_, 136 * u_, 28 * u_});  // its number
+        room.cover(Box{at.x - 150 * u_, at.y - 16 * u_, 136 * u_, 28 * u_}, 1);  // its number
     }
     return room;
 }
@@ -238,13 +239,13 @@ bool MechanismPanel::has_bar() const {
 }
 
 // In corners, or along edges, where nothing moving comes.
-void MechanismPanel::place_words(FreeRoom room) {
+void MechanismPanel::place_words(OccupancyGrid room) {
     Image scratch(1, 1);
     Canvas canvas(scratch, *facts_.fonts);
     const double gap = std::min(4 * u_, 0.1 * std::min(box_.w, box_.h));
     const auto choose = [&](Vec2 size, Corner first) {
         const Box place = room.choose(places_along(box_.inset(gap), size, first));
-        room.take(place.inset(-gap));
+        room.cover(place.inset(-gap), 1);
         return place;
     };
     if (has_label()) {
@@ -282,7 +283,7 @@ static double arc_room(Range angles, Vec2 centre, const Box& box) {
                      fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
 }
 
-void MechanismPanel::note_extent(FreeRoom& room) {
+void MechanismPanel::note_extent(OccupancyGrid& room) {
     Bounds seen;
     Range turned{0, 0};  // [rad]
     for (int k = 0; k < facts_.frames(); ++k) {
@@ -374,7 +375,7 @@ void MechanismPanel::scale_bar(Canvas& canvas) const {
     canvas.line_to({x + w, y - 5 * u_});
     canvas.stroke({palette_.muted, 1.6 * u_, {}, Cap::butt});
     canvas.text({middle, y - 9 * u_}, quantity(scale_length(), "m"),
-                {.size = 17 * u_, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+                {.size = 17 * u_, .color = palette_.muted, .align = HAlign::centre, .halo = palette_.paper});
 }
 
 TextStyle MechanismPanel::label_style() const {
@@ -642,7 +643,7 @@ void MechanismPanel::angle_arc(const Scene& s) const {
     const double at = std::min(free / 2, free - need);
     if (radius > hub + 38 * letter)
         s.canvas.text(s.on(px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * letter}, math("θ"),
-                      {.size = 21 * letter, .color = palette_.muted, .align = Align::centre, .halo = palette_.paper});
+                      {.size = 21 * letter, .color = palette_.muted, .align = HAlign::centre, .halo = palette_.paper});
 }
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
@@ -661,7 +662,7 @@ void MechanismPanel::turning_arrow(const Scene& s) const {
         s.arc(axis, radius, from, to + back);
         s.canvas.stroke({palette_.muted, 2.6 * u_, {}, Cap::butt});
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
-                       {palette_.muted, 2.6 * u_}, head);
+                       {palette_.muted, 2.6 * u_}, {head});
     }
     const Box at = speed_box(axis, s.canvas.measure(label, style).w, s.view);
     s.canvas.text({at.x, at.bottom()}, label, style);
@@ -747,7 +748,7 @@ void MechanismPanel::disc_letters(const Scene& s, Color ink) const {
     if (size < kReadable || d.radius < 60 * marks_) return;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
-    const TextStyle style{.size = size, .color = ink, .align = Align::centre};
+    const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
     s.canvas.text(s.on(d.centre + along * (20 * marks_)) + Vec2{0, 7 * marks_}, math("B"), style);
     // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands
     // beside.
@@ -809,12 +810,12 @@ void MechanismPanel::force_arrow(const Scene& s) const {
     const double length = push_length(s.pose.nearest->force / facts_.arrow_scale, small_, marks_);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * marks_)
-        s.canvas.arrow(foot, tip, {palette_.contact, 4 * marks_}, std::min(19 * marks_, 0.7 * length));
+        s.canvas.arrow(foot, tip, {palette_.contact, 4 * marks_}, {std::min(19 * marks_, 0.7 * length)});
     if (small_) return;
     const TextStyle style{.size = 22 * u_,
                           .color = palette_.contact,
                           .weight = Weight::medium,
-                          .align = Align::right,
+                          .align = HAlign::right,
                           .halo = palette_.paper};
     const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
     // Beside the tip and clear of the beam's back, however short the arrow.

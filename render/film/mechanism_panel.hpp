@@ -8,7 +8,7 @@
 #include "render/film/panel.hpp"
 #include "render/gl/lit.hpp"
 #include "render/mechanism/mechanism.hpp"
-#include "render/plot/free_room.hpp"
+#include "render/plot/placement.hpp"
 
 namespace beamcam::render {
 
@@ -59,12 +59,12 @@ class MechanismPanel final : public Panel {
     Vec2 px(Vec2 world) const { return look_.camera.to_pixels(world); }
 
     void place_camera();
-    FreeRoom still_room() const;
-    void take_beam(FreeRoom& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
-    void note_extent(FreeRoom& room);
+    OccupancyGrid still_room() const;
+    void take_beam(OccupancyGrid& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
+    void note_extent(OccupancyGrid& room);
     bool has_label() const;
     bool has_bar() const;
-    void place_words(FreeRoom room);
+    void place_words(OccupancyGrid room);
     void note_path();
     void find_flashes();
     void draw_lit(const MechanismShape& shape, Canvas& canvas, Threads& threads) const;

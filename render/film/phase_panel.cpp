@@ -16,24 +16,10 @@ namespace {
 
 using sim::ChannelKind;
 
-// One direction of the axes.
-struct Axis {
-    AxisScale scale;
-    Ticks ticks;
-    Range shown;  // scaled
-    double share(double v) const { return ((v - scale.offset) / scale.scale - shown.low) / (shown.high - shown.low); }
-};
-
-Axis axis(double low, double high, const char* unit, int most) {
-    Axis a;
+RoundAxis axis(double low, double high, const char* unit, int most) {
     if (!(low <= high)) low = 0, high = 1;
     if (high - low < 1e-9) low -= 0.05, high += 0.05;
-    a.scale = axis_scale(low, high, unit);
-    low = (low - a.scale.offset) / a.scale.scale, high = (high - a.scale.offset) / a.scale.scale;
-    a.shown = round_range(low, high, most);
-    const double step = ticks(low, high, most).step;
-    a.ticks = ticks(a.shown.low, a.shown.high, static_cast<int>(std::lround((a.shown.high - a.shown.low) / step)) + 1);
-    return a;
+    return {low, high, unit, most};
 }
 
 struct Layers final : Panel::State {
@@ -74,36 +60,28 @@ class PhasePanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        const std::string symbol = y_.scale.name("d" + math("θ") + "/d" + math("t"), "rad/s");
+        const std::string symbol = y_.name("d" + math("θ") + "/d" + math("t"));
         const std::string named = fmt::format("Hub speed {}", symbol);
         const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
         draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
         const TextStyle label{.size = 17 * u, .color = p.muted};
         const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
-        for (double v : y_.ticks.values) {
-            const double at = std::round(to_pixels(0, v * y_.scale.scale + y_.scale.offset).y) + 0.5;
-            canvas.move_to({plot_.x, at});
-            canvas.line_to({plot_.right(), at});
-            canvas.stroke(grid);
-            TextStyle right = label;
-            right.align = Align::right;
-            canvas.text({plot_.x - 12 * u, at + 6 * u}, fixed(v, y_.ticks.decimals), right);
-        }
-        const std::string name = x_.scale.name(math("θ"), "rad");
+        draw_levels(canvas, p, y_, plot_, u);
+        const std::string name = x_.name(math("θ"));
         const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
-        for (double v : x_.ticks.values) {
-            const double at = std::round(to_pixels(v * x_.scale.scale + x_.scale.offset, 0).x) + 0.5;
+        for (double mark : x_.marks().values) {
+            const double at = std::round(to_pixels(x_.value(mark), 0).x) + 0.5;
             canvas.move_to({at, plot_.y});
             canvas.line_to({at, plot_.bottom()});
             canvas.stroke(grid);
             TextStyle centre = label;
-            centre.align = Align::centre;
-            const std::string text = fixed(v, x_.ticks.decimals);
+            centre.align = HAlign::centre;
+            const std::string text = fixed(mark, x_.marks().decimals);
             if (at + canvas.measure(text, label).w / 2 < room)
                 canvas.text({at, plot_.bottom() + 26.5 * u}, text, centre);
         }
         TextStyle end = label;
-        end.align = Align::right;
+        end.align = HAlign::right;
         canvas.text({plot_.right() + 8 * u, plot_.bottom() + 26.5 * u}, name, end);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
@@ -145,7 +123,7 @@ class PhasePanel final : public Panel {
   private:
     Color color(std::size_t member) const { return series_color(*facts_.palette, member); }
     Vec2 to_pixels(double theta, double speed) const {
-        return {plot_.x + plot_.w * x_.share(theta), plot_.bottom() - plot_.h * y_.share(speed)};
+        return {plot_.x + x_.along(plot_.w, theta), plot_.bottom() - y_.along(plot_.h, speed)};
     }
     GrowingPath path(int member) const {
         const sim::Table& table = facts_.motion(member).chart;
@@ -174,7 +152,7 @@ class PhasePanel final : public Panel {
 
     const FilmFacts& facts_;
     Box box_, plot_;
-    Axis x_, y_;
+    RoundAxis x_, y_;
     std::vector<GrowingPath> paths_;
 };
 

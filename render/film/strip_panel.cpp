@@ -152,7 +152,7 @@ class ChartPanel : public Panel {
     }
 
   protected:
-    virtual std::vector<Reading> readings(int frame) const = 0;
+    virtual std::vector<double> readings(int frame) const = 0;
     const FilmFacts& facts_;
 
   private:
@@ -353,10 +353,10 @@ class StripPanel final : public ChartPanel {
         c.value = {low - around, high + around};
     }
 
-    std::vector<Reading> readings(int frame) const override {
-        std::vector<Reading> out;
+    std::vector<double> readings(int frame) const override {
+        std::vector<double> out;
         for (const Channel channel : spec_.channels)
-            for (int m = 0; m < facts_.members(); ++m) out.push_back({reading(facts_, m, frame, channel)});
+            for (int m = 0; m < facts_.members(); ++m) out.push_back(reading(facts_, m, frame, channel));
         return out;
     }
     PanelSpec spec_;
@@ -449,8 +449,8 @@ class CollisionPanel final : public Panel {
         const sim::Pose& pose = facts_.pose(0, frame);
         const double t = pose.t - start(s.which);
         if (t < s.chart->time().low || t > s.chart->time().high) return;
-        std::vector<Reading> readings;
-        for (const Channel channel : spec_.channels) readings.push_back({reading(facts_, 0, frame, channel)});
+        std::vector<double> readings;
+        for (const Channel channel : spec_.channels) readings.push_back(reading(facts_, 0, frame, channel));
         s.chart->draw_moving(canvas, *facts_.palette, t, readings);
     }
 
@@ -572,7 +572,7 @@ class EnergyPanel final : public ChartPanel {
         std::vector<double> base(t->size(), 0.0);
         double most = 0;
         for (const Part& part : parts(facts)) {
-            Band band{base, base, part.color, part.label};
+            Band band{base, base, part.color};
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
@@ -649,7 +649,7 @@ class EnergyPanel final : public ChartPanel {
                      .max_width = plot.w - 20 * u,
                      .halo = facts_.palette->paper});
     }
-    std::vector<Reading> readings(int) const override { return {}; }
+    std::vector<double> readings(int) const override { return {}; }
     Box box_;
     int member_;
 };

@@ -48,7 +48,7 @@ class TracesPanel final : public Panel {
         const TextStyle end{.size = 16 * u, .color = p.muted};
         canvas.text({beam_.x, beam_.bottom() + 20 * u}, "root", end);
         canvas.text({beam_.right(), beam_.bottom() + 20 * u}, "tip",
-                    {.size = 16 * u, .color = p.muted, .align = Align::right});
+                    {.size = 16 * u, .color = p.muted, .align = HAlign::right});
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {

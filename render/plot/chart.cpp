@@ -4,96 +4,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+
+#include "render/plot/labels.hpp"
+#include "render/plot/reduce.hpp"
 
 namespace beamcam::render {
 namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAhead = 0.25;  // share of a moving window that shows what is to come
 }  // namespace
 
-std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
-                           const std::function<Vec2(double, double)>& to_pixels) {
-    std::vector<Vec2> out;
-    const std::size_t n = std::min(t.size(), v.size());
-    for (std::size_t i = 0; i < n;) {
-        if (std::isnan(v[i])) {
-            out.push_back({kNan, kNan});
-            for (; i < n && std::isnan(v[i]); ++i) {
-            }
-            continue;
-        }
-        const double column = std::floor(to_pixels(t[i], v[i]).x);
-        std::size_t low = i, high = i, last = i, end = i;
-        for (; end < n && !std::isnan(v[end]) && std::floor(to_pixels(t[end], v[end]).x) == column; ++end) {
-            if (v[end] < v[low]) low = end;
-            if (v[end] > v[high]) high = end;
-            last = end;
-        }
-        std::size_t keep[] = {i, std::min(low, high), std::max(low, high), last};
-        std::size_t previous = n;
-        for (std::size_t k : keep)
-            if (k != previous) out.push_back(to_pixels(t[k], v[k])), previous = k;
-        i = end;
-    }
-    return out;
-}
-
 // ---- the value axis ----------------------------------------------------------------------------
 
-AxisScale axis_scale(double low, double high, const std::string& unit) {
-    AxisScale out;
-    const double span = high - low, most = std::max(std::abs(low), std::abs(high));
-    if (!(span > 0) || !std::isfinite(span)) return out;
-    // Values that agree in their first four digits are told from a round number among them.
-    if (span < 1e-4 * most) {
-        const double digit = std::pow(10.0, std::ceil(std::log10(span)) + 1);
-        out.offset = std::round((low + high) / 2 / digit) * digit;
+RoundAxis::RoundAxis(double low, double high, std::string unit, int most) : unit_(std::move(unit)) {
+    const double span = high - low, largest = std::max(std::abs(low), std::abs(high));
+    if (span > 0 && std::isfinite(span)) {
+        // Values that agree in their first four digits are told from a round number among them.
+        if (span < 1e-4 * largest) {
+            const double digit = std::pow(10.0, std::ceil(std::log10(span)) + 1);
+            offset_ = std::round((low + high) / 2 / digit) * digit;
+        }
+        const double most_told = offset_ != 0 ? std::max(std::abs(low - offset_), std::abs(high - offset_)) : largest;
+        if (by_prefix())
+            scale_ = prefix_for(most_told).factor;
+        else if (most_told < 1e-2 || most_told >= 1e5)
+            scale_ = std::pow(10.0, 3 * std::floor(std::log10(most_told * 1.0000001) / 3));
     }
-    const double largest = out.offset != 0 ? std::max(std::abs(low - out.offset), std::abs(high - out.offset)) : most;
-    if (!unit.empty() && unit != "rad" && unit != "rad/s") {
-        out.scale = prefix_for(largest).factor;
-    } else if (largest < 1e-2 || largest >= 1e5) {
-        out.scale = std::pow(10.0, 3 * std::floor(std::log10(largest * 1.0000001) / 3));
-    }
-    return out;
+    low = scaled(low), high = scaled(high);
+    const double step = ticks(low, high, most).step;
+    ends_ = round_range(low, high, most);
+    marks_ = ticks(ends_.low, ends_.high, static_cast<int>(std::lround((ends_.high - ends_.low) / step)) + 1);
 }
 
-std::string AxisScale::name(const std::string& symbol, const std::string& unit) const {
+std::string RoundAxis::name(const std::string& symbol) const {
     std::string text = symbol;
-    if (offset != 0) {
-        const std::string value = fmt::format("{} {:.6g}", offset > 0 ? "−" : "+", std::abs(offset));
-        text = unit.empty() ? fmt::format("{} {}", symbol, value) : fmt::format("({} {}\u2009{})", symbol, value, unit);
+    if (offset_ != 0) {
+        const std::string value = fmt::format("{} {:.6g}", offset_ > 0 ? "−" : "+", std::abs(offset_));
+        text =
+            unit_.empty() ? fmt::format("{} {}", symbol, value) : fmt::format("({} {}\u2009{})", symbol, value, unit_);
     }
+    std::string unit = unit_;
+    if (scale_ != 1 && by_prefix())
+        unit = prefix_for(scale_).symbol + unit_;
+    else if (scale_ != 1)
+        unit =
+            power_of_ten(static_cast<int>(std::lround(std::log10(scale_)))) + (unit_.empty() ? "" : "\u2009" + unit_);
+    if (unit.empty()) return text;
     // A unit that is a quotient itself stands in brackets: dθ/dt / (rad/s).
-    const bool quotient = unit.find('/') != std::string::npos;
-    const auto over = [&](const std::string& all) {
-        return quotient ? fmt::format("{} / ({})", text, all) : fmt::format("{} / {}", text, all);
-    };
-    if (scale == 1) return unit.empty() ? text : over(unit);
-    if (!unit.empty() && unit != "rad" && unit != "rad/s") return over(prefix_for(scale).symbol + unit);
-    const std::string power = fmt::format("10<sup>{}{}</sup>", scale < 1 ? "−" : "",
-                                          static_cast<int>(std::lround(std::abs(std::log10(scale)))));
-    return over(power + (unit.empty() ? "" : "\u2009" + unit));
+    if (unit.find('/') != std::string::npos) unit = "(" + unit + ")";
+    return fmt::format("{} / {}", text, unit);
+}
+
+void draw_levels(Canvas& canvas, const Palette& p, const RoundAxis& axis, const Box& plot, double u) {
+    for (double mark : axis.marks().values) {
+        const double at = std::round(plot.bottom() - axis.along(plot.h, axis.value(mark))) + 0.5;
+        canvas.move_to({plot.x, at});
+        canvas.line_to({plot.right(), at});
+        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
+        canvas.text({plot.x - 12 * u, at + 6 * u}, fixed(mark, axis.marks().decimals),
+                    {.size = 17 * u, .color = p.muted, .align = HAlign::right});
+    }
 }
 
 Chart::Chart(ChartContent content, Box box, Box plot, double unit)
-    : c_(std::move(content)), box_(box), plot_(plot), unit_(unit) {
-    scale_ = axis_scale(c_.value.low, c_.value.high, c_.unit);
-    const double low = (c_.value.low - scale_.offset) / scale_.scale,
-                 high = (c_.value.high - scale_.offset) / scale_.scale;
-    // Round ends first, then a mark at every multiple of the same step: the outermost lines carry labels.
-    const int marks = std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5);
-    const double step = ticks(low, high, marks).step;
-    shown_ = round_range(low, high, marks);
-    value_ticks_ = ticks(shown_.low, shown_.high, static_cast<int>(std::lround((shown_.high - shown_.low) / step)) + 1);
-    digits_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 6);
-}
+    : c_(std::move(content)),
+      box_(box),
+      plot_(plot),
+      unit_(unit),
+      axis_(c_.value.low, c_.value.high, c_.unit, std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5)),
+      digits_(std::clamp(2 - static_cast<int>(std::floor(std::log10(axis_.marks().step) + 1e-9)), 0, 6)) {}
 
-double Chart::y(double v) const {
-    const double scaled = (v - scale_.offset) / scale_.scale;
-    return plot_.bottom() - plot_.h * (scaled - shown_.low) / (shown_.high - shown_.low);
-}
+double Chart::y(double v) const { return plot_.bottom() - axis_.along(plot_.h, v); }
 
 // ---- the time axis -----------------------------------------------------------------------------
 
@@ -130,27 +111,18 @@ void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) c
         const double half = canvas.measure(text, {.size = 17 * u}).w / 2;
         if (x + half < plot_.right() + 8 * u - unit.w - 10 * u &&  // the axis' name stands at the end of this line
             (!windowed() || x - half > plot_.x - 20 * u))
-            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = Align::centre});
+            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = HAlign::centre});
     }
     canvas.text({plot_.right() + 8 * u, axis + 26 * u}, c_.time_label,
-                {.size = 17 * u, .color = p.muted, .align = Align::right});
+                {.size = 17 * u, .color = p.muted, .align = HAlign::right});
 }
 
-void Chart::draw_value_axis(Canvas& canvas, const Palette& p) const {
-    const double u = unit_;
-    const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
-    const std::string symbol = scale_.name(c_.symbol, c_.unit);
-    // The readings stand beside it.
+// The readings stand beside it.
+void Chart::draw_heading(Canvas& canvas, const Palette& p) const {
+    const TextStyle heading{.size = 21 * unit_, .color = p.ink, .weight = Weight::semibold};
+    const std::string symbol = axis_.name(c_.symbol);
     const bool fits = canvas.measure(c_.words + symbol, heading).w + reading_width(canvas, true) <= plot_.w;
-    canvas.text({plot_.x, box_.y + 26 * u}, fits ? c_.words + symbol : symbol, heading);
-    const TextStyle label{.size = 17 * u, .color = p.muted, .align = Align::right};
-    for (double v : value_ticks_.values) {
-        const double at = std::round(y(v * scale_.scale + scale_.offset)) + 0.5;
-        canvas.move_to({plot_.x, at});
-        canvas.line_to({plot_.right(), at});
-        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
-        canvas.text({plot_.x - 12 * u, at + 6 * u}, fixed(v, value_ticks_.decimals), label);
-    }
+    canvas.text({plot_.x, box_.y + 26 * unit_}, fits ? c_.words + symbol : symbol, heading);
 }
 
 // ---- curves ------------------------------------------------------------------------------------
@@ -185,7 +157,10 @@ std::vector<Vec2> points_within(const std::vector<double>& t, const std::vector<
     auto count = static_cast<std::size_t>(last - first);
     const bool more = last != t.end() && between;
     if (more && !past) ++count;
-    std::vector<Vec2> points = decimate(std::span(t).subspan(at, count), std::span(v).subspan(at, count), to_pixels);
+    std::vector<Vec2> points;
+    points.reserve(count);
+    for (std::size_t i = at; i < std::min(at + count, v.size()); ++i) points.push_back(to_pixels(t[i], v[i]));
+    points = figure::column_extremes(points, 1);
     if (more && past && count > 0) {
         const std::size_t i = at + count - 1;
         const double share = (times.high - t[i]) / (t[i + 1] - t[i]), end = v[i] * (1 - share) + v[i + 1] * share;
@@ -246,7 +221,8 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
 
 void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     const double axis = plot_.bottom() + 0.5;
-    draw_value_axis(canvas, p);
+    draw_heading(canvas, p);
+    draw_levels(canvas, p, axis_, plot_, unit_);
     if (!windowed()) {
         draw_time_axis(canvas, p, whole());
         draw_curves(canvas, whole(), c_.time, false, {});
@@ -272,19 +248,19 @@ void Chart::draw_past(Canvas& canvas) const {
 namespace {
 constexpr double kBetweenReadings = 18;
 TextStyle reading_style(double u, Color color) {
-    return {.size = 21 * u, .color = color, .weight = Weight::medium, .align = Align::right};
+    return {.size = 21 * u, .color = color, .weight = Weight::medium, .align = HAlign::right};
 }
 }  // namespace
 
 std::string Chart::told(double value) const {
     if (!c_.reading_unit.empty()) return quantity(value, c_.reading_unit.c_str());
-    return fixed((value - scale_.offset) / scale_.scale, digits_);
+    return fixed(axis_.scaled(value), digits_);
 }
 
 double Chart::widest_reading(Canvas& canvas, const TextStyle& style) const {
     if (!c_.reading_unit.empty()) return canvas.measure("00.0\u00A0m" + c_.reading_unit, style).w;
-    return std::max(canvas.measure(fixed(shown_.high, digits_), style).w,
-                    canvas.measure(fixed(shown_.low, digits_), style).w);
+    return std::max(canvas.measure(fixed(axis_.ends().high, digits_), style).w,
+                    canvas.measure(fixed(axis_.ends().low, digits_), style).w);
 }
 
 // Room for the widest value keeps the readings from dancing.
@@ -300,15 +276,15 @@ double Chart::reading_width(Canvas& canvas, bool named) const {
 }
 
 // At the right end of the heading's line, the last curve's outermost; without their names where those have no room.
-void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Reading> readings) const {
+void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const double> readings) const {
     const double u = unit_;
     const TextStyle heading{.size = 21 * u, .color = p.ink, .weight = Weight::semibold};
-    const double room = plot_.w - canvas.measure(scale_.name(c_.symbol, c_.unit), heading).w;
+    const double room = plot_.w - canvas.measure(axis_.name(c_.symbol), heading).w;
     const bool named = reading_width(canvas, true) <= room;
     if (!named && readings.size() > 1 && reading_width(canvas, false) > room) return;
     double right = plot_.right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
-        const double v = readings[i].value;
+        const double v = readings[i];
         const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
         const TextStyle style = reading_style(u, readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
         const double widest = widest_reading(canvas, style);
@@ -316,7 +292,7 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
         right -= widest;
         if (std::isnan(v) && !label.empty()) {  // a name that nothing follows would look forgotten
             TextStyle none = style;
-            none.align = Align::left;
+            none.align = HAlign::left;
             canvas.text({right, box_.y + 26 * u}, "–", none);
         }
         if (!label.empty()) {
@@ -327,7 +303,7 @@ void Chart::draw_readings(Canvas& canvas, const Palette& p, std::span<const Read
     }
 }
 
-void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<const Reading> readings) const {
+void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<const double> readings) const {
     const double u = unit_;
     const View view = windowed() ? around(t) : whole();
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
@@ -351,7 +327,7 @@ void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<co
     canvas.line_to({x, plot_.bottom()});
     canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        const double at = y(readings[i].value);
+        const double at = y(readings[i]);
         // An instant between the curves' rows may lie beyond their range: its number is told, a dot would lie.
         if (!(at > plot_.y - 8 * u && at < plot_.bottom() + 8 * u)) continue;
         canvas.circle({x, std::clamp(at, plot_.y - 4 * u, plot_.bottom() + 4 * u)}, 5.5 * u);

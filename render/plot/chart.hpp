@@ -19,18 +19,33 @@
 
 namespace beamcam::render {
 
-// Points in pixels of v(t); NaN rows break the line. `to_pixels` must increase with t.
-std::vector<Vec2> decimate(std::span<const double> t, std::span<const double> v,
-                           const std::function<Vec2(double, double)>& to_pixels);
+// An axis of values with round ends and a mark at every multiple of one step: the outermost marks carry labels.
+// Labels are (value − offset)/scale, so that small, large and nearly equal values all get short ones; the name says
+// what was done to them. `unit` "", "rad" and "rad/s" get powers of ten, others SI prefixes.
+class RoundAxis {
+  public:
+    RoundAxis() = default;
+    RoundAxis(double low, double high, std::string unit, int most);  // low < high; most >= 2: marks
 
-// How values are written along an axis: (value − offset)/scale with so many decimals. Small, large and nearly equal
-// values all get short labels; the heading says what was done to them.
-struct AxisScale {
-    double offset = 0, scale = 1;
-    std::string name(const std::string& symbol, const std::string& unit) const;  // markup: "θ − 0.785 / 10⁻⁶ rad"
+    std::string name(const std::string& symbol) const;  // markup: "θ − 0.785 / 10⁻⁶ rad"
+    double scaled(double value) const { return (value - offset_) / scale_; }
+    // How far along an axis of this length it stands.
+    double along(double length, double value) const {
+        return length * (scaled(value) - ends_.low) / (ends_.high - ends_.low);
+    }
+    const Ticks& marks() const { return marks_; }  // scaled
+    double value(double mark) const { return mark * scale_ + offset_; }
+    Range ends() const { return ends_; }  // scaled
+
+  private:
+    bool by_prefix() const { return !unit_.empty() && unit_ != "rad" && unit_ != "rad/s"; }
+    std::string unit_;
+    double offset_ = 0, scale_ = 1;
+    Range ends_;
+    Ticks marks_;
 };
-// For values from low to high [SI units]. `unit` "" or "rad" gets powers of ten, others get SI prefixes.
-AxisScale axis_scale(double low, double high, const std::string& unit);
+// A line across the plot at every mark, its label at the left. `unit`: [px] of a design pixel.
+void draw_levels(Canvas& canvas, const Palette& palette, const RoundAxis& axis, const Box& plot, double unit);
 
 struct Curve {
     std::vector<double> t, v;  // [s], SI units; may be empty
@@ -52,7 +67,6 @@ struct ChartMark {
 struct Band {
     std::vector<double> low, high;
     Color color;
-    std::string label;
 };
 
 struct ChartContent {
@@ -74,11 +88,6 @@ struct ChartContent {
     std::vector<ChartMark> marks;
 };
 
-// The value of one curve where the cursor stands; NaN: none.
-struct Reading {
-    double value = 0;
-};
-
 class Chart {
   public:
     Chart(ChartContent content, Box box, Box plot, double unit);
@@ -92,8 +101,9 @@ class Chart {
     void draw_past(Canvas& canvas) const;  // the same drawn directly
     // The first column that is not past yet at t: what lies after t may reach into it by the width of its stroke.
     int past_column(double t) const;
-    // What moves: the curves' last columns until t, with a window all of them.
-    void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const Reading> readings) const;
+    // What moves: the curves' last columns until t, with a window all of them. `readings`: of each curve where the
+    // cursor stands; NaN: none.
+    void draw_moving(Canvas& canvas, const Palette& palette, double t, std::span<const double> readings) const;
     Range time() const { return c_.time; }
     bool windowed() const { return c_.window.has_value(); }
 
@@ -102,23 +112,21 @@ class Chart {
     View whole() const;
     View around(double t) const;
     void draw_time_axis(Canvas& canvas, const Palette& palette, const View& view) const;
-    void draw_value_axis(Canvas& canvas, const Palette& palette) const;
+    void draw_heading(Canvas& canvas, const Palette& palette) const;
     int cursor_column(const View& view, double t) const;
     std::string told(double value) const;                                 // as a reading
     double widest_reading(Canvas& canvas, const TextStyle& style) const;  // [px]
     // Rows between two instants, drawn as past or as still to come.
     void draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
     void draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
-    void draw_readings(Canvas& canvas, const Palette& palette, std::span<const Reading> readings) const;
+    void draw_readings(Canvas& canvas, const Palette& palette, std::span<const double> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
     double y(double v) const;
     ChartContent c_;
     Box box_, plot_;
     double unit_;
-    AxisScale scale_;
-    Ticks value_ticks_;  // scaled
-    Range shown_;        // scaled
-    int digits_ = 0;     // decimals of the reading
+    RoundAxis axis_;
+    int digits_ = 0;  // decimals of the reading
 };
 
 }  // namespace beamcam::render

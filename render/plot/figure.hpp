@@ -73,8 +73,8 @@ struct Shape {
     std::vector<double> dash = {};  // in widths
     std::string markup = {};        // label
     Vec2 shift = {};                // of the label, in sizes of its letters, y up
-    Across across = Across::centre;
-    Up up = Up::middle;
+    HAlign align = HAlign::centre;
+    VAlign valign = VAlign::middle;
     bool small = false;  // label
 };
 

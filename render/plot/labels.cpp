@@ -54,13 +54,16 @@ struct DrivePiece {
 
 }  // namespace
 
+std::string power_of_ten(int exponent) {
+    return fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
+}
+
 std::string power_text(double value, int digits) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
     const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
-    const std::string power = fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
-    return mantissa == "1" ? power : mantissa + "·" + power;
+    return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 
 std::vector<std::string> parameter_pieces(const sim::Problem& problem) {

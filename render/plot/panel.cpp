@@ -18,6 +18,7 @@ namespace {
 constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
 constexpr double kSample = 2.6;  // length of a line in a legend, in letters
 constexpr double kCovers = 1.5;  // cells that a label may touch before it counts as covering data
+constexpr double kCell = 1.5;    // of the grid of what is covered: resolves letters [pt]
 constexpr int kMostDirect = 4;   // more labels than that are told apart better in a box
 constexpr int kFewMarkers = 8;   // along a line
 
@@ -182,7 +183,7 @@ bool PanelDrawing::place(const Box& plot) {
     // around everything.
     const bool boxed = panel_.legend == Legend::box;
     if (boxed && !panel_.insets.empty() && !legend_above_) {
-        const std::vector<Occupancy> before = taken_;
+        const std::vector<OccupancyGrid> before = taken_;
         const double legend_first = place_boxes(true);
         taken_ = before;
         const double insets_first = place_boxes(false);
@@ -244,7 +245,7 @@ void PanelDrawing::thin_out_tones(Curve& curve, const std::vector<std::size_t>& 
 
 void PanelDrawing::make_curves() {
     curves_.clear();
-    taken_ = {Occupancy(plot_)};
+    taken_ = {OccupancyGrid(plot_, kCell)};
     for (const Series& s : panel_.series) {
         Curve curve;
         curve.series = &s;
@@ -454,7 +455,7 @@ double PanelDrawing::best_direct(const Curve& curve, Writing& out) {
 }
 
 bool PanelDrawing::place_direct() {
-    const Occupancy before = taken_.front();
+    const OccupancyGrid before = taken_.front();
     const std::size_t written = writings_.size();
     for (const Curve& curve : curves_) {
         if (curve.series->label.empty()) continue;
@@ -695,12 +696,12 @@ void PanelDrawing::draw_ticks(const AxisMap& axis, char side, bool labelled) {
         if (!labelled || t.label.empty()) continue;
         Lettering l = numbers();
         if (across) {
-            l.across = Across::centre;
-            l.up = Up::top;
+            l.align = HAlign::centre;
+            l.valign = VAlign::top;
             sheet_.text({x, y + style_.gap}, t.label, l);
         } else {
-            l.across = side == 'l' ? Across::right : Across::left;
-            l.up = Up::middle;
+            l.align = side == 'l' ? HAlign::right : HAlign::left;
+            l.valign = VAlign::middle;
             sheet_.text({x + (side == 'l' ? -style_.gap : style_.gap), y}, t.label, l);
         }
     }
@@ -721,24 +722,24 @@ void PanelDrawing::draw_frame() {
 void PanelDrawing::draw_titles() {
     const double number = sheet_.cap_height(style_.numbers);
     Lettering l = words();
-    l.across = Across::centre;
+    l.align = HAlign::centre;
     if (lowest_ && !panel_.x.label.empty()) {
-        l.up = Up::top;
+        l.valign = VAlign::top;
         const double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
         sheet_.text({plot_.centre().x, y}, panel_.x.label, l);
     }
     if (lowest_ && !x_.front().common().empty()) {
         Lettering common = numbers();
-        common.across = Across::right;
-        common.up = Up::top;
+        common.align = HAlign::right;
+        common.valign = VAlign::top;
         sheet_.text({plot_.right(), plot_.bottom() + number + 2.4 * style_.gap}, x_.front().common(), common);
     }
     l.turned = std::numbers::pi / 2;
-    l.up = Up::baseline;
+    l.valign = VAlign::baseline;
     if (!panel_.y.label.empty())
         sheet_.text({plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap, plot_.centre().y}, panel_.y.label, l);
     if (!right_.empty()) {
-        l.up = Up::top;
+        l.valign = VAlign::top;
         sheet_.text({plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap, plot_.centre().y},
                     panel_.right->label, l);
     }
@@ -746,7 +747,7 @@ void PanelDrawing::draw_titles() {
     Lettering common = numbers();
     if (!y_.front().common().empty()) sheet_.text({plot_.x, y}, y_.front().common(), common);
     if (!right_.empty() && !right_.front().common().empty()) {
-        common.across = Across::right;
+        common.align = HAlign::right;
         sheet_.text({plot_.right(), y}, right_.front().common(), common);
     }
     const double top = plot_.y - margins().top + style_.letters;
@@ -769,7 +770,7 @@ void PanelDrawing::draw_color_bar() {
     sheet_.gradient(bar, colors);
     const Pen pen{kInk, style_.frame, {}, Cap::butt};
     Lettering l = numbers();
-    l.up = Up::middle;
+    l.valign = VAlign::middle;
     for (const Tick& t : bar_.front().ticks()) {
         const double y = bar.bottom() - t.at * bar.h;
         sheet_.move_to({bar.right(), y});
@@ -781,8 +782,8 @@ void PanelDrawing::draw_color_bar() {
     sheet_.stroke(pen);
     l = words();
     l.turned = std::numbers::pi / 2;
-    l.across = Across::centre;
-    l.up = Up::top;
+    l.align = HAlign::centre;
+    l.valign = VAlign::top;
     std::string label = panel_.color_bar->label;
     if (!bar_.front().common().empty()) label += "  (" + bar_.front().common() + ")";
     sheet_.text({bar.right() + 2.2 * style_.gap + widest_bar_, bar.centre().y}, label, l);
@@ -827,7 +828,7 @@ void PanelDrawing::draw_legend() {
     if (!legend_box_) return;
     const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
     Lettering l = words();
-    l.up = Up::middle;
+    l.valign = VAlign::middle;
     int k = 0;
     const auto next = [&] {
         const int column = k % legend_columns_, line = k / legend_columns_;

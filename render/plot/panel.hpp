@@ -83,7 +83,7 @@ class PanelDrawing {
     double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0;
     Box plot_;
     std::vector<Curve> curves_;
-    std::vector<Occupancy> taken_;  // one
+    std::vector<OccupancyGrid> taken_;  // one
     std::vector<Box> inset_outer_;
     std::vector<Writing> writings_;
     bool legend_above_ = false, settled_ = true;

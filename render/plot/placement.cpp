@@ -3,24 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 
-Occupancy::Occupancy(const Box& area, double cell)
+OccupancyGrid::OccupancyGrid(const Box& area, double cell)
     : area_(area),
       cell_(cell),
-      columns_(std::clamp(static_cast<int>(std::ceil(area.w / cell)), 1, 4000)),
-      rows_(std::clamp(static_cast<int>(std::ceil(area.h / cell)), 1, 4000)),
+      columns_(std::max(1, static_cast<int>(std::ceil(area.w / cell)))),
+      rows_(std::max(1, static_cast<int>(std::ceil(area.h / cell)))),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
-void Occupancy::add(int i, int j, double weight) {
-    if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return;
-    float& cell =
-        cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
-    cell = std::max(cell, static_cast<float>(weight));
+OccupancyGrid::Cells OccupancyGrid::touched(const Box& b) const {
+    const auto index = [&](double at, int most) {
+        return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(most)));
+    };
+    return {index(std::floor((b.x - area_.x) / cell_), columns_), index(std::floor((b.y - area_.y) / cell_), rows_),
+            index(std::floor((b.right() - area_.x) / cell_) + 1, columns_),
+            index(std::floor((b.bottom() - area_.y) / cell_) + 1, rows_)};
+}
+
+void OccupancyGrid::cover(const Cells& c, double weight) {
+    for (int row = c.top; row < c.bottom; ++row) {
+        const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
+        for (int i = c.left; i < c.right; ++i) begin[i] = std::max(begin[i], static_cast<float>(weight));
+    }
     summed_ = false;
 }
 
-void Occupancy::cover(std::span<const Vec2> curve, double weight) {
+void OccupancyGrid::cover(const Box& box, double weight) { cover(touched(box), weight); }
+
+void OccupancyGrid::cover_row(int row, double from, double to) {
+    const Cells c = touched({from, area_.y, to - from, 0});
+    cover(Cells{c.left, row, c.right, row + 1}, 1);
+}
+
+void OccupancyGrid::cover(std::span<const Vec2> curve, double weight) {
     for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
         const Vec2 a = curve[k], b = curve[k + 1];
         if (!(std::isfinite(a.x + a.y + b.x + b.y))) continue;
@@ -29,21 +45,43 @@ void Occupancy::cover(std::span<const Vec2> curve, double weight) {
         for (int s = 0; s <= steps; ++s) {
             const Vec2 p = a + (b - a) * (static_cast<double>(s) / steps);
             if (!area_.contains({p.x, p.y, 0, 0}, cell_)) continue;
-            add(static_cast<int>((p.x - area_.x) / cell_), static_cast<int>((p.y - area_.y) / cell_), weight);
+            const int i = static_cast<int>((p.x - area_.x) / cell_), j = static_cast<int>((p.y - area_.y) / cell_);
+            if (i >= 0 && j >= 0 && i < columns_ && j < rows_) cover(Cells{i, j, i + 1, j + 1}, weight);
         }
     }
 }
 
-void Occupancy::cover(const Box& box, double weight) {
-    const int i0 = std::max(0, static_cast<int>((box.x - area_.x) / cell_));
-    const int i1 = std::min(columns_ - 1, static_cast<int>((box.right() - area_.x) / cell_));
-    const int j0 = std::max(0, static_cast<int>((box.y - area_.y) / cell_));
-    const int j1 = std::min(rows_ - 1, static_cast<int>((box.bottom() - area_.y) / cell_));
-    for (int j = j0; j <= j1; ++j)
-        for (int i = i0; i <= i1; ++i) add(i, j, weight);
+void OccupancyGrid::cover_convex(std::span<const Vec2> corners) {
+    Bounds all;
+    for (Vec2 p : corners) all.add(p);
+    const Cells c = touched({all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0});
+    for (int row = c.top; row < c.bottom; ++row) {
+        const double top = top_of(row), bottom = top + cell_;
+        Bounds part;  // of the edges within the row
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            Vec2 a = corners[i], b = corners[(i + 1) % corners.size()];
+            if (a.y > b.y) std::swap(a, b);
+            if (b.y < top || a.y > bottom) continue;
+            const auto at = [&](double y) {
+                return b.y > a.y ? a + (b - a) * std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : a;
+            };
+            part.add(at(top)), part.add(at(bottom));
+            if (!(b.y > a.y)) part.add(b);
+        }
+        if (part.x0 <= part.x1) cover_row(row, part.x0, part.x1);
+    }
 }
 
-void Occupancy::sum() const {
+void OccupancyGrid::cover_disc(Vec2 centre, double radius) {
+    const Cells c = touched({centre.x - radius, centre.y - radius, 2 * radius, 2 * radius});
+    for (int row = c.top; row < c.bottom; ++row) {
+        const double top = top_of(row), off = std::clamp(centre.y, top, top + cell_) - centre.y;
+        const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
+        cover_row(row, centre.x - half, centre.x + half);
+    }
+}
+
+void OccupancyGrid::sum() const {
     const auto width = static_cast<std::size_t>(columns_) + 1;
     sums_.assign(width * (static_cast<std::size_t>(rows_) + 1), 0);
     for (std::size_t j = 0; j < static_cast<std::size_t>(rows_); ++j)
@@ -53,22 +91,39 @@ void Occupancy::sum() const {
     summed_ = true;
 }
 
-double Occupancy::cost(const Box& box) const {
-    if (!area_.contains(box, 0.01)) return 1e6;
+double OccupancyGrid::weight(const Cells& c) const {
     if (!summed_) sum();
-    const auto column = [&](double x) {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>((x - area_.x) / cell_), 0, columns_ - 1));
+    const auto above_left = [&](int i, int j) {
+        return sums_[static_cast<std::size_t>(j) * (static_cast<std::size_t>(columns_) + 1) +
+                     static_cast<std::size_t>(i)];
     };
-    const auto row = [&](double y) {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>((y - area_.y) / cell_), 0, rows_ - 1));
-    };
-    const std::size_t width = static_cast<std::size_t>(columns_) + 1;
-    const std::size_t i0 = column(box.x), i1 = column(box.right()) + 1, j0 = row(box.y), j1 = row(box.bottom()) + 1;
-    return std::max(0.0,
-                    sums_[j1 * width + i1] - sums_[j0 * width + i1] - sums_[j1 * width + i0] + sums_[j0 * width + i0]);
+    return std::max(0.0, above_left(c.right, c.bottom) - above_left(c.right, c.top) - above_left(c.left, c.bottom) +
+                             above_left(c.left, c.top));
 }
 
-Place best_place(const Occupancy& taken, double width, double height, double margin) {
+double OccupancyGrid::cost(const Box& box) const { return area_.contains(box, 0.01) ? weight(touched(box)) : 1e6; }
+
+double OccupancyGrid::covered(const Box& box) const {
+    const Cells c = touched(box);
+    const double cells = std::max(0, c.right - c.left) * std::max(0, c.bottom - c.top);
+    const double within = std::max(0.0, std::min(box.right(), area_.right()) - std::max(box.x, area_.x)) *
+                          std::max(0.0, std::min(box.bottom(), area_.bottom()) - std::max(box.y, area_.y));
+    // All but what rounding takes away.
+    const double inside = box.empty() ? 0 : std::min(1.0, within / (box.w * box.h) * (1 + 1e-9));
+    return 1 - inside + inside * (cells > 0 ? weight(c) / cells : 0);
+}
+
+Box OccupancyGrid::choose(std::span<const Box> places) const {
+    const Box* best = &places.front();
+    double least = covered(*best);
+    for (const Box& place : places.subspan(1)) {
+        if (least == 0) break;
+        if (const double here = covered(place); here < least) best = &place, least = here;
+    }
+    return *best;
+}
+
+Place best_place(const OccupancyGrid& taken, double width, double height, double margin) {
     const Box area = taken.area().inset(margin);
     Place best{{area.right() - width, area.y, width, height}, 1e9};
     constexpr int kSteps = 12;
@@ -85,4 +140,22 @@ Place best_place(const Occupancy& taken, double width, double height, double mar
     return best;
 }
 
-}  // namespace beamcam::render::figure
+std::vector<Box> places_along(const Box& room, Vec2 size, Corner first) {
+    const double right = std::max(room.x, room.right() - size.x), bottom = std::max(room.y, room.bottom() - size.y);
+    const auto at = [&](double across, double down) {
+        return Box{room.x + across * (right - room.x), room.y + down * (bottom - room.y), size.x, size.y};
+    };
+    // From the first corner: 0 is there, 1 opposite.
+    const auto from = [&](double across, double down) {
+        return first == Corner::top_left ? at(across, down) : at(1 - across, 1 - down);
+    };
+    std::vector<Box> out{from(0, 0), from(1, 0), from(0, 1), from(1, 1)};
+    constexpr int kSteps = 24;
+    for (const double far : {0.0, 1.0}) {
+        for (int i = 1; i < kSteps; ++i) out.push_back(from(double(i) / kSteps, far));
+        for (int i = 1; i < kSteps; ++i) out.push_back(from(far, double(i) / kSteps));
+    }
+    return out;
+}
+
+}  // namespace beamcam::render

@@ -44,6 +44,24 @@ void steps(std::span<const Vec2> p, double grain, std::vector<Vec2>& out) {
         if (i == 0 || i + 1 == p.size() || norm(p[i] - out.back()) >= grain) out.push_back(p[i]);
 }
 
+// What `reduce_piece` leaves of each unbroken piece, with a NaN for each break.
+template <class ReducePiece>
+std::vector<Vec2> by_pieces(std::span<const Vec2> points, ReducePiece reduce_piece) {
+    std::vector<Vec2> out;
+    for (std::size_t i = 0; i < points.size();) {
+        if (broken(points[i])) {
+            if (!out.empty() && !broken(out.back())) out.push_back({std::nan(""), std::nan("")});
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        while (end < points.size() && !broken(points[end])) ++end;
+        reduce_piece(points.subspan(i, end - i), out);
+        i = end;
+    }
+    return out;
+}
+
 // All of `between` lie on the straight line from a to b.
 bool straight(Vec2 a, Vec2 b, std::span<const Vec2> between, double tolerance) {
     const Vec2 way = b - a;
@@ -147,20 +165,14 @@ std::vector<std::size_t> without(const std::vector<Swing>& swings, std::size_t c
     return all;
 }
 
+std::vector<Vec2> column_extremes(std::span<const Vec2> points, double width) {
+    return by_pieces(points, [&](std::span<const Vec2> piece, auto& out) { columns(piece, width, out); });
+}
+
 std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
-    std::vector<Vec2> out;
-    for (std::size_t i = 0; i < points.size();) {
-        if (broken(points[i])) {
-            if (!out.empty() && !broken(out.back())) out.push_back({std::nan(""), std::nan("")});
-            ++i;
-            continue;
-        }
-        std::size_t end = i;
-        while (end < points.size() && !broken(points[end])) ++end;
-        const std::span<const Vec2> piece = points.subspan(i, end - i);
-        increasing(piece) ? columns(piece, grain, out) : steps(piece, grain, out);
-        i = end;
-    }
+    const std::vector<Vec2> out = by_pieces(points, [&](std::span<const Vec2> piece, auto& kept) {
+        increasing(piece) ? columns(piece, grain, kept) : steps(piece, grain, kept);
+    });
     constexpr std::size_t kMany = 20'000;  // points: so dense a drawing hides what a grain more does
     return straightened(out, out.size() > kMany ? grain : 0.25 * grain);
 }

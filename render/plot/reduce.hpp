@@ -13,6 +13,8 @@ namespace beamcam::render::figure {
 // Where x increases: the first, least, greatest and last of each column of width `grain`. Elsewhere: points closer than
 // `grain` to the last kept one are left out, extremes of the excursion kept.
 std::vector<Vec2> reduce(std::span<const Vec2> points, double grain);
+// The columns alone, of this width. x must not decrease.
+std::vector<Vec2> column_extremes(std::span<const Vec2> points, double width);
 
 // A stretch of neighbouring columns in each of which the curve goes up and down more than once: to the eye a band.
 struct Swing {

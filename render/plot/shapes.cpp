@@ -29,7 +29,7 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
     std::vector<Vec2> points;
     for (const Vec2 p : s.points) points.push_back(camera.to_pixels(p));
     const Vec2 centre = camera.to_pixels(s.centre);
-    const double head = 5.5 * style.letters / 8;
+    const ArrowHead head{.length = 5.5 * style.letters / 8, .half_width = 0.36, .back = 0.78};
     switch (s.kind) {
         case Shape::Kind::line:
             sheet.polyline(points);
@@ -49,19 +49,20 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
             return sheet.stroke(pen);
         case Shape::Kind::turn: {
             // The head is a short arrow along the last of the arc, which ends before it.
-            const double back = std::copysign(std::min(0.8 * head / radius, std::abs(s.to - s.from)), s.to - s.from);
+            const double back =
+                std::copysign(std::min(0.8 * head.length / radius, std::abs(s.to - s.from)), s.to - s.from);
             sheet.arc(centre, radius, s.from, s.to - back);
             sheet.stroke(pen);
             const auto on = [&](double angle) { return centre + radius * Vec2{std::cos(angle), -std::sin(angle)}; };
             const Vec2 tip = on(s.to), neck = on(s.to - 1.25 * back);
             const Vec2 u = (tip - neck) * (1 / norm(tip - neck));
-            return sheet.arrow(tip - u * head, tip, pen, head);
+            return sheet.arrow(tip - u * head.length, tip, pen, head);
         }
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
             const double size = s.small ? style.numbers : style.letters;
-            const Lettering l{.size = size, .color = s.color, .across = s.across, .up = s.up};
+            const Lettering l{.size = size, .color = s.color, .align = s.align, .valign = s.valign};
             sheet.text(points.at(0) + Vec2{s.shift.x * size, -s.shift.y * size}, s.markup, l);
             return;
         }

@@ -160,25 +160,6 @@ void Sheet::gradient(const Box& box, std::span<const Color> colors) {
     cairo_pattern_destroy(pattern);
 }
 
-void Sheet::arrow(Vec2 from, Vec2 to, const Pen& pen, double head) {
-    const Vec2 way = to - from;
-    const double length = norm(way);
-    if (!(length > 0)) return;
-    const Vec2 u = way * (1 / length), v = sim::perp(u);
-    const double tip = std::min(head, length);
-    if (length > tip) {
-        move_to(from);
-        line_to(to - u * (0.8 * tip));
-        stroke({pen.color, pen.width, pen.dash, Cap::butt});
-    }
-    move_to(to);
-    line_to(to - u * tip + v * (0.36 * tip));
-    line_to(to - u * (0.78 * tip));
-    line_to(to - u * tip - v * (0.36 * tip));
-    close();
-    fill(pen.color);
-}
-
 void Sheet::clip(const Box& b) {
     cairo_save(cr_);
     rectangle(b);
@@ -274,11 +255,11 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     Set label = set(markup, l);
     for (Set::Piece& piece : label.pieces) piece.run.bold = piece.run.bold || l.bold;
     double dx = 0, dy = 0;
-    if (l.across == Across::centre) dx = -label.width / 2;
-    if (l.across == Across::right) dx = -label.width;
-    if (l.up == Up::top) dy = label.ascent;
-    if (l.up == Up::middle) dy = cap_height(l.size) / 2;
-    if (l.up == Up::bottom) dy = -label.descent;
+    if (l.align == HAlign::centre) dx = -label.width / 2;
+    if (l.align == HAlign::right) dx = -label.width;
+    if (l.valign == VAlign::top) dy = label.ascent;
+    if (l.valign == VAlign::middle) dy = cap_height(l.size) / 2;
+    if (l.valign == VAlign::bottom) dy = -label.descent;
     cairo_save(cr_);
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -l.turned);

@@ -37,13 +37,17 @@ struct SheetSize {
     double dpi = 300;                  // of PNG
 };
 
-enum class Across { left, centre, right };
-enum class Up { baseline, top, middle, bottom };  // what of the text stands at the point; ink of digits and capitals
+enum class VAlign {
+    baseline,
+    top,
+    middle,
+    bottom
+};  // what of the text stands at the point; ink of digits and capitals
 struct Lettering {
     double size = 8;  // [pt]
     Color color = {};
-    Across across = Across::left;
-    Up up = Up::baseline;
+    HAlign align = HAlign::left;
+    VAlign valign = VAlign::baseline;
     bool bold = false;
     double turned = 0;  // counter-clockwise [rad]
 };
@@ -62,7 +66,6 @@ class Sheet : public Brush {
 
     void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
-    void arrow(Vec2 from, Vec2 to, const Pen& pen, double head);
     // A line through any number of points; NaN breaks it.
     void curve(std::span<const Vec2> points, const Pen& pen);
     void clip(const Box& box);  // until `unclip`

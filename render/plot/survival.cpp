@@ -104,17 +104,17 @@ class Field {
         const auto every = static_cast<std::size_t>(std::ceil(widest / width()));
         for (std::size_t i = 0; i < plate_.columns.size(); i += every) {
             TextStyle style = small_;
-            style.align = Align::centre;
+            style.align = HAlign::centre;
             canvas_.text({inner_.x + (static_cast<double>(i) + 0.5) * width(), inner_.bottom() + 20},
                          escape(plate_.columns[i]), style);
         }
         TextStyle style = note_;
-        style.align = Align::right;
+        style.align = HAlign::right;
         canvas_.text({inner_.right(), inner_.bottom() + 43}, escape(plate_.column_title), style);
     }
     TextStyle small_right() const {
         TextStyle style = small_;
-        style.align = Align::right;
+        style.align = HAlign::right;
         style.max_width = labels_ + 1;
         return style;
     }

@@ -7,11 +7,9 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Across;
 using render::figure::Figure;
 using render::figure::Panel;
 using render::figure::Shape;
-using render::figure::Up;
 using sim::Vec2;
 
 using Kind = Shape::Kind;

@@ -36,7 +36,7 @@ void draw_shapes(Canvas& canvas, double age) {
         canvas.fill(color);
         canvas.rounded({100.5, 100.5, 60, 30}, 9);
         canvas.fill(color);
-        canvas.arrow({20, 140}, {70, 101}, {color, 3}, 14);
+        canvas.arrow({20, 140}, {70, 101}, {color, 3}, {14});
     }
     canvas.text({90, 60}, "F = 12", {.size = 30, .color = red, .halo = blue});
 }

@@ -111,28 +111,6 @@ TEST(Labels, LargeNumbersArePowersOfTen) {
     EXPECT_EQ(power_text(3e-10), "3·10<sup>−10</sup>");
 }
 
-TEST(Chart, DecimationKeepsTheExtremesOfEveryColumn) {
-    std::vector<double> t, v;
-    for (int i = 0; i < 100000; ++i) t.push_back(i / 100000.0), v.push_back(std::sin(i * 0.37) * i);
-    v[54321] = 1e7;
-    const auto points = decimate(t, v, [](double x, double y) { return Vec2{100 * x, y}; });
-    EXPECT_LE(points.size(), 4U * 101);
-    double most = 0;
-    for (Vec2 p : points) most = std::max(most, p.y);
-    EXPECT_EQ(most, 1e7);
-    for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GE(points[i].x, points[i - 1].x);
-}
-
-TEST(Chart, DecimationBreaksTheLineWhereNothingIsDefined) {
-    const double nan = std::nan("");
-    const auto points =
-        decimate(std::vector{0.0, 1.0, 2.0, 3.0}, std::vector{1.0, nan, nan, 2.0}, [](double x, double y) {
-            return Vec2{x, y};
-        });
-    ASSERT_EQ(points.size(), 3U);
-    EXPECT_TRUE(std::isnan(points[1].x));
-}
-
 // What of a wanted grid finds no room is told, so that it can be said.
 TEST(Layout, PanelsWithoutRoomAreNamed) {
     using Kind = LayoutNode::Kind;

@@ -133,6 +133,18 @@ TEST(FigureReduce, ASlowCurveStaysRound) {
     }
 }
 
+TEST(FigureReduce, ColumnsKeepTheirExtremes) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 100000; ++i) points.push_back({i / 1000.0, std::sin(i * 0.37) * i});
+    points[54321].y = 1e7;
+    const std::vector<Vec2> kept = column_extremes(points, 1);
+    EXPECT_LE(kept.size(), 4U * 101);
+    double most = 0;
+    for (Vec2 p : kept) most = std::max(most, p.y);
+    EXPECT_EQ(most, 1e7);
+    for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_GE(kept[i].x, kept[i - 1].x);
+}
+
 TEST(FigureReduce, NanBreaksTheLine) {
     const double nan = std::nan("");
     const std::vector<Vec2> kept = reduce(std::vector<Vec2>{{nan, 0}, {0, 0}, {1, nan}, {2, 1}, {3, 5}}, 0.01);
@@ -178,7 +190,7 @@ TEST(FigureReduce, CurvesThatCanBeToldApartAreNoBands) {
 }
 
 TEST(FigurePlacement, GoesWhereNothingIs) {
-    Occupancy taken({0, 0, 100, 100});
+    OccupancyGrid taken({0, 0, 100, 100}, 1.5);
     taken.cover(Box{50, 0, 50, 50});
     taken.cover(std::vector<Vec2>{{0, 90}, {100, 90}});
     const Place place = best_place(taken, 30, 20, 2);

@@ -1,4 +1,4 @@
-#include "render/plot/free_room.hpp"
+#include "render/plot/placement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,33 +11,33 @@
 namespace beamcam::render {
 namespace {
 
-TEST(FreeRoom, TakesTheCellsThatAShapeTouchesAndNoOthers) {
-    FreeRoom room({100, 200, 80, 60}, 4);
-    EXPECT_EQ(room.taken({100, 200, 80, 60}), 0);
-    room.take(std::array{Vec2{110, 210}, Vec2{130, 210}, Vec2{130, 230}, Vec2{110, 230}});
-    EXPECT_EQ(room.taken({112, 212, 10, 10}), 1);
-    EXPECT_EQ(room.taken({136, 236, 20, 10}), 0);
-    room.take(Vec2{160, 240}, 10);
-    EXPECT_EQ(room.taken({158, 238, 3, 3}), 1);
-    EXPECT_EQ(room.taken({144, 224, 3, 3}), 0);     // the corner of the circle's box
-    EXPECT_GT(room.taken({90, 200, 20, 10}), 0.4);  // half of it lies beyond
+TEST(Placement, CoversTheCellsThatAShapeTouchesAndNoOthers) {
+    OccupancyGrid room({100, 200, 80, 60}, 4);
+    EXPECT_EQ(room.covered({100, 200, 80, 60}), 0);
+    room.cover_convex(std::array{Vec2{110, 210}, Vec2{130, 210}, Vec2{130, 230}, Vec2{110, 230}});
+    EXPECT_EQ(room.covered({112, 212, 10, 10}), 1);
+    EXPECT_EQ(room.covered({136, 236, 20, 10}), 0);
+    room.cover_disc(Vec2{160, 240}, 10);
+    EXPECT_EQ(room.covered({158, 238, 3, 3}), 1);
+    EXPECT_EQ(room.covered({144, 224, 3, 3}), 0);     // the corner of the circle's box
+    EXPECT_GT(room.covered({90, 200, 20, 10}), 0.4);  // half of it lies beyond
 }
 
-TEST(FreeRoom, ATriangleTakesNoMoreThanItsCells) {
-    FreeRoom room({0, 0, 100, 100}, 2);
-    room.take(std::array{Vec2{0, 0}, Vec2{100, 0}, Vec2{0, 100}});
-    EXPECT_EQ(room.taken({10, 10, 30, 30}), 1);
-    EXPECT_EQ(room.taken({60, 60, 30, 30}), 0);
-    EXPECT_NEAR(room.taken({0, 0, 99, 99}), 0.5, 0.03);
+TEST(Placement, ATriangleCoversNoMoreThanItsCells) {
+    OccupancyGrid room({0, 0, 100, 100}, 2);
+    room.cover_convex(std::array{Vec2{0, 0}, Vec2{100, 0}, Vec2{0, 100}});
+    EXPECT_EQ(room.covered({10, 10, 30, 30}), 1);
+    EXPECT_EQ(room.covered({60, 60, 30, 30}), 0);
+    EXPECT_NEAR(room.covered({0, 0, 99, 99}), 0.5, 0.03);
 }
 
-TEST(FreeRoom, TheFirstFreePlaceIsChosenElseTheLeastTaken) {
-    FreeRoom room({0, 0, 100, 100}, 2);
+TEST(Placement, TheFirstFreePlaceIsChosenElseTheLeastCovered) {
+    OccupancyGrid room({0, 0, 100, 100}, 2);
     const std::vector<Box> places = places_along({0, 0, 100, 100}, {20, 10}, Corner::top_left);
     EXPECT_EQ(room.choose(places), (Box{0, 0, 20, 10}));
-    room.take(Box{0, 0, 30, 30});
+    room.cover(Box{0, 0, 30, 30}, 1);
     EXPECT_EQ(room.choose(places), (Box{80, 0, 20, 10}));
-    room.take(Box{0, 0, 100, 100});
+    room.cover(Box{0, 0, 100, 100}, 1);
     EXPECT_EQ(room.choose(places), places.front());
     for (const Box& place : places) EXPECT_TRUE(Box(0, 0, 100, 100).contains(place));
 }
@@ -78,7 +78,7 @@ double nearest_to_words(FilmSetup setup, std::size_t words) {
     return least;
 }
 
-TEST(FreeRoom, NoBeamEverComesToTheWordsOfAFilm) {
+TEST(Placement, NoBeamEverComesToTheWordsOfAFilm) {
     for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1080}, {640, 640}}) {
         FilmSetup setup = test::synthetic_film({.duration = 0.6});
         setup.width = w, setup.height = h;
@@ -92,7 +92,7 @@ TEST(FreeRoom, NoBeamEverComesToTheWordsOfAFilm) {
 }
 
 // A beam that stands upright in the corner where the label would be.
-TEST(FreeRoom, WordsGiveWay) {
+TEST(Placement, WordsGiveWay) {
     FilmSetup setup = test::synthetic_film({.duration = 0.5});
     for (sim::Pose& pose : setup.poses) {
         for (std::size_t i = 0; i < pose.centreline.size(); ++i)
