@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "scenes/figures/recipes.hpp"
+#include "sim/problem/derived.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -63,7 +64,7 @@ class Drawing {
     // The disc as it is, and magnified beside it with its symbols, which would not fit into it.
     void cam() {
         const sim::Cam& cam = *p_.cam;
-        const Vec2 c = cam.centre, b = c + cam.eccentricity * sim::unit(cam.phase);
+        const Vec2 c = cam.centre, b = disc_centre(cam, 0);
         disc(b, cam.radius);
         dot(c);
         label(c, "$C$", {-0.75, -0.8});

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scenes/figures/recipes.hpp"
+#include "sim/problem/derived.hpp"
 #include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
@@ -107,7 +108,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         for (const std::size_t w : where) {
             std::vector<double> d;
             for (std::size_t i = 0; i < f.t.size(); ++i) {
-                const sim::Vec2 disc = cam.centre + cam.eccentricity * sim::unit(cam.phase - cam.speed * f.t[i]);
+                const sim::Vec2 disc = disc_centre(cam, f.t[i]);
                 d.push_back(norm(falls.points[w][i] - disc) - cam.radius - offset);
             }
             f.distance.push_back(std::move(d));

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "sim/problem/derived.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -113,13 +115,9 @@ std::string tell_inertia(const Problem& p) {
         shapes(p), p.hub.inertia, basis);
 }
 
-double depth_of(double mass, double speed, double stiffness, double n) {
-    return std::pow(0.5 * (n + 1) * mass * speed * speed / stiffness, 1 / (n + 1));  // (S37) at this speed
-}
-
 std::string tell_passed(const Problem& p, const Look& beam) {
     const double n = p.contact.exponent, k = contact_stiffness(p), radius = p.cam->radius;
-    const double depth = depth_of(beam.mass, beam.approach, k, n);
+    const double depth = impact_depth(n, k, beam.mass, beam.approach);
     const std::string law = fmt::format("{:g} N/m^{:g}", k, n);
     if (depth < 0.5 * radius)
         return fmt::format(
@@ -162,7 +160,7 @@ std::string what_limits(const Problem& p, System& system, const Look& beam, bool
         needs.push_back(fmt::format(
             "contact stiffness {:g} N/m^{:g}{} needs steps near {:.1g} s in a touch (softer, or \"contact\": "
             "{{\"model\": \"restitution\"}}: longer ones)",
-            k, n, with, kSharpTouch * depth_of(beam.mass, 1, k, n)));
+            k, n, with, kSharpTouch * impact_depth(n, k, beam.mass, 1)));
     }
     if (const auto* coulomb = std::get_if<CoulombFriction>(&p.contact.friction);
         coulomb && p.contact.model == ContactModel::compliant && coulomb->slip_speed < 1e-4)

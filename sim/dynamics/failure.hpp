@@ -16,6 +16,12 @@ enum class Stop {
     method         // the integrator's own reason: `words`
 };
 
+// Ends a run for a reason of its own, not the integrator's.
+struct RunStopped : StepFailure {
+    RunStopped(Stop reason, const char* what) : StepFailure(what), why(reason) {}
+    Stop why;
+};
+
 struct Failure {
     Stop why = Stop::method;
     std::string words;     // of the integrator

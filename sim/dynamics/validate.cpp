@@ -6,6 +6,7 @@
 
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
+#include "sim/problem/derived.hpp"
 #include "sim/problem/keys.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/problem/scales.hpp"
@@ -158,7 +159,7 @@ StartGap straight_gap(const Problem& p) {
     const Cam& cam = *p.cam;
     double angle = p.initial.angle;
     if (is_prescribed(p.hub.drive)) angle = DriveLaw(p.hub.drive, angle).motion(0).angle;
-    const Vec2 along = unit(angle), disc = cam.centre + cam.eccentricity * unit(cam.phase);
+    const Vec2 along = unit(angle), disc = disc_centre(cam, 0);
     const double x = std::clamp(dot(disc, along) - p.hub.radius, 0.0, p.beam.length);
     return {norm((p.hub.radius + x) * along - disc) - cam.radius - contact_offset(p), x};
 }

@@ -41,7 +41,7 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
     }
     const Frame<double> frame{std::sin(hub), std::cos(hub),   rate,           pose.disc.x,
                               pose.disc.y,   pose.velocity.x, pose.velocity.y};
-    if (!system_.nearly_straight(y + 1)) return false;
+    if (!system_.gap_bound().nearly_straight(y + 1)) return false;
     if (search || x_ < 0) {
         x_ = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
     }

@@ -1,7 +1,7 @@
 // Values that follow from a problem's numbers.
-#include <cmath>
+#include "sim/problem/derived.hpp"
 
-#include "sim/problem/problem.hpp"
+#include <cmath>
 
 namespace beamcam::sim {
 
@@ -22,5 +22,18 @@ double contact_stiffness(const Problem& problem) {
 }
 
 double contact_offset(const Problem& problem) { return problem.contact.offset.value_or(0.5 * problem.beam.depth); }
+
+CamPose cam_pose(const Cam& cam, double t) {
+    CamPose pose;
+    pose.angle = cam.phase - cam.speed * t;
+    const Vec2 arm = cam.eccentricity * unit(pose.angle);
+    pose.disc = cam.centre + arm;  // (S23)
+    pose.velocity = -cam.speed * perp(arm);
+    return pose;
+}
+
+double impact_depth(double exponent, double stiffness, double mass, double speed) {
+    return std::pow(0.5 * (exponent + 1) * mass * speed * speed / stiffness, 1 / (exponent + 1));
+}
 
 }  // namespace beamcam::sim

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "sim/problem/derived.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -94,7 +96,7 @@ void judge_contact(Scales& out, const Problem& p) {
     if (!p.cam || p.contact.model != ContactModel::compliant) return;
     const double n = p.contact.exponent, k = contact_stiffness(p);
     const double mass = p.beam.density * p.beam.area * p.beam.length;
-    const double depth = std::pow(0.5 * (n + 1) * mass / k, 1 / (n + 1));
+    const double depth = impact_depth(n, k, mass, 1);
     const char* path = p.contact.stiffness || !p.cam->youngs_modulus ? "contact.stiffness" : "cam.youngs_modulus";
     out.within(kUsual, "the depth of a touch at 1 m/s", depth, "m", {{path, p.contact.stiffness.value_or(k)}});
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/base/numerics.hpp"
+#include "sim/problem/derived.hpp"
 
 namespace beamcam::sim {
 
@@ -46,8 +47,7 @@ std::vector<std::vector<double>> distances(const Problem& problem, const std::ve
     const Cam& cam = *problem.cam;
     std::vector<std::vector<double>> out(points.size(), std::vector<double>(times.size()));
     for (std::size_t i = 0; i < times.size(); ++i) {
-        const Vec2 arm = cam.eccentricity * unit(cam.phase - cam.speed * times[i]);
-        const Vec2 centre = printing == Printing::printed ? cam.centre : cam.centre + arm;
+        const Vec2 centre = printing == Printing::printed ? cam.centre : disc_centre(cam, times[i]);
         for (std::size_t p = 0; p < points.size(); ++p)
             out[p][i] = norm(result.points[p][i] - centre) - cam.radius;  // (S49)
     }

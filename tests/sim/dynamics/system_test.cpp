@@ -251,7 +251,9 @@ TEST(ContactGeometry, BoundOfTheGapIsABound) {
                 for (int i = 1; i < system.coordinates(); ++i)
                     y[static_cast<std::size_t>(i)] = dice.about_zero(0.01 / i);
                 const double t = dice.between(0, 9);
-                EXPECT_LE(system.gap_lower_bound(t, y.data()), system.contact(t, y.data(), true).gap + 1e-15)
+                const double nothing[kMaxSize] = {};
+                EXPECT_LE(system.gap_bound().lower_bound(system.drive(), t, 0, y.data(), nothing),
+                          system.contact(t, y.data(), true).gap + 1e-15)
                     << name(kind);
             }
         }

@@ -1,0 +1,116 @@
+#include "sim/dynamics/contact_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kMostIterations = 60;    // of Newton's method with bisection: a bisection alone needs 47 for kFootChange
+constexpr double kFootChange = 1e-14;  // of the length: rounding of the arc position
+constexpr int kSamplesOfModes = 9, kSamplesOfExact = 13;  // and 2 or 4 a coordinate: more for more curved shapes
+
+}  // namespace
+
+ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
+    : cam_(problem.cam.value_or(Cam{})),
+      hub_radius_(problem.hub.radius),
+      length_(model.length()),
+      offset_(contact_offset(problem)),
+      samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kSamplesOfExact
+                                                      : 2 * model.size() + kSamplesOfModes),
+      x_last_(0.5 * length_) {}
+
+// The only foot of a nearly straight beam, or the nearest of a few points.
+void ContactGeometry::search_whole_beam(const Model& model, Vec2 disc, bool straight) {
+    if (straight) {
+        x_last_ = std::clamp(dot(disc, unit(model.coordinates()[0])) - hub_radius_, 0.0, length_);
+        return;
+    }
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= samples_; ++i) {
+        const double x = length_ * i / samples_;
+        model.point(x, at_);
+        const Vec2 d = at_.r - disc;
+        const double distance = dot(d, d);
+        if (distance < best) {
+            best = distance;
+            x_last_ = x;
+        }
+    }
+}
+
+// The foot of the perpendicular from B: a root of r′·(r − B) with r″·(r − B) + r′·r′ > 0          (S24)
+Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
+    double x = x_last_, low = 0, high = length_;
+    c.at_end = false;
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+        model.point(x, at_);
+        const Vec2 d = at_.r - disc;
+        const double slope = dot(at_.r1, d);
+        if ((x <= 0 && slope >= 0) || (x >= length_ && slope <= 0)) {
+            c.at_end = true;
+            break;
+        }
+        if (slope > 0)
+            high = std::min(high, x);
+        else
+            low = std::max(low, x);
+        const double bend = dot(at_.r2, d) + dot(at_.r1, at_.r1);
+        double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
+        if (next <= low || next >= high) {
+            const double edge = next <= low ? low : high;
+            const bool free_end = edge == 0 || edge == length_;
+            next = free_end && bend > 0 ? edge : 0.5 * (low + high);
+        }
+        const double dx = next - x;
+        if (std::fabs(dx) <= kFootChange * length_) break;
+        x = next;
+    }
+    x_last_ = x;
+    c.x = x;
+    return at_.r - disc;
+}
+
+ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound, double t, bool search, double shift) {
+    ContactState c;
+    const CamPose pose = cam_pose(cam_, t);
+    if (search || search_next_) search_whole_beam(model, pose.disc, bound.nearly_straight(model.coordinates() + 1));
+    search_next_ = false;
+    const Vec2 d = foot(model, pose.disc, c);
+    const double distance = norm(d);
+    c.normal = d * (1 / distance);
+    c.tangent = -perp(c.normal);
+    c.gap = distance - cam_.radius - offset_ + shift;   // (S25)
+    c.gap_rate = dot(c.normal, at_.v - pose.velocity);  // (S26)
+    // χ̇ of the tangent; the touching face lies d below the centre line (S27).
+    const double chi_dot = cross(at_.r1, at_.v1) / dot(at_.r1, at_.r1);
+    c.slip = dot(c.tangent, at_.v - pose.velocity) + offset_ * chi_dot - cam_.speed * cam_.radius;
+    return c;
+}
+
+void ContactGeometry::rows(const Model& model, const ContactState& c, double* jn, double* jt) const {
+    double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize];
+    model.jacobian(c.x, jx, jy, jchi);
+    for (int i = 0; i < model.size(); ++i) {
+        jn[i] = jx[i] * c.normal.x + jy[i] * c.normal.y;
+        jt[i] = jx[i] * c.tangent.x + jy[i] * c.tangent.y + offset_ * jchi[i];
+    }
+}
+
+// With w = ṙ − Ḃ, D = r − B and the foot moving by ẋ:                                                      (S44)
+//   ẋ = −(ṙ′·D + r′·w)/(r″·D + r′·r′),   g̈ = ṅ·w + n·(r̈ + ṙ′ẋ − B̈),   ṅ = (Ḋ − n(n·Ḋ))/|D|,   Ḋ = w + r′ẋ
+double ContactGeometry::gap_acceleration_at_rest(const Model& model, double t, const ContactState& c) const {
+    BeamPoint p;
+    model.point(c.x, p);
+    const CamPose pose = cam_pose(cam_, t);
+    const Vec2 d = p.r - pose.disc, w = p.v - pose.velocity;
+    const double rate = c.at_end ? 0 : -(dot(p.v1, d) + dot(p.r1, w)) / (dot(p.r2, d) + dot(p.r1, p.r1));
+    const Vec2 d_rate = w + rate * p.r1;
+    const Vec2 n_rate = (d_rate - dot(c.normal, d_rate) * c.normal) * (1 / norm(d));
+    const Vec2 disc_acceleration = -cam_.speed * cam_.speed * (pose.disc - cam_.centre);
+    return dot(n_rate, w) + dot(c.normal, model.convective(c.x) + rate * p.v1 - disc_acceleration);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,82 @@
+#include "sim/dynamics/gap_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/beam/shapes.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kLeastShapeBound = 3;  // of Shapes::bound: all shapes of a beam that does not reach beyond its hinge
+constexpr double kStraight = 0.5;       // of |v″| times the distance of the disc: 1 would be a second foot
+
+}  // namespace
+
+GapBound::GapBound(const Problem& problem, const Model& model)
+    : modes_(model.size() - 1),
+      exact_(problem.beam.model == ModelKind::exact),
+      length_(model.length()),
+      radius_(problem.hub.radius),
+      offset_(contact_offset(problem)),
+      cam_(problem.cam.value_or(Cam{})) {
+    if (modes_ == 0 || exact_) return;
+    const Shapes shapes = Shapes::of(problem);
+    for (int i = 0; i < modes_; ++i) {
+        shape_bounds_.push_back(std::max(kLeastShapeBound, shapes.bound(i)));
+        wave_numbers_.push_back(shapes.beta(i));
+    }
+}
+
+bool GapBound::nearly_straight(const double* q) const {
+    if (exact_ && modes_ > 0) return false;
+    double curvature = 0;
+    for (std::size_t i = 0; i < shape_bounds_.size(); ++i)
+        curvature += shape_bounds_[i] * wave_numbers_[i] * wave_numbers_[i] * std::fabs(q[i]);
+    const double far = length_ + std::fabs(radius_) + norm(cam_.centre) + cam_.eccentricity;
+    return curvature * far < kStraight;
+}
+
+// Distance of B from the straight beam at the frame's angle, less what bending, turning and the cam can add.
+double GapBound::lower_bound(const DriveLaw& drive, double t, double h, const double* xi, const double* spread) const {
+    double angle = xi[0], turn = spread[0];
+    if (drive.prescribed()) {
+        angle = drive.motion(t).angle;
+        turn = 0;
+        for (const double side : {-h, h}) {
+            // Within a step all laws turn at a rate that is quadratic in time, or monotone.
+            const HubMotion now = drive.motion(t), then = drive.motion(t + side);
+            turn = std::max({turn, std::fabs(h * now.rate), std::fabs(h * then.rate),
+                             std::fabs(h * (now.rate + 0.5 * side * now.acceleration))});
+        }
+    }
+    const Vec2 along = unit(angle), disc = disc_centre(cam_, t);
+    const double foot = std::clamp(dot(disc, along), radius_, radius_ + length_);
+    return norm(disc - foot * along) - cam_.radius - offset_ - deflection(xi, spread) -
+           turn * (std::fabs(radius_) + length_) - h * std::fabs(cam_.speed) * cam_.eccentricity;
+}
+
+// How far a point of the beam is from where it would be if the beam were straight. Shortening: |u| <= ½∫v′² and ½|a|α²,
+// with α the slope at the root. `exact`: a section turned by ψ − θ moves the points beyond it by at most L|ψ − θ|, and
+// |ψ − θ| <= 2Σ|q|.
+double GapBound::deflection(const double* xi, const double* spread) const {
+    double bent = 0, slope = 0;
+    for (int i = 0; i < modes_; ++i) {
+        const double q = std::fabs(xi[i + 1]) + spread[i + 1];
+        if (exact_) {
+            bent += 2 * length_ * q;
+        } else {
+            const auto k = static_cast<std::size_t>(i);
+            bent += shape_bounds_[k] * q;
+            slope += shape_bounds_[k] * wave_numbers_[k] * q;
+        }
+    }
+    return bent + 0.5 * (length_ + std::fabs(radius_)) * slope * slope;
+}
+
+double GapBound::travel(const double* change) const {
+    const double nothing[kMaxSize] = {};
+    return std::fabs(change[0]) * (std::fabs(radius_) + length_) + deflection(nothing, change);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,163 @@
+#include "sim/run/contact_guards.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/dynamics/failure.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// Equal steps through a segment.
+struct Instants {
+    double t0, t1;
+    int count;
+    double operator()(int i) const { return i == count ? t1 : t0 + (t1 - t0) * i / count; }
+};
+
+// Where a guard without a rate, known by its values f[0…last] at the instants, falls below zero between two of them
+// that do not show it. The rates are differences; they are looked for unless the values stay farther from zero than
+// a curve bends that changes by them.
+template <class Value>
+std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, const double* f, int last) {
+    const double step = kGuardDifference * (time.t1 - time.t0);
+    const auto guard = [&](double t) {
+        const double early = std::max(time.t0, t - step), late = std::min(time.t1, t + step);
+        return Guard{t, value(t), (value(late) - value(early)) / (late - early)};
+    };
+    double bend = 0;
+    for (int i = 1; i < last; ++i) bend = std::max(bend, std::fabs(f[i - 1] - 2 * f[i] + f[i + 1]));
+    const double deep = kGuardRounding * std::fabs(*std::max_element(f, f + last + 1));
+    for (int i = 1; i <= last; ++i) {
+        if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
+        // A guard that starts at zero has the sign that was seen, not that of another rounding.
+        Guard before = guard(time(i - 1)), after = guard(time(i));
+        before.value = f[i - 1];
+        after.value = f[i];
+        if (const auto at = first_fall(guard, before, after, deep)) return at;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Event ContactGuards::first_lift(const Segment& segment) {
+    const int count = std::max(4, probe_.pieces(segment));
+    const Instants time{segment.t0, segment.t1, count};
+    const auto force = [&](double t) { return probe_.contact(segment, t, false).force; };
+    std::array<double, kMaxPieces + 1> f;
+    for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
+    // Rounding of a vanishing force does not lift.
+    const double none = -kVanishingForce * (std::fabs(probe_.system.problem().gravity) * probe_.system.model().mass() +
+                                            *std::max_element(f.begin(), f.begin() + count + 1));
+    for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= none;
+    const auto lifted = [&](double t) { return force(t) - none; };
+    if (f[0] < 0) return {EventKind::lift, segment.t0};
+    const int last =
+        static_cast<int>(std::find_if(f.begin() + 1, f.begin() + count, [](double v) { return v < 0; }) - f.begin());
+    if (const auto at = first_dip_of_samples(lifted, time, f.data(), last)) return {EventKind::lift, *at};
+    if (f[static_cast<std::size_t>(last)] < 0)
+        return {EventKind::lift, find_root(lifted, time(last - 1), time(last), f[static_cast<std::size_t>(last) - 1],
+                                           f[static_cast<std::size_t>(last)])};
+    return {};
+}
+
+ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) {
+    const ContactState c = probe_.contact(segment, t, false);
+    Guards w{c.normal, {t, -c.gap, -c.gap_rate}, c.factor, 1};
+    const FrictionLaw& friction = probe_.system.friction();
+    if (!friction.bristle) return w;
+    if (state_.phase.grip == Grip::stick) {
+        w.grip = friction.limit * c.force - std::fabs(c.friction);
+    } else if (friction.lags) {
+        w.grip =
+            friction.foot_speed(state_.phase.grip, c.force, c.slip, probe_.state()[2 * probe_.system.coordinates()]);
+    } else {
+        w.grip = sliding_guard(segment, t, c.slip);
+    }
+    return w;
+}
+
+// The speed of a sliding bristle's foot along its direction, s v_t − μṄ/k.
+double ContactGuards::sliding_guard(const Segment& segment, double t, double slip) {
+    const FrictionLaw& friction = probe_.system.friction();
+    const double step = kForceDifference * (segment.t1 - segment.t0);
+    const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
+    const double growth =
+        (probe_.contact(segment, late, false).force - probe_.contact(segment, early, false).force) / (late - early);
+    return FrictionLaw::sign(state_.phase.grip) * slip - friction.kinetic * growth / friction.stiffness;
+}
+
+Event ContactGuards::first_event(const Segment& segment) {
+    if (const TouchSamples* samples = segment.touch()) {
+        switch (samples->ending) {
+            case TouchSamples::Ending::open:
+                return {};
+            case TouchSamples::Ending::release:
+                return {EventKind::release, segment.t1};
+            case TouchSamples::Ending::clamp:
+                return {EventKind::clamp, segment.t1};
+        }
+    }
+    const int count = std::max(probe_.pieces(segment), probe_.pieces_by_travel(segment, probe_.range(segment)));
+    const Instants time{segment.t0, segment.t1, count};
+    const auto release = [&](double t) { return evaluate(segment, t).release; };
+    const auto grip_at = [&](double t) { return evaluate(segment, t).grip; };
+    Event best;
+    const auto offer = [&](EventKind kind, std::optional<double> t) {
+        if (t && (best.kind == EventKind::none || *t < best.t)) best = {kind, *t};
+    };
+    Guards a = evaluate(segment, segment.t0);
+    grip_.assign(static_cast<std::size_t>(count) + 1, a.grip);
+    if (segment.t0 == state_.phase_start) a.release.value = std::max(a.release.value, 0.0);
+    int last = 0;
+    while (last < time.count && best.kind == EventKind::none) {
+        const Guards b = evaluate(segment, time(++last));
+        if (dot(a.normal, b.normal) < 0 && b.release.value > 0) {
+            throw RunStopped(Stop::passed_cam, "the beam passed through the cam");
+        }
+        grip_[static_cast<std::size_t>(last)] = b.grip;
+        offer(EventKind::release, first_fall(release, a.release, b.release, probe_.gap_rounding()));
+        offer(EventKind::clamp, clamp_event(segment, a, b));
+        if (b.grip < 0 && may_change_grip())
+            offer(EventKind::grip,
+                  a.grip > 0 ? find_root(grip_at, a.release.t, b.release.t, a.grip, b.grip) : a.release.t);
+        a = b;
+    }
+    if (!probe_.system.has_bristle()) return best;
+    const auto at = first_dip_of_samples(grip_at, time, grip_.data(), last);
+    if (at && (best.kind == EventKind::none || *at < best.t) && may_change_grip()) return {EventKind::grip, *at};
+    return best;
+}
+
+// Else it stays for this step: too many changes at one instant.
+bool ContactGuards::may_change_grip() {
+    if (state_.idle_events <= kMostFlips) return true;
+    ++state_.tally.fallbacks.grips;
+    return false;
+}
+
+// Where the clamp of the force sets in or lets go.
+std::optional<double> ContactGuards::clamp_event(const Segment& segment, const Guards& a, const Guards& b) {
+    const NormalLaw& law = probe_.system.normal_law();
+    if (!(law.damping > 0)) return std::nullopt;
+    const double t0 = a.release.t, t1 = b.release.t, level = -state_.phase.approach / law.damping;
+    const bool known = std::fabs(a.clamp) > kZeroFactor;
+    if (known) state_.clamp_side = a.clamp > 0 ? 1 : -1;
+    const auto penetration = [&](double t) { return evaluate(segment, t).release; };
+    std::optional<double> at;
+    for (int tries = 0; tries < 2; ++tries, state_.clamp_side = -state_.clamp_side) {
+        at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kZeroFactor * level);
+        // Else it starts on the kink, and was taken to be on the wrong side of it.
+        if (known || !at || *at - t0 > kOnKink * (t1 - t0)) break;
+    }
+    const bool shows = known && std::fabs(b.clamp) > kZeroFactor && (a.clamp > 0) != (b.clamp > 0);
+    if (shows) {
+        const double seen = find_root([&](double t) { return evaluate(segment, t).clamp; }, t0, t1, a.clamp, b.clamp);
+        if (!at || !(*at < seen - kSameInstant * (t1 - t0))) at = seen;
+    }
+    return at;
+}
+
+}  // namespace beamcam::sim

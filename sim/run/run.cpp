@@ -1,0 +1,222 @@
+#include "sim/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/dynamics/initial.hpp"
+#include "sim/integrate/exponential.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynamics) {
+    // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
+    // many impacts stays within ten times rtol in the energy balance.
+    const double share = solver.method == Method::automatic ? 1.0 / 3 : 1;
+    const double rtol = share * solver.rtol, atol = share * solver.atol;
+    switch (solver.method) {
+        case Method::automatic:
+        case Method::exponential:
+            return make_exponential(dynamics, rtol, atol);
+        case Method::rk8:
+            return make_rk8(dynamics, rtol, atol);
+        case Method::cvode_adams:
+        case Method::cvode_bdf:
+        case Method::arkode_erk:
+            break;
+    }
+    return make_sundials(solver.method, dynamics, rtol, atol);
+}
+
+}  // namespace
+
+Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep)
+    : problem_(problem),
+      progress_(progress),
+      dynamics_(problem),
+      probe_(dynamics_),
+      output_(dynamics_, requests, keep, [this] { return tally(); }),
+      integrator_(make_integrator(problem.solver, dynamics_)),
+      touch_search_(probe_, state_, [this](double t) { report(t); }),
+      contact_guards_(probe_, state_),
+      transitions_(dynamics_, probe_.system, *integrator_, state_, output_),
+      kinks_(dynamics_.drive().kinks()),
+      end_(output_.end()) {}
+
+std::vector<Result> Run::integrate() {
+    try {
+        start();
+        while (state_.t < end_) {
+            keep_to_budget();
+            keep_in_bounds();
+            take(step());
+        }
+    } catch (const StepFailure& failure) {
+        if (!started_)
+            throw SolverError(
+                fmt::format("at the start: {}; give another initial.shape or initial.angle", failure.what()), 0, {});
+        std::vector<Result> partials = output_.fail(state_);
+        throw SolverError(explain(failure), state_.t, std::move(partials));
+    }
+    return output_.finish();
+}
+
+void Run::start() {
+    const InitialState initial = initial_state(dynamics_);
+    state_.y = initial.y;
+    state_.tally.fallbacks.left_behind = initial.left_behind;
+    state_.phase = initial.phase;
+    transitions_.enter_phase();
+    started_ = true;
+    output_.begin(state_);
+    integrator_->stop_at(next_kink());
+    if (state_.phase.touching) transitions_.start_in_contact();
+    resume();
+}
+
+const Segment& Run::step() {
+    const Segment& segment = integrator_->step();
+    last_step_ = segment.t1 - segment.t0;
+    if (++steps_ % kStepsPerReport == 0 || last_step_ * dynamics_.highest_frequency() > kLongStep) report(segment.t1);
+    return segment;
+}
+
+// Goes to the first event in the segment, or to its end.
+void Run::take(const Segment& segment) {
+    const Event event = first_event(segment);
+    if (event.kind == EventKind::none) {
+        const bool kink = segment.t1 >= next_kink();
+        record(segment, segment.t0, kink);
+        if (!kink) return;
+    } else {
+        if (!reach(segment, event)) return;
+        transitions_.apply(event);
+    }
+    pass_kinks();
+    resume();
+}
+
+Event Run::first_event(const Segment& segment) {
+    if (!problem_.cam) return {};
+    if (state_.phase.held) return contact_guards_.first_lift(segment);
+    if (state_.phase.touching) return contact_guards_.first_event(segment);
+    const auto touch = touch_search_.first_touch(segment);
+    return touch ? Event{EventKind::touch, *touch} : Event{};
+}
+
+// Puts the state at the event. False when the run ends before, or a shorter step was taken instead.
+bool Run::reach(const Segment& segment, const Event& event) {
+    const double start = segment.t0;
+    if (event.t > start) {
+        double at = event.t;
+        const Segment& ended = shorten(start, event, at);
+        if (ended.t1 < at) {
+            take(ended);
+            return false;
+        }
+        // Also when the run ends before the event: a longer run evaluates this shortened step, too.
+        record(ended, start, true);
+        state_.idle_events = 0;
+        return ended.t1 <= end_;
+    }
+    segment.value(start, state_.y.data());
+    state_.t = start;
+    // Events without progress: a guard that cannot leave its surface.
+    if (++state_.idle_events > kMostIdleEvents)
+        throw RunStopped(Stop::stuck, "the contact changes its state again and again without time passing");
+    return true;
+}
+
+// Retakes the step from `start` up to the event. It is more accurate than the dense output that the event was found on:
+// one Newton step in time puts a touch or release where it belongs, `at`.
+const Segment& Run::shorten(double start, const Event& event, double& at) {
+    const Segment& ended = integrator_->shorten(at);
+    if (ended.t1 != at || (event.kind != EventKind::touch && event.kind != EventKind::release)) return ended;
+    const ContactState c = probe_.contact(ended, ended.t1, false);
+    const double dt = -c.gap / c.gap_rate;
+    if (!std::isfinite(dt) || !(std::fabs(dt) < kPredictedShift * (ended.t1 - start))) return ended;
+    at += dt;
+    return integrator_->shorten(at);
+}
+
+// Hands the segment on from `from`, as far as the requests reach; an event follows at its end or not.
+void Run::record(const Segment& segment, double from, bool event) {
+    const double to = std::min(segment.t1, end_);
+    output_.segment(segment, from, to, event && segment.t1 <= end_);
+    segment.value(to, state_.y.data());
+    state_.t = to;
+}
+
+// After an event, and at the start.
+void Run::resume() {
+    output_.resume(state_);
+    if (state_.t < end_) integrator_->start(state_.t, state_.y.data());
+}
+
+void Run::keep_to_budget() {
+    const long tried = integrator_->counters.steps + integrator_->counters.rejected;
+    if (tried >= problem_.solver.max_steps) throw RunStopped(Stop::steps_spent, "the budget of steps is spent");
+    if (tried < next_pace_) return;
+    const auto lately = static_cast<double>(tried - paced_);
+    projected_steps_ = static_cast<double>(tried) + lately * (end_ - state_.t) / (state_.t - paced_time_);
+    const double unsure = std::max(1.0, kSurePace / lately);
+    next_pace_ = 2 * tried;
+    paced_ = tried;
+    paced_time_ = state_.t;
+    if (projected_steps_ > kHopeless * unsure * unsure * problem_.solver.max_steps)
+        throw RunStopped(Stop::too_slow, "the budget of steps cannot do");
+}
+
+// An equation that lets a deflection grow without end would go on until numbers overflow.
+void Run::keep_in_bounds() const {
+    for (std::size_t i = 1; i < static_cast<std::size_t>(dynamics_.coordinates()); ++i)
+        if (!(std::fabs(state_.y[i]) < kEndless * problem_.beam.length))
+            throw StepFailure("the deflection grows without end");
+}
+
+// Where the right-hand side is not smooth next, or chatter that was summed up ends.
+double Run::next_kink() const {
+    const double kink = kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front();
+    return std::min(kink, state_.chatter_end.value_or(kink));
+}
+
+// An event may fall on a kink, or so near before it that no step fits between.
+bool Run::has_come(double t) const { return t - state_.t <= kInstantRounding * std::fabs(state_.t); }
+
+void Run::pass_kinks() {
+    while (!kinks_.empty() && has_come(kinks_.front())) kinks_.erase(kinks_.begin());
+    if (state_.chatter_end && has_come(*state_.chatter_end)) transitions_.end_chatter();
+    integrator_->stop_at(next_kink());
+}
+
+void Run::report(double t) const {
+    if (progress_ && !progress_(std::min(t, end_))) throw Interrupted();
+}
+
+Tally Run::tally() const {
+    Tally all = state_.tally;
+    const IntegratorCounters& done = integrator_->counters;
+    all.counters = {.steps = done.steps,
+                    .rejected = done.rejected,
+                    .rhs_evaluations = done.rhs,
+                    .gap_evaluations = dynamics_.gap_evaluations + probe_.system.gap_evaluations,
+                    .jacobians = done.jacobians};
+    all.fallbacks.coarse = probe_.coarse;
+    all.fallbacks.steps = done.fallback_steps;
+    all.fallbacks.handed_over = done.handed_over;
+    all.fallbacks.method = done.fallback;
+    return all;
+}
+
+std::string Run::explain(const StepFailure& failure) {
+    const auto* stopped = dynamic_cast<const RunStopped*>(&failure);
+    Stop why = stopped ? stopped->why : Stop::method;
+    if (dynamic_cast<const InertiaLost*>(&failure) || dynamics_.inertia_lost()) why = Stop::inertia_lost;
+    transitions_.enter_phase();
+    return sim::explain({why, failure.what(), state_.t, last_step_, projected_steps_}, probe_.system, state_.y.data());
+}
+
+}  // namespace beamcam::sim

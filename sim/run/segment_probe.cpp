@@ -1,0 +1,53 @@
+#include "sim/run/segment_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace beamcam::sim {
+
+int SegmentProbe::pieces(const Segment& segment) const {
+    return static_cast<int>(
+        std::clamp(std::ceil((segment.t1 - segment.t0) * system.highest_frequency()), 2.0, double(kMaxPieces)));
+}
+
+// From the values at points of Chebyshev: a polynomial of that degree leaves the middle of its values there by no
+// more than Lebesgue's constant of the points, <= 1 + (2/π) ln 12, times half of their range.
+SegmentProbe::Range SegmentProbe::range(const Segment& segment) {
+    constexpr int kDegree = Segment::kDegree;
+    constexpr double kLebesgue = 2.6, kPi = std::numbers::pi;
+    const auto n = static_cast<std::size_t>(system.coordinates());
+    std::array<double, kMaxSize> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (int k = 0; k <= kDegree; ++k) {
+        const double share = 0.5 * (1 - std::cos(kPi * k / kDegree));
+        segment.value(k == kDegree ? segment.t1 : segment.t0 + share * (segment.t1 - segment.t0), y_.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            low[i] = std::min(low[i], y_[i]);
+            high[i] = std::max(high[i], y_[i]);
+        }
+    }
+    Range range;
+    for (std::size_t i = 0; i < n; ++i) {
+        range.middle[i] = 0.5 * (low[i] + high[i]);
+        range.spread[i] = kLebesgue * 0.5 * (high[i] - low[i]);
+    }
+    return range;
+}
+
+int SegmentProbe::pieces_by_travel(const Segment& segment, const Range& range) {
+    const Cam& cam = *system.problem().cam;
+    const double half = 0.5 * (segment.t1 - segment.t0);
+    const double travel =
+        2 * (system.gap_bound().travel(range.spread.data()) + half * std::fabs(cam.speed) * cam.eccentricity);
+    return limited(travel / (0.5 * cam.radius));
+}
+
+int SegmentProbe::limited(double pieces) {
+    if (pieces > kMostPieces) ++coarse;
+    return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces));
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,220 @@
+#include "sim/run/transitions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/observe/warnings.hpp"
+#include "sim/run/constants.hpp"
+
+namespace beamcam::sim {
+
+void Transitions::start_in_contact() {
+    set_grip();
+    output_.touch(state_.t, state_.y, contact_now());
+}
+
+void Transitions::apply(const Event& event) {
+    switch (event.kind) {
+        case EventKind::none:
+            break;
+        case EventKind::clamp:  // same phase, new step: the kink lies between steps
+            state_.clamp_side = -state_.clamp_side;
+            break;
+        case EventKind::touch:
+            problem().contact.model == ContactModel::restitution ? strike() : touch();
+            break;
+        case EventKind::lift:
+            lift();
+            break;
+        case EventKind::release:
+            release();
+            break;
+        case EventKind::grip:
+            change_grip();
+            break;
+    }
+}
+
+void Transitions::touch() {
+    take_out_gap();
+    state_.phase.touching = true;
+    state_.clamp_side = 1;
+    state_.phase_start = state_.t;
+    enter_phase();
+    const double approach = -contact_now().gap_rate;
+    const ApproachFloor& floor = problem().contact.approach_floor;
+    const bool same_collision = last_release_ && state_.t - *last_release_ < problem().contact.collision_gap;
+    if (!same_collision) first_approach_ = approach;
+    state_.phase.approach =
+        std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);
+    if (approach < floor.value) ++state_.tally.floored;
+    set_grip();
+    enter_phase();
+    const ContactState c = contact_now();
+    output_.touch(state_.t, state_.y, c);
+    // A first step as long as the impact could leave the beam inside the cam before any stage has felt the force.
+    integrator_.limit_first_step(kFirstTouchStep *
+                                 system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
+}
+
+void Transitions::release() {
+    const ContactState c = contact_now();
+    output_.release(state_.t, state_.y, c);
+    leave();
+    if (system_.has_bristle()) bristle() = 0;
+}
+
+// Flight begins. Rounding must not look like a new touch: its gap starts at zero.
+void Transitions::leave() {
+    state_.phase.touching = state_.phase.held = false;
+    take_out_gap();
+    state_.phase_start = state_.t;
+    last_release_ = state_.t;
+}
+
+// Grip at touch: sliding unless the bristle can follow. For n > 1 the normal force starts flat, so
+// any slip breaks it at once, as it does with a dashpot; for n = 1 both forces grow linearly.
+void Transitions::set_grip() {
+    state_.phase.grip = Grip::stick;
+    const FrictionLaw& friction = system_.friction();
+    if (!friction.bristle) return;
+    bristle() = 0;
+    enter_phase();
+    const ContactState c = contact_now();
+    const double growth =
+        problem().contact.exponent > 1 ? 0 : system_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
+    const bool breaks = friction.damping > 0 || friction.stiffness * std::fabs(c.slip) > friction.limit * growth;
+    if (breaks && c.slip != 0 && !(c.gap < 0)) state_.phase.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
+    enter_phase();
+}
+
+void Transitions::change_grip() {
+    const FrictionLaw& friction = system_.friction();
+    const ContactState c = contact_now();
+    // Without a dashpot the bristle follows the sliding force at once: no state until it sticks again.
+    if (state_.phase.grip == Grip::stick) {
+        state_.phase.grip = c.friction < 0 ? Grip::slide_plus : Grip::slide_minus;
+        if (!friction.lags) bristle() = 0;
+    } else {
+        if (!friction.lags) bristle() = friction.caught_bristle(state_.phase.grip, c.force, c.slip);
+        state_.phase.grip = Grip::stick;
+    }
+    enter_phase();
+}
+
+// What is left of the gap at an event: zero but for rounding, and exactly zero from here on.
+void Transitions::take_out_gap() {
+    state_.phase.gap_offset = 0;
+    enter_phase();
+    const double left = contact_now().gap;
+    state_.phase.gap_offset = -left;
+    enter_phase();
+    state_.tally.fallbacks.gap = std::max(state_.tally.fallbacks.gap, std::fabs(left));
+}
+
+void Transitions::strike() {
+    take_out_gap();
+    const ContactState c = contact_now();
+    const double approach = -c.gap_rate;
+    const Compliance compliance = system_.compliance(state_.t, state_.y.data(), c);
+    const auto resolve = [&](double restitution) {
+        return resolve_impact(compliance, c.gap_rate, c.slip, system_.friction().kinetic, restitution,
+                              problem().contact.law);
+    };
+    ImpactResult impact = resolve(problem().contact.restitution);
+    if (sum_up_chatter(c, impact, resolve(0))) return;
+    // A rebound that the integrator cannot tell from a touch at the same instant has ended, too.
+    // Nor will bounces end that rounding of the gap keeps from falling.
+    const double pull = pull_on_cam();
+    const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem().beam.length;
+    const bool chatter =
+        impact.v_n < kChatterShare * problem().contact.approach_floor.value || (low && impact.v_n >= last_rebound_);
+    const bool slow = chatter || state_.idle_events > kMostFlips;
+    last_rebound_ = impact.v_n;
+    state_.phase_start = state_.t;
+    // The gap opens: that it was below zero is rounding, and no impact.
+    if (!slow && !(approach > 0)) return;
+    if (!chatter && slow) ++state_.tally.fallbacks.strikes;
+    output_.touch(state_.t, state_.y, c);
+    if (slow) impact = resolve(0);
+    if (approach > 0) system_.strike(state_.t, state_.y.data(), c, impact);
+    const double pull_after = pull_on_cam();
+    if (slow && pull_after > 0) {
+        hold();
+        ++state_.tally.chatters;
+        return;
+    }
+    // A step much longer than the bounce errs by more than the bounce is high: bounces would never die out.
+    if (pull_after > 0) integrator_.limit_first_step(kBounces * 2 * impact.v_n / pull_after);
+    record_rebound(state_.y, c, impact);
+}
+
+void Transitions::record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact) {
+    c.gap_rate = impact.v_n;
+    c.slip = impact.v_t;
+    output_.release(state_.t, y, c);
+    last_release_ = state_.t;
+}
+
+// Sustained contact begins.
+void Transitions::hold() {
+    state_.phase.touching = state_.phase.held = true;
+    enter_phase();
+}
+
+// Bounces under a steady pull a, each of which keeps the share e of its speed, come to rest after
+// T = 2v/(a(1 − e)). A plastic strike that is held from then on gives the beam the same impulse with the same
+// moment in time, so the motion goes on by it; the contact counts as sustained after T.             (S57)
+// False: the bounces have to be followed.
+bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic) {
+    const double approach = -c.gap_rate, rebound = impact.v_n;
+    if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * problem().contact.approach_floor.value))
+        return false;
+    std::vector<double> settled = state_.y;
+    system_.strike(state_.t, settled.data(), c, plastic);
+    const double pull = -system_.free_gap_acceleration(state_.t, settled.data());
+    const double lasts = 2 * rebound / (pull * (1 - rebound / approach));
+    const double turns = std::fabs(system_.model().hub_rate()) + std::fabs(problem().cam->speed);
+    if (!(pull > 0 && lasts * (system_.highest_frequency() + turns) < kBriefChatter)) return false;
+
+    const Phase flight = state_.phase;
+    hold();
+    std::vector<double> rates(state_.y.size());
+    system_.rhs(state_.t, settled.data(), rates.data());
+    for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = settled[i] + lasts * rates[i];
+    const double later = -system_.free_gap_acceleration(state_.t + lasts, rates.data());
+    if (!(std::fabs(later - pull) < kSteadyPull * pull)) {
+        state_.phase = flight;
+        enter_phase();
+        return false;
+    }
+    output_.touch(state_.t, state_.y, c);
+    std::vector<double> struck = state_.y;
+    system_.strike(state_.t, struck.data(), c, impact);
+    record_rebound(struck, c, impact);
+    state_.y = std::move(settled);
+    state_.phase_start = state_.t;
+    state_.chatter_end = state_.t + lasts;
+    ++state_.tally.chatters;
+    return true;
+}
+
+void Transitions::lift() {
+    if (!state_.chatter_end) output_.release(state_.t, state_.y, contact_now());
+    state_.chatter_end.reset();
+    leave();
+}
+
+void Transitions::end_chatter() {
+    state_.chatter_end.reset();
+    ContactState c = contact_now();
+    c.gap_rate = 0;  // but for rounding
+    output_.touch(state_.t, state_.y, c);
+}
+
+void Transitions::enter_phase() {
+    dynamics_.set_phase(state_.phase);
+    system_.set_phase(state_.phase);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,46 @@
+// The resets of state and phase at events: one function for each. MODEL.md §§8–10.
+#pragma once
+
+#include "sim/run/run_output.hpp"
+#include "sim/run/run_state.hpp"
+
+namespace beamcam::sim {
+
+class Transitions {
+  public:
+    // `dynamics` is integrated by `integrator`; `event_system` evaluates the contact at events.
+    Transitions(System& dynamics, System& event_system, Integrator& integrator, RunState& state, RunOutput& output)
+        : dynamics_(dynamics), system_(event_system), integrator_(integrator), state_(state), output_(output) {}
+
+    void start_in_contact();
+    void apply(const Event& event);
+    // The end of chatter that was summed up: the beam rests on the cam.
+    void end_chatter();
+    void enter_phase();
+
+  private:
+    void touch();
+    void release();
+    void change_grip();
+    void strike();
+    void lift();
+    void hold();
+    bool sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic);
+    void record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact);
+    void take_out_gap();
+    void leave();
+    void set_grip();
+    ContactState contact_now() { return system_.contact(state_.t, state_.y.data(), true); }
+    double pull_on_cam() { return -system_.free_gap_acceleration(state_.t, state_.y.data()); }
+    double& bristle() { return state_.y[static_cast<std::size_t>(2 * system_.coordinates())]; }
+    const Problem& problem() const { return system_.problem(); }
+
+    System &dynamics_, &system_;
+    Integrator& integrator_;
+    RunState& state_;
+    RunOutput& output_;
+    double first_approach_ = 0, last_rebound_ = 0;  // [m/s]
+    std::optional<double> last_release_;            // [s]
+};
+
+}  // namespace beamcam::sim
