@@ -13,9 +13,12 @@ double NormalLaw::elastic(double penetration) const {
     return stiffness * std::pow(penetration, exponent);
 }
 
-double NormalLaw::force(double penetration, double rate, double approach) const {
-    const double f = elastic(penetration) * factor(rate, approach);  // (S30)
-    return f > 0 ? f : 0;
+ForceAndSlopes NormalLaw::linearized(double penetration, double rate, double approach) const {
+    if (!(penetration > 0)) return {};
+    const double bracket = factor(rate, approach);
+    if (!(bracket > 0)) return {};
+    const double stored = elastic(penetration), f = stored * bracket;  // (S30)
+    return {f, exponent * f / penetration, stored * damping / approach};
 }
 
 double NormalLaw::stored_energy(double penetration) const {

@@ -57,7 +57,7 @@ void ContactExpansion::centre(double x) {
     if (form_->shortening) model.shortening_matrix(x, shorten_.data());  // symmetric
 }
 
-void ContactExpansion::normal_rows(const Touch<Lanes>& touch, const Lanes* hq, Lanes* jn) const {
+void ContactExpansion::normal_rows(const ContactKinematics<Lanes>& touch, const Lanes* hq, Lanes* jn) const {
     const Lanes& x = touch.dx;
     Lanes c[kOrder + 1];
     c[0] = touch.ny;

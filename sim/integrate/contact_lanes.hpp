@@ -28,7 +28,7 @@ constexpr int kExpansionOrder = 6;
 
 // The contact at one instant or eight; names as in ContactState.
 template <class T>
-struct Touch {
+struct ContactKinematics {
     T dx{};  // of the foot from the point of expansion; a first guess comes in
     T gap, gap_rate, slip;
     T nx, ny;                   // normal in the beam's frame
@@ -66,13 +66,13 @@ class ContactExpansion {
     // Fills `touch` from q, q̇ (one entry a mode); `hq` receives H q at the centre. `corrections` of the foot by
     // Newton's method, from touch.dx.
     template <class T>
-    void look(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq, Touch<T>& touch,
-              int corrections) const;
+    void evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq, ContactKinematics<T>& touch,
+                  int corrections) const;
     // ∂(n·r)/∂q_i, and ∂(t·r)/∂q_i with the moment of the face.
     template <class T>
-    void rows(const Touch<T>& touch, const T* hq, std::size_t i, bool friction, T& jn, T& jt) const;
+    void rows(const ContactKinematics<T>& touch, const T* hq, std::size_t i, bool friction, T& jn, T& jt) const;
     // ∂(n·r)/∂q_i of all modes.
-    void normal_rows(const Touch<Lanes>& touch, const Lanes* hq, Lanes* jn) const;
+    void normal_rows(const ContactKinematics<Lanes>& touch, const Lanes* hq, Lanes* jn) const;
 
   private:
     std::shared_ptr<const ModalForm> form_;
@@ -119,8 +119,8 @@ BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
 }
 
 template <class T>
-void ContactExpansion::look(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq, Touch<T>& touch,
-                            int corrections) const {
+void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq,
+                                ContactKinematics<T>& touch, int corrections) const {
     // Deflection, its rate and their derivatives at the centre.
     T c[kOrder + 1], d[kOrder + 1];
     product(kOrder + 1, n_, y_.data(), q, c);
@@ -188,8 +188,8 @@ void ContactExpansion::look(const T* q, const T* v, const Frame<T>& frame, doubl
 }
 
 template <class T>
-BEAMCAM_INLINE void ContactExpansion::rows(const Touch<T>& touch, const T* hq, std::size_t i, bool friction, T& jn,
-                                           T& jt) const {
+BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, const T* hq, std::size_t i, bool friction,
+                                           T& jn, T& jt) const {
     const double* y = turned_.data() + i * (kOrder + 1);
     const T& x = touch.dx;
     T phi = T{} + y[kOrder], axial{};

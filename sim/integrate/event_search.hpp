@@ -33,6 +33,9 @@ struct NoRipple {
     Ripple operator()(double /*span*/) const { return {}; }
 };
 
+// Of an interval: a passing so early means that it starts on the kink.
+inline constexpr double kOnKink = 1e-6;
+
 namespace event_search {
 
 constexpr double kErrorShare = 1.0 / 6;  // of E that the middle coefficient of s²(1 − s)² has

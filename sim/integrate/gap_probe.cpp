@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "sim/integrate/constants.hpp"
+
 namespace beamcam::sim {
 namespace {
 
-constexpr int kCorrections = 3;    // of the foot in a look: Newton's method, from the foot of the look before
 constexpr int kMostCentres = 8;    // until the expansion is where the foot is
 constexpr double kSettled = 3e-3;  // of the length: corrections that move the foot no further have converged
 
@@ -18,7 +19,7 @@ GapProbe::GapProbe(System& system) : system_(system) {
     expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
 }
 
-ContactState GapProbe::look(double t, const double* y, bool search) {
+ContactState GapProbe::evaluate(double t, const double* y, bool search) {
     ContactState c;
     if (expansion_ && expanded(t, y, search, c)) {
         ++system_.gap_evaluations;
@@ -45,13 +46,13 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
     if (search || x_ < 0) {
         x_ = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
     }
-    Touch<double> touch;
+    ContactKinematics<double> touch;
     for (int i = 0; i < kMostCentres; ++i) {
         if (!(x_ > 0 && x_ < length)) break;
         expansion_->centre(x_);
         touch.dx = x_ - expansion_->at();
         const double guess = x_;
-        expansion_->look(y + 1, y + n + 1, frame, system_.phase().gap_offset, hq_.data(), touch, kCorrections);
+        expansion_->evaluate(y + 1, y + n + 1, frame, system_.phase().gap_offset, hq_.data(), touch, kFootCorrections);
         x_ = expansion_->at() + touch.dx;
         if (!(std::fabs(touch.dx) < expansion_->range()) || !(std::fabs(x_ - guess) < kSettled * length)) continue;
         if (!(x_ > 0 && x_ < length)) break;

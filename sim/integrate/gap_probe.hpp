@@ -16,7 +16,7 @@ class GapProbe {
 
     // Gap, its rate and x of the contact as System::contact has them, to rounding; nothing else is filled in.
     // `search`: where the foot is, is not known from the look before.
-    ContactState look(double t, const double* y, bool search);
+    ContactState evaluate(double t, const double* y, bool search);
 
   private:
     bool expanded(double t, const double* y, bool search, ContactState& c);

@@ -27,9 +27,11 @@ class SegmentProbe {
         return system.contact(t, state(segment, t), search);
     }
     // In flight: gap, its rate and foot alone.
-    ContactState gap(const Segment& segment, double t, bool search) { return gap_.look(t, state(segment, t), search); }
+    ContactState gap(const Segment& segment, double t, bool search) {
+        return gap_.evaluate(t, state(segment, t), search);
+    }
 
-    ContactState gap_here(double t, bool search) { return gap_.look(t, y_.data(), search); }  // of `state`
+    ContactState gap_here(double t, bool search) { return gap_.evaluate(t, y_.data(), search); }  // of `state`
 
     int pieces(const Segment& segment) const;
     // Every coordinate of the segment stays within `spread` of `middle`.

@@ -1,0 +1,58 @@
+// Numerical constants of the exponential collocation, each with its reason. MODEL.md §12.
+#pragma once
+
+namespace beamcam::sim {
+
+// Step lengths come from the ladder 2^(k/2) s, so that few tables serve a run.
+inline constexpr int kLowestLevel = -80, kHighestLevel = -4;
+inline constexpr int kFirstFlightLevel = -18;  // 2 ms
+inline constexpr int kFirstTouchLevel = -24;   // 0.24 ms
+inline constexpr int kTouchLevels = 8;       // above the lowest, which a contact may use: then another method is better
+inline constexpr double kRestLevel = 1.01;   // steps: a rest of the interval that is no longer is one step
+inline constexpr double kLeastStep = 1e-14;  // of the time: rounding
+// A step of flight errs by the power 8 of its length, one in contact by 12 where the force has just set in. A level is
+// a factor √2 in length: below these errors the next step is one level longer, or two.
+inline constexpr int kFlightOrder = 8, kTouchOrder = 12;
+inline constexpr double kLongerFlight = 0.5 / 16, kMuchLongerFlight = 1e-5;
+inline constexpr double kLongerTouch = 0.02, kMuchLongerTouch = 1e-4;
+inline constexpr double kShortestFlight = 4e-16, kShortestTouch = 1e-13;  // of the time: rounding; of the force
+inline constexpr double kShortestTouchEver = 1e-12;                       // [s] no contact is as stiff
+
+// ---- errors ----
+// Steps in contact are kept to a share of the tolerance: impacts multiply errors, and at order sixteen it costs little.
+inline constexpr double kContactShare = 64;
+inline constexpr double kShareOfIteration = 0.02;      // of the tolerance, for what the iteration leaves
+inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: a smoother forcing is not believed
+inline constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay
+
+// ---- iterations ----
+inline constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
+inline constexpr int kMostNewton = 25;  // in contact, where the first sweeps find the nodes that touch
+// Changes that no longer fall are rounding once they are below this share of the largest; in contact the stiff force
+// amplifies it tenfold. Otherwise the iteration diverges: by growth, which in contact the first sweeps may show.
+inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
+inline constexpr double kStalled = 0.9, kContactGrowth = 2;
+inline constexpr int kContactPatience = 5;
+inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby
+inline constexpr double kSmallRotation = 0.01;  // [rad] up to which a rotation by its series is exact to rounding
+
+// ---- the end of a step in contact ----
+inline constexpr int kMostCuts = 8;            // of a step, to end it at an event
+inline constexpr double kCarried = 1e-5;       // of a step, by which its end may be moved without solving again
+inline constexpr double kCarriedKick = 0.1;    // of the tolerance, that the force in between may change
+inline constexpr double kEndRounding = 1e-13;  // of a step: the end lies on the event
+inline constexpr double kLeastLength = 1e-14, kLeastShift = 1e-16;  // [s] below the rounding of any time in a run
+inline constexpr double kDeepest = 0.5;     // of the cam's radius: beyond, the contact leaves its geometry
+inline constexpr double kResolvedTurn = 2;  // [rad] of a mode between two instants, which their cubic resolves (S58)
+
+// ---- leaving phases to another method ----
+// Above this damping ratio explicit steps are limited by stability; use BDF. Its errors add up: it is given a share of
+// the tolerance.
+inline constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
+// [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
+// shorter than this share of the way to its deepest point, is handed over.
+inline constexpr double kSharpSlip = 1e-4;
+inline constexpr long kMostCrawls = 2000;
+inline constexpr double kCrawl = 1e-3;
+
+}  // namespace beamcam::sim

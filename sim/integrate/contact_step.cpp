@@ -1,0 +1,249 @@
+#include "sim/integrate/contact_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/integrate/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// Solves the dense system a x = b of a step (columns of a in lanes over rows), b ← x; partial pivoting.
+bool solve_dense(std::array<Lanes, kNodes>& a, Lanes& b) {
+    int order[kNodes];
+    for (int k = 0; k < kNodes; ++k) order[k] = k;
+    for (int c = 0; c < kNodes; ++c) {
+        Lanes& column = a[static_cast<std::size_t>(c)];
+        int best = c;
+        for (int r = c + 1; r < kNodes; ++r)
+            if (std::fabs(column[order[r]]) > std::fabs(column[order[best]])) best = r;
+        std::swap(order[c], order[best]);
+        const int pivot = order[c];
+        if (!(std::fabs(column[pivot]) > 0)) return false;
+        Lanes factor = column / column[pivot];
+        for (int r = 0; r <= c; ++r) factor[order[r]] = 0;
+        for (int j = c + 1; j < kNodes; ++j) {
+            Lanes& other = a[static_cast<std::size_t>(j)];
+            other -= factor * other[pivot];
+        }
+        b -= factor * b[pivot];
+    }
+    Lanes x{};
+    for (int c = kNodes - 1; c >= 0; --c) {
+        const Lanes& column = a[static_cast<std::size_t>(c)];
+        x[c] = b[order[c]] / column[order[c]];
+        b -= x[c] * column;
+    }
+    b = x;
+    return true;
+}
+
+}  // namespace
+
+ContactStep::ContactStep(NodalStep& step)
+    : row(step.n),
+      step_(step),
+      form_(*step.form),
+      law_(step.system.normal_law()),
+      friction_(step.system.friction()),
+      expansion_(step.form, step.system),
+      hq_end_(step.n),
+      hq_(step.n) {
+    load.rough = friction_.kinetic > 0;
+    load.jn.resize(step.n);
+    load.jt.resize(step.n);
+}
+
+void ContactStep::begin_touch(const ContactState& c) {
+    approach = step_.system.phase().approach;
+    gap_offset_ = step_.system.phase().gap_offset;
+    expansion_.centre(c.x);
+    start = {};
+    start.dx = c.x - expansion_.at();
+}
+
+void ContactStep::evaluate(double t, const double* state, ContactKinematics<double>& touch) {
+    const CamPose pose = step_.system.cam(t);
+    const Frame<double> frame{std::sin(state[0]), std::cos(state[0]), state[1 + step_.n], pose.disc.x,
+                              pose.disc.y,        pose.velocity.x,    pose.velocity.y};
+    expansion_.evaluate(state + 1, state + 2 + step_.n, frame, gap_offset_, hq_end_.data(), touch, kFootCorrections);
+}
+
+void ContactStep::begin() {
+    const ExponentialSegment& s = step_.segment;
+    evaluate(s.t0, s.end.data(), start);
+    expansion_.centre(expansion_.at() + start.dx);
+    if (expansion_.at() != centred_) {
+        centred_ = expansion_.at();
+        start.dx = 0;
+        evaluate(s.t0, s.end.data(), start);
+    }
+    load.contact = {};
+    load.contact.dx = Lanes{} + start.dx;
+    for (std::size_t i = 0; i < step_.n; ++i) {
+        double jt = 0;
+        expansion_.rows(start, hq_end_.data(), i, false, row[i], jt);
+    }
+}
+
+double ContactStep::solve(const StepTable& table) {
+    ExponentialSegment& s = step_.segment;
+    const double h = s.h = table.h;
+    s.changed();
+    step_.place_hub(h);
+    linearize(table);
+    guess(table);
+    FixedPoint iteration(kContactRounding, kContactGrowth, kContactPatience);
+    auto status = FixedPoint::Status::going;
+    for (int sweep = 0; sweep < kMostNewton && status == FixedPoint::Status::going; ++sweep) {
+        if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
+        status = iteration.add(step_.update_forcing(table, &load));
+    }
+    if (status != FixedPoint::Status::settled) return kNoSolution;
+    move(-1);
+    step_.propagate(table);
+    step_.propagate_rates(table);
+    move(1);
+    step_.arrive(table);
+    end.dx = load.contact.dx[kNodes - 1];
+    evaluate(s.t0 + h, step_.next.data(), end);
+    const double reach = std::max(largest(load.contact.dx), std::fabs(end.dx));
+    const double low = expansion_.at() - reach, high = expansion_.at() + reach;
+    if (reach > expansion_.range() || low <= 0 || high >= form_.length) return kNoSolution;
+    return error(h);
+}
+
+// The force that the start's penetration and rate lead to.
+void ContactStep::guess(const StepTable& table) {
+    ExponentialSegment& s = step_.segment;
+    for (int k = 0; k < kNodes; ++k) {
+        const CamPose pose = step_.system.cam(step_.time[k]);
+        frame_.disc_x[k] = pose.disc.x;
+        frame_.disc_y[k] = pose.disc.y;
+        frame_.disc_vx[k] = pose.velocity.x;
+        frame_.disc_vy[k] = pose.velocity.y;
+    }
+    const Lanes tau = table.h * Collocation::get().c;
+    for (int k = 0; k < kNodes; ++k)
+        load.force[k] = law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+    load.friction = Lanes{};
+    step_.propagate_unforced(table);
+    for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
+    s.push = load.force * start.hub - form_.gravity * form_.S * step_.cos + step_.torque;
+    if (!form_.prescribed) step_.hub_from_load(table.h);
+}
+
+// A step of Newton's method for the nodal forces. False: its equations are singular.
+bool ContactStep::improve(const StepTable& table, int corrections) {
+    ExponentialSegment& s = step_.segment;
+    step_.propagate(table);
+    step_.propagate_rates(table);
+    frame_.sin = step_.sin;
+    frame_.cos = step_.cos;
+    frame_.spin = s.spin;
+    ContactKinematics<Lanes>& contact = load.contact;
+    expansion_.evaluate(s.q.data(), s.v.data(), frame_, gap_offset_, hq_.data(), contact, corrections);
+    expansion_.normal_rows(contact, hq_.data(), load.jn.data());
+    if (load.rough)
+        for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(contact, hq_.data(), i, true, load.jn[i], load.jt[i]);
+    known_theta_ = step_.theta;
+    known_theta_dot_ = s.spin;
+    Lanes residual, by_depth, by_rate;
+    for (int k = 0; k < kNodes; ++k) {
+        const ForceAndSlopes at = law_.linearized(-contact.gap[k], -contact.gap_rate[k], approach);
+        residual[k] = at.force - load.force[k];
+        by_depth[k] = at.by_depth;
+        by_rate[k] = at.by_rate;
+    }
+    std::array<Lanes, kNodes> matrix;
+    for (std::size_t l = 0; l < kNodes; ++l) {
+        matrix[l] = by_depth * compliance_[l] + by_rate * compliance_rate_[l];
+        matrix[l][static_cast<int>(l)] += 1;
+    }
+    if (!solve_dense(matrix, residual)) return false;
+    load.force += residual;
+    if (load.rough)
+        for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
+    return true;
+}
+
+// Takes out of the gap and its rates what the present state contributes, or puts it in: called around the last
+// change of the state, it moves the contact along. The ledger counts the work of the force at these rates.
+void ContactStep::move(double sign) {
+    const ExponentialSegment& s = step_.segment;
+    Lanes gap{}, rate{}, slip{};
+    if (sign > 0) {
+        const Lanes turn = step_.theta - known_theta_, faster = s.spin - known_theta_dot_;
+        gap = load.contact.hub * turn;
+        rate = load.contact.hub * faster;
+        slip = load.contact.hub_t * faster;
+    }
+    for (std::size_t i = 0; i < step_.n; ++i) {
+        gap += sign * load.jn[i] * s.q[i];
+        rate += sign * load.jn[i] * s.v[i];
+        if (load.rough) slip += sign * load.jt[i] * s.v[i];
+    }
+    load.contact.gap += gap;
+    load.contact.gap_rate += rate;
+    load.contact.slip += slip;
+}
+
+// −∂gap/∂force and −∂(gap rate)/∂force between the nodes, with the rows at the start: what Newton's method needs.
+void ContactStep::linearize(const StepTable& table) {
+    const Collocation& gauss = Collocation::get();
+    const double h = table.h;
+    const double hub = form_.prescribed ? 0 : start.hub * start.hub / form_.J;
+    for (std::size_t l = 0; l < kNodes; ++l) {
+        compliance_[l] = (hub * h * h) * gauss.integrate_twice[l];
+        compliance_rate_[l] = (hub * h) * gauss.integrate[l];
+    }
+    double mobility2 = 0, kick2 = 0;
+    for (std::size_t i = 0; i < step_.n; ++i) {
+        const double jn = row[i];
+        const StepTable::Row& response = table.rows[i];
+        const double c = jn * jn / form_.mass;
+        for (std::size_t l = 0; l < kNodes; ++l) {
+            compliance_[l] += c * response.q[l];
+            compliance_rate_[l] += c * response.v[l];
+        }
+        const double moved = jn / form_.mass * std::min(h, 1 / form_.oscillators[i].omega);
+        mobility2 += moved * moved;
+        kick2 += c / form_.mass;
+    }
+    mobility_modes_ = std::sqrt(mobility2);
+    kick = std::sqrt(kick2);
+    mobility_hub_ = form_.prescribed ? 0 : std::fabs(start.hub) * h / form_.J;
+}
+
+// Vibration that the nodes do not resolve shows in Θ̇, that of the contact force in the force.
+double ContactStep::error(double h) {
+    step_.set_scales(step_.segment.end.data(), step_.next.data());
+    const double smooth = form_.prescribed ? 0 : quadrature_error(step_.segment.spin) * h / step_.scale_theta;
+    double force = quadrature_error(load.force);
+    if (load.rough) force = std::max(force, quadrature_error(load.friction));
+    return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
+                                     force * mobility_hub_ / step_.scale_theta_dot});
+}
+
+bool ContactStep::deep() const {
+    const double deepest = -kDeepest * step_.system.problem().cam->radius;
+    bool beyond = end.gap < deepest;
+    for (int k = 0; k < kNodes; ++k) beyond = beyond || load.contact.gap[k] < deepest;
+    return beyond;
+}
+
+void ContactStep::fill(TouchSamples& samples) const {
+    const auto put = [&](int k, double t, double gap, double rate, double normal_force, double dx) {
+        samples.t[k] = t;
+        samples.gap[k] = gap;
+        samples.gap_rate[k] = rate;
+        samples.force[k] = normal_force;
+        samples.x[k] = expansion_.at() + dx;
+    };
+    put(0, step_.segment.t0, start.gap, start.gap_rate, force(start).force, start.dx);
+    const ContactKinematics<Lanes>& c = load.contact;
+    for (int k = 0; k < kNodes; ++k) put(k + 1, step_.time[k], c.gap[k], c.gap_rate[k], load.force[k], c.dx[k]);
+    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, force(end).force, end.dx);
+}
+
+}  // namespace beamcam::sim

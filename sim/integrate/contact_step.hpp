@@ -1,0 +1,57 @@
+// A step of the exponential collocation in contact: the nodal forces by Newton's method. MODEL.md §12.
+#pragma once
+
+#include <array>
+
+#include "sim/integrate/nodal_step.hpp"
+
+namespace beamcam::sim {
+
+class ContactStep {
+  public:
+    explicit ContactStep(NodalStep& step);
+
+    // A touch begins, not at an end of the beam.
+    void begin_touch(const ContactState& c);
+    // Geometry and force at the start of the step.
+    void begin();
+    // Solves for the nodal forces; the error in units of the tolerance, kNoSolution if Newton's method fails or the
+    // contact leaves the range of its expansion.
+    double solve(const StepTable& table);
+    // The contact at one state.
+    void evaluate(double t, const double* state, ContactKinematics<double>& touch);
+    // Half way to the centre of the disc the contact is beyond its geometry; another method continues.
+    bool deep() const;
+    ForceAndSlopes force(const ContactKinematics<double>& at) const {
+        return law_.linearized(-at.gap, -at.gap_rate, approach);
+    }
+    void fill(TouchSamples& samples) const;
+
+    ContactKinematics<double> start, end;
+    ContactLoad load;
+    std::vector<double> row;  // ∂(n·r)/∂q at the start
+    double approach = 1;      // δ̇₋ [m/s]
+    double kick = 0;          // change of the modes' rates per impulse
+
+  private:
+    void guess(const StepTable& table);
+    bool improve(const StepTable& table, int corrections);
+    void linearize(const StepTable& table);
+    void move(double sign);
+    double error(double h);
+
+    NodalStep& step_;
+    const ModalForm& form_;
+    const NormalLaw& law_;
+    const FrictionLaw& friction_;
+    ContactExpansion expansion_;
+    double gap_offset_ = 0, centred_ = -1;
+    double mobility_modes_ = 0, mobility_hub_ = 0;
+    Frame<Lanes> frame_;
+    Lanes known_theta_{}, known_theta_dot_{};  // where the contact was evaluated last
+    std::array<Lanes, kNodes> compliance_, compliance_rate_;
+    std::vector<double> hq_end_;
+    std::vector<Lanes> hq_;
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,171 @@
+#include "sim/integrate/contact_step_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/integrate/constants.hpp"
+
+namespace beamcam::sim {
+
+double ContactStepEnd::cut(double error, Ending& ending) {
+    const double end = event_at_nodes(step_.segment.h, ending);
+    // A step far beyond the release is of no use but to tell how long the next try is.
+    if (ending != Ending::open) error = solve_to(end, ending);
+    // Again as long as the shorter step has an event that no node shows.
+    for (int cuts = 0; error <= 1; ++cuts) {
+        Ending found = Ending::open;
+        const double earlier = event_between_nodes(ending, found);
+        if (found == Ending::open) break;
+        if (cuts == kMostCuts) return kNoSolution;
+        ending = found;
+        carry = 0;
+        error = solve_to(earlier, ending);
+    }
+    return error;
+}
+
+// Its length, or the first instant at which the gap opens or the clamp changes, from the nodal values.
+double ContactStepEnd::event_at_nodes(double h, Ending& ending) const {
+    const Collocation& gauss = Collocation::get();
+    const ContactKinematics<Lanes>& nodes = contact_.load.contact;
+    double before = 0, gap = contact_.start.gap, last = factor(contact_.start.gap_rate);
+    if (std::fabs(last) < kZeroFactor) last = factor(nodes.gap_rate[0]);
+    for (int k = 0; k <= kNodes; ++k) {
+        const double t = k < kNodes ? h * gauss.c[k] : h;
+        const double g = k < kNodes ? nodes.gap[k] : contact_.end.gap;
+        const double r = k < kNodes ? nodes.gap_rate[k] : contact_.end.gap_rate;
+        const double now = factor(r);
+        double first = kNoSolution;
+        if (g > 0 && t > 0) {
+            ending = Ending::release;
+            first = before + (t - before) * (gap < g ? std::clamp(-gap / (g - gap), 0.0, 1.0) : 1.0);
+            if (r > 0) first = std::max(before, t - g / r);
+        }
+        if ((now > 0) != (last > 0) && std::fabs(now) > kZeroFactor) {
+            const double at = before + (t - before) * last / (last - now);
+            if (at < first) {
+                ending = Ending::clamp;
+                first = at;
+            }
+        }
+        if (std::isfinite(first)) return first;
+        before = t;
+        gap = g;
+        if (std::fabs(now) > kZeroFactor) last = now;
+    }
+    return h;
+}
+
+// When the first event between the nodes falls in the step just solved, and which: the gap opens, or the clamp of
+// the force sets in or lets go.                                                                            (S58)
+double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
+    const Collocation& gauss = Collocation::get();
+    const ContactKinematics<Lanes>& nodes = contact_.load.contact;
+    const double h = step_.segment.h, deep = kGapRounding * step_.form->length;
+    const bool clamps = law_.damping > 0;
+    const double level = clamps ? -contact_.approach / law_.damping : 0, none = kZeroFactor * -level;
+    ripples_known_ = step_.n;
+    const auto probe = [&](double t) { return penetration_at(t); };
+    const auto ripple = [&](double span) { return unresolved(span); };
+    Guard a{0, std::max(0.0, -contact_.start.gap), -contact_.start.gap_rate};
+    start_side_ = std::fabs(a.rate - level) > none ? std::copysign(1.0, a.rate - level) : side_;
+    for (int k = 0; k <= kNodes; ++k) {
+        Guard b = k < kNodes ? Guard{h * gauss.c[k], -nodes.gap[k], -nodes.gap_rate[k]}
+                             : Guard{h, -contact_.end.gap, -contact_.end.gap_rate};
+        if (k == kNodes && ending != Ending::open) b.value = std::max(b.value, 0.0);
+        Guard c = b;
+        if (k == kNodes && ending == Ending::clamp) c.rate = level;
+        double first = kNoSolution;
+        const event_search::Quartic between(a, c, ripple(c.t - a.t));
+        if (!between.positive(deep)) {
+            const auto at = first_fall(probe, a, b, deep, ripple);
+            if (at && *at > 0 && *at < h) {
+                first = *at;
+                found = Ending::release;
+            }
+        }
+        if (clamps && !between.keeps_side(level, start_side_, none)) {
+            auto at = first_passing(probe, a, c, level, start_side_, none, ripple);
+            // It starts on the kink, and was taken to be on the wrong side of it.
+            if (at && std::fabs(a.rate - level) <= none && *at - a.t <= kOnKink * (c.t - a.t)) {
+                start_side_ = -start_side_;
+                at = first_passing(probe, a, c, level, start_side_, none, ripple);
+            }
+            if (at && *at > 0 && *at < std::min(first, h)) {
+                first = *at;
+                found = Ending::clamp;
+            }
+        }
+        if (std::isfinite(first)) return first;
+        a = b;
+    }
+    return h;
+}
+
+// Penetration and its rate inside the step just solved.
+Guard ContactStepEnd::penetration_at(double after) {
+    ExponentialSegment& s = step_.segment;
+    s.t1 = kNoSolution;  // evaluated, not copied
+    s.books = false;
+    scratch_.resize(s.end.size());
+    s.value(s.t0 + after, scratch_.data());
+    ContactKinematics<double> touch;
+    touch.dx = contact_.end.dx;
+    contact_.evaluate(s.t0 + after, scratch_.data(), touch);
+    ++step_.system.gap_evaluations;
+    return {after, -touch.gap, -touch.gap_rate};
+}
+
+// What of the penetration turns by more than two radians in `span`: the free vibration of a mode, about the
+// deflection that its forcing holds, keeps its amplitude.
+Ripple ContactStepEnd::unresolved(double span) {
+    Ripple ripple;
+    const ExponentialSegment& s = step_.segment;
+    for (std::size_t i = step_.n; i-- > 0 && step_.form->oscillators[i].omega * span > kResolvedTurn;) {
+        const double w = step_.form->oscillators[i].omega, inverse = 1 / (w * w);
+        if (ripples_known_ > i) {
+            const Lanes free = s.q[i] - inverse * s.f[i];
+            ripples_[i] =
+                2 * std::fabs(contact_.row[i]) * std::sqrt(largest(free * free + inverse * (s.v[i] * s.v[i])));
+            ripples_known_ = i;
+        }
+        ripple.value += ripples_[i];
+        ripple.rate += w * ripples_[i];
+    }
+    return ripple;
+}
+
+// Solves again, ended at the release or at the kink, until the end lies on it. The error, as of
+// ContactStep::solve.
+double ContactStepEnd::solve_to(double end, Ending ending) {
+    double h = end, error = 0, closest = kNoSolution;
+    for (int i = 0; i < kMostCuts; ++i) {
+        if (!(h > kLeastLength)) return kNoSolution;
+        table_.build(step_.form->oscillators, step_.form->groups, h);
+        error = contact_.solve(table_);
+        if (!(error <= 1)) return error;
+        const double dt = to_event(h, ending);
+        if (!std::isfinite(dt)) return kNoSolution;
+        if (std::fabs(dt) < kEndRounding * h + kLeastShift || std::fabs(dt) >= closest) return error;
+        if (ending == Ending::clamp && std::fabs(dt) < kOnKink * h) return error;
+        // So near that the force in between changes nothing: the state is carried over.
+        if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
+            law_.elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
+                kCarriedKick * step_.scale_modes) {
+            carry = dt;
+            return error;
+        }
+        closest = std::fabs(dt);
+        h += std::clamp(dt, -0.9 * h, 0.5 * h);
+    }
+    return kNoSolution;
+}
+
+// From the end of a step of length h to the event, by its rate.
+double ContactStepEnd::to_event(double h, Ending ending) const {
+    if (ending == Ending::release) return -contact_.end.gap / contact_.end.gap_rate;
+    const double now = factor(contact_.end.gap_rate), before = factor(contact_.load.contact.gap_rate[kNodes - 1]);
+    return -now * (h * (1 - Collocation::get().c[kNodes - 1])) / (now - before);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,292 @@
+#include "sim/integrate/nodal_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/integrate/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// start + ∫ rate from the start of a step of length h to each node.
+Lanes integral(double start, double h, const Lanes& rate) {
+    const Collocation& gauss = Collocation::get();
+    Lanes out = Lanes{} + start;
+    for (int l = 0; l < kNodes; ++l) out += (h * rate[l]) * gauss.integrate[static_cast<std::size_t>(l)];
+    return out;
+}
+
+}  // namespace
+
+double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
+
+LegendreDecay legendre_decay(const Lanes& nodal) {
+    const auto& legendre = Collocation::get().legendre;
+    const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
+    const double last = std::max(size(6), size(7)), before = std::max(size(4), size(5));
+    return {last, last == 0 ? 0 : std::min(1.0, last / before)};
+}
+
+double interpolation_error(const Lanes& nodal) {
+    const auto [last, ratio] = legendre_decay(nodal);
+    return last * ratio * std::max(ratio, kLeastDecay);
+}
+
+double quadrature_error(const Lanes& nodal) {
+    const auto [last, ratio] = legendre_decay(nodal);
+    const double r2 = ratio * ratio;
+    return last * std::max(r2 * r2, kLeastQuadratureDecay);
+}
+
+FixedPoint::Status FixedPoint::add(double change) {
+    if (!std::isfinite(change)) return Status::failed;
+    const int sweep = sweeps_++;
+    const double ratio = change / before_;
+    before_ = change;
+    if (sweep > 0) {
+        if (change == 0 || (ratio < 0.5 && change * ratio / (1 - ratio) < kShareOfIteration)) return Status::settled;
+        if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
+        if (ratio > growth_ && sweep > patience_) return Status::failed;
+    }
+    largest_ = std::max(largest_, change);
+    return Status::going;
+}
+
+NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute,
+                     long& count)
+    : system(of),
+      form(std::move(modal_form)),
+      n(static_cast<std::size_t>(form->n)),
+      segment(form, system.drive(), system.size),
+      next(static_cast<std::size_t>(system.size)),
+      evaluations(count),
+      rtol_(relative),
+      atol_(absolute),
+      base_q_(n),
+      base_v_(n),
+      bq_(n),
+      gq_(n),
+      start_(next.size()) {}
+
+void NodalStep::begin(double t) {
+    ExponentialSegment& s = segment;
+    s.t0 = t;
+    const double* y = s.end.data();
+    std::copy_n(y + 1, n, s.q0.begin());
+    std::copy_n(y + 2 + n, n, s.v0.begin());
+    std::copy_n(y + system.controlled, kLedgerSize, s.ledger0);
+    s.theta0 = y[0];
+    theta_dot0 = y[1 + n];
+    // Θ̇ = p/(J + qᵀBq) inverted.
+    s.p0 = form->prescribed ? 0 : theta_dot0 / s.spin_at(1, y + 1);
+    set_scales(y, y);
+}
+
+void NodalStep::propagate_rates(const StepTable& table) {
+    kernels_.propagate_rates(n, table.rows.data(), segment.f.data(), base_v_.data(), segment.v.data());
+}
+
+void NodalStep::propagate_unforced(const StepTable& table) {
+    ExponentialSegment& s = segment;
+    for (std::size_t i = 0; i < n; ++i) {
+        const StepTable::Row& row = table.rows[i];
+        base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
+        base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
+        smooth_force(i, s.f[i]);
+    }
+}
+
+void NodalStep::arrive(const StepTable& table) {
+    const ExponentialSegment& s = segment;
+    const Collocation& gauss = Collocation::get();
+    const double h = table.h;
+    for (std::size_t i = 0; i < n; ++i) {
+        const StepTable::Row& row = table.rows[i];
+        next[1 + i] = row.end_qq * s.q0[i] + row.end_qv * s.v0[i] + sum(row.end_q * s.f[i]);
+        next[2 + n + i] = row.end_vq * s.q0[i] + row.end_vv * s.v0[i] + sum(row.end_v * s.f[i]);
+    }
+    if (form->prescribed) {
+        const HubMotion hub = system.drive().motion(s.t0 + h);
+        next[0] = hub.angle;
+        next[1 + n] = hub.rate;
+    } else {
+        next[0] = s.theta0 + h * sum(gauss.b * s.spin);
+        next[1 + n] = s.spin_at(s.p0 + h * sum(gauss.b * s.push), next.data() + 1);
+    }
+}
+
+void NodalStep::place_hub(double h) {
+    const Collocation& gauss = Collocation::get();
+    ExponentialSegment& s = segment;
+    time = s.t0 + h * gauss.c;
+    if (form->prescribed) {
+        for (int k = 0; k < kNodes; ++k) {
+            const HubMotion hub = system.drive().motion(time[k]);
+            theta[k] = hub.angle;
+            s.spin[k] = hub.rate;
+            acceleration_[k] = hub.acceleration;
+        }
+    } else {
+        const double acceleration = -form->gravity * form->S * std::cos(s.theta0) / form->J;
+        const Lanes tau = h * gauss.c;
+        theta = s.theta0 + tau * (theta_dot0 + 0.5 * acceleration * tau);
+        s.spin = theta_dot0 + acceleration * tau;
+        acceleration_ = Lanes{};
+    }
+    torque = Lanes{};
+    if (system.drive().has_torque())
+        for (int k = 0; k < kNodes; ++k) torque[k] = system.drive().torque(time[k]);
+    evaluate_angle();
+}
+
+void NodalStep::evaluate_angle() {
+    for (int k = 0; k < kNodes; ++k) {
+        sin[k] = std::sin(theta[k]);
+        cos[k] = std::cos(theta[k]);
+    }
+}
+
+// The same for an angle that has changed by a little: a rotation, to rounding up to kSmallRotation.
+void NodalStep::advance_angle(const Lanes& by) {
+    if (!(largest(by) < kSmallRotation)) return evaluate_angle();
+    const Lanes b2 = by * by;
+    const Lanes c = 1 - b2 * (0.5 - b2 * (1.0 / 24)), s = by * (1 - b2 * (1.0 / 6 - b2 * (1.0 / 120)));
+    const Lanes turned = sin * c + cos * s;
+    cos = cos * c - sin * s;
+    sin = turned;
+}
+
+// What of the forcing does not depend on q, per mass.
+void NodalStep::smooth_force(std::size_t i, Lanes& f) const {
+    f = (-form->gravity * form->weight[i]) * cos + (form->h[i] / form->mass) * torque;
+    if (form->prescribed) f -= (form->U[i] / form->mass) * acceleration_;
+}
+
+void NodalStep::propagate(const StepTable& table) {
+    kernels_.propagate(n, table.rows.data(), segment.f.data(), base_q_.data(), segment.q.data());
+}
+
+double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
+    ExponentialSegment& s = segment;
+    const double h = table.h;
+    evaluations += kNodes;
+    Lanes x = s.spin * s.spin, second = form->gravity * sin;
+    if (form->paper) {
+        const Lanes l = form->length * cos;
+        second = -x * (form->radius * l + 0.5 * l * l);
+    }
+    kernels_.multiply(n, n, form->spinning.data(), s.q.data(), bq_.data());
+    if (!form->second.empty()) kernels_.multiply(n, n, form->second.data(), s.q.data(), gq_.data());
+    Lanes quadratic{}, fall{}, weighted{};
+    double change2 = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Lanes &a = bq_[i], &b = gq_[i];
+        quadratic += a * s.q[i];
+        fall += b * s.q[i];
+        weighted += form->weight[i] * s.q[i];
+        Lanes f;
+        smooth_force(i, f);
+        f += x * a + second * b;
+        if (load) f += load->modal(i) * (1 / form->mass);
+        const double d = largest(f - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
+        change2 += d * d;
+        s.f[i] = f;
+    }
+    const double modal = std::sqrt(change2) / scale_modes;
+    if (form->prescribed) return modal;
+    quadratic *= form->mass;
+    s.push = -form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall)) + torque;
+    if (load) s.push += load->torque();
+    const Lanes theta_dot = integral(s.p0, h, s.push) / (form->J + quadratic);
+    const double rate_change = largest(theta_dot - s.spin) / scale_theta_dot;
+    s.spin = theta_dot;
+    return std::max({modal, rate_change, set_angle(h) / scale_theta});
+}
+
+void NodalStep::hub_from_load(double h) {
+    ExponentialSegment& s = segment;
+    s.spin = integral(s.p0, h, s.push) * (theta_dot0 != 0 ? theta_dot0 / s.p0 : 1 / form->J);
+    set_angle(h);
+}
+
+// Θ at the nodes from Θ̇; returns its largest change.
+double NodalStep::set_angle(double h) {
+    const Lanes changed = integral(segment.theta0, h, segment.spin), by = changed - theta;
+    theta = changed;
+    advance_angle(by);
+    return largest(by);
+}
+
+void NodalStep::set_scales(const double* a, const double* b) {
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double w = form->oscillators[i].omega;
+        before += a[2 + n + i] * a[2 + n + i] + w * w * a[1 + i] * a[1 + i];
+        after += b[2 + n + i] * b[2 + n + i] + w * w * b[1 + i] * b[1 + i];
+    }
+    scale_modes = rtol_ * std::sqrt(std::max(before, after)) + atol_;
+    scale_theta_dot = rtol_ * std::max(std::fabs(a[1 + n]), std::fabs(b[1 + n])) + atol_;
+    scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
+}
+
+void NodalStep::finish(const ContactLoad* load) {
+    ExponentialSegment& s = segment;
+    std::copy_n(next.begin(), system.controlled, s.end.begin());
+    s.books = load || form->damped || form->prescribed || system.drive().has_torque();
+    if (!s.books) {
+        std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
+        return;
+    }
+    for (Lanes& rate : s.rate) rate = Lanes{};
+    if (form->damped)
+        for (std::size_t i = 0; i < n; ++i) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
+    start_[0] = s.theta0;
+    start_[1 + n] = theta_dot0;
+    std::copy(s.q0.begin(), s.q0.end(), start_.begin() + 1);
+    std::copy(s.v0.begin(), s.v0.end(), start_.begin() + 2 + static_cast<std::ptrdiff_t>(n));
+    s.boundary0 = s.drive_boundary(s.t0, start_.data());
+    drive_power(load);
+    if (load) {
+        const ContactKinematics<Lanes>& contact = load->contact;
+        s.rate[kNormalWork] = -load->force * contact.gap_rate;
+        s.rate[kFrictionWork] = -load->friction * contact.slip;
+        s.rate[kWorkCam] = load->force * contact.cam_n + load->friction * contact.cam_t;
+        s.rate[kImpulseN] = load->force;
+        s.rate[kImpulseT] = load->friction;
+    }
+    Lanes weights;
+    Collocation::get().weights_to((s.t1 - s.t0) / s.h, weights);
+    s.ledger_at(s.t1, (s.t1 - s.t0) / s.h, weights, s.end.data());
+}
+
+// Power of the drive at the nodes, but for what `drive_boundary` integrates in closed form        (S55)
+void NodalStep::drive_power(const ContactLoad* load) {
+    ExponentialSegment& s = segment;
+    const Collocation& gauss = Collocation::get();
+    if (system.drive().has_torque()) {
+        Lanes turning = s.spin;  // and what of α̇ the nodes resolve
+        for (std::size_t i = 0; i < n; ++i) turning += form->h[i] * s.resolved_rate(i);
+        s.rate[kWorkDrive] = torque * turning;
+    }
+    if (!form->prescribed) return;
+    Lanes quadratic{}, fall{}, weighted{}, follow{};
+    for (std::size_t i = 0; i < n; ++i) {
+        Lanes a{}, b{};
+        for (std::size_t j = 0; j < n; ++j) {
+            a += form->inertia[i * n + j] * s.q[j];
+            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * s.q[j];
+        }
+        quadratic += a * s.q[i];
+        fall += b * s.q[i];
+        weighted += form->weight[i] * s.q[i];
+        follow += form->U[i] * s.q[i];
+    }
+    const Lanes gravity = form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall));
+    Lanes jerk{};  // of the hub
+    for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
+    s.rate[kWorkDrive] = jerk * follow - acceleration_ * (form->J + quadratic) * s.spin + s.spin * gravity;
+    // What the contact pushes, the drive holds.
+    if (load) s.rate[kWorkDrive] -= s.spin * load->torque();
+}
+
+}  // namespace beamcam::sim

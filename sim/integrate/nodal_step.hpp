@@ -1,0 +1,102 @@
+// A step of the exponential collocation: the forcing at its nodes, the oscillators' exact answer to it, and the hub.
+// Flight and contact share it; contact adds its load. MODEL.md §12.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "sim/integrate/contact_lanes.hpp"
+#include "sim/integrate/exponential_segment.hpp"
+
+namespace beamcam::sim {
+
+// The contact at the nodes.
+struct ContactLoad {
+    bool rough = false;         // with friction
+    Lanes force{}, friction{};  // N, F_t [N]
+    std::vector<Lanes> jn, jt;  // ∂(n·r)/∂q, ∂(t·r)/∂q
+    ContactKinematics<Lanes> contact;
+
+    Lanes modal(std::size_t i) const { return rough ? force * jn[i] + friction * jt[i] : force * jn[i]; }
+    Lanes torque() const { return force * contact.hub + friction * contact.hub_t; }
+};
+
+double step_length(int level);  // [s] on the ladder of step lengths
+
+// How the Legendre coefficients of nodal values end: the size of the last two, and by how much they fell from the two
+// before (at most 1).
+struct LegendreDecay {
+    double last, ratio;
+};
+LegendreDecay legendre_decay(const Lanes& nodal);
+// Interpolation error of a forcing with these nodal values. Coefficients that fall show a resolved forcing, whose error
+// the integration smooths as well; coefficients that do not are vibration sampled too seldom, and count in full.
+double interpolation_error(const Lanes& nodal);
+// Error of what a step leaves of a nodal force: coefficients that fall by r from pair to pair make the quadrature of
+// order sixteen err by the last times r⁴; where the force starts like a power of time it is that power which falls.
+double quadrature_error(const Lanes& nodal);
+
+// Convergence of a fixed-point iteration by its changes, in units of the tolerance.
+class FixedPoint {
+  public:
+    enum class Status { going, settled, failed };
+    // Fails once changes grow by more than `growth` after `patience` sweeps, unless they are `rounding` of the largest.
+    FixedPoint(double rounding, double growth, int patience)
+        : rounding_(rounding), growth_(growth), patience_(patience) {}
+    Status add(double change);
+
+  private:
+    double rounding_, growth_, before_ = 0, largest_ = 0;
+    int patience_, sweeps_ = 0;
+};
+
+inline constexpr double kNoSolution = std::numeric_limits<double>::infinity();  // an error beyond any tolerance
+
+struct NodalStep {
+    NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute, long& count);
+
+    // The start of a step, from the end of the last.
+    void begin(double t);
+    // The hub at the nodes: as prescribed, or guessed as a rigid pendulum.
+    void place_hub(double h);
+    // What the step does to q and q̇ without forcing, and the forcing that does not depend on them.
+    void propagate_unforced(const StepTable& table);
+    void propagate(const StepTable& table);
+    void propagate_rates(const StepTable& table);
+    // Forcing and hub from the nodal q; returns how much changed, in units of the tolerance. `load`: null in flight.
+    double update_forcing(const StepTable& table, const ContactLoad* load);
+    // ṗ at the nodes → Θ̇, Θ.
+    void hub_from_load(double h);
+    // next ← the state at the end.
+    void arrive(const StepTable& table);
+    // What errors are measured by: modes by their vibration as a whole, (q̇, ωq); the hub by itself.
+    void set_scales(const double* a, const double* b);
+    // Ledger and end state of the accepted step.
+    void finish(const ContactLoad* load);
+
+    System& system;
+    const std::shared_ptr<const ModalForm> form;
+    const std::size_t n;
+    ExponentialSegment segment;
+    std::vector<double> next;
+    long& evaluations;  // of the forcing at a node
+    double theta_dot0 = 0;
+    double scale_modes = 1, scale_theta_dot = 1, scale_theta = 1;
+    Lanes time{}, theta{}, sin{}, cos{}, torque{};
+
+  private:
+    void evaluate_angle();
+    void advance_angle(const Lanes& by);
+    double set_angle(double h);
+    void smooth_force(std::size_t i, Lanes& f) const;
+    void drive_power(const ContactLoad* load);
+
+    double rtol_, atol_;
+    Lanes acceleration_{};
+    const LaneKernels& kernels_ = lane_kernels();
+    std::vector<Lanes> base_q_, base_v_, bq_, gq_;
+    std::vector<double> start_;
+};
+
+}  // namespace beamcam::sim
