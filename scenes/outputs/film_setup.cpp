@@ -1,0 +1,106 @@
+#include "scenes/outputs/film_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace beamcam::scenes {
+namespace {
+
+// One significant digit as people write it: 10⁻⁸, 2 × 10⁻⁹.
+std::string power_of_ten(double value) {
+    static constexpr std::string_view kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const std::string text = fmt::format("{:.0e}", value);  // "2e-09"
+    const std::string mantissa = text.substr(0, text.find('e'));
+    std::string out = mantissa == "1" ? "10" : mantissa + " × 10";
+    const int exponent = std::stoi(text.substr(text.find('e') + 1));
+    if (exponent < 0) out += "⁻";
+    for (const char digit : std::to_string(std::abs(exponent))) out += kDigits[digit - '0'];
+    return out;
+}
+
+std::string beyond_model(const sim::Problem& problem) {
+    return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
+}
+
+std::shared_ptr<SurveyedPoses> stored(const std::vector<sim::Pose>& held, const sim::PoseRequest& request) {
+    auto poses = std::make_shared<SurveyedPoses>(request.times.size(), request.contacts, request.stations);
+    for (std::size_t row = 0; row < held.size(); ++row) poses->put(row, held[row]);
+    return poses;
+}
+
+render::Motion motion_of(const sim::Problem& problem, sim::Result& result, std::size_t poses, std::size_t chart,
+                         std::optional<std::size_t> trace) {
+    render::Motion motion;
+    motion.problem = problem;
+    motion.poses = std::move(result.poses[poses]);
+    motion.chart = std::move(result.tables[chart]);
+    if (trace) motion.trace = std::move(result.tables[*trace]);
+    motion.impacts = result.impacts;
+    return motion;
+}
+
+// The least accurate motion speaks for the picture.
+void add_compared(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
+                  render::FilmSetup& setup) {
+    double worst = -1;
+    std::string beyond;
+    for (std::size_t i = 0; i < p.compared.size(); ++i) {
+        const ComparedMotion& each = p.compared[i];
+        sim::Result& result = results[i];
+        const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
+        if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
+        if (result.beyond_model) beyond = beyond_model(each.problem);
+        render::Motion motion =
+            motion_of(each.problem, result, 0, 0, each.problem.cam ? std::optional<std::size_t>(1) : std::nullopt);
+        motion.label = each.label;
+        motion.stored = poses[i].frames;
+        motion.survey = poses[i].survey;
+        if (i == 0)
+            static_cast<render::Motion&>(setup) = std::move(motion);
+        else
+            setup.others.push_back(std::move(motion));
+    }
+    if (setup.accuracy_note.find(" · bends beyond ") == std::string::npos) setup.accuracy_note += beyond;
+}
+
+}  // namespace
+
+std::string accuracy_note(const sim::Problem& problem, const sim::Result& result) {
+    std::string note = fmt::format("rtol {}", power_of_ten(problem.solver.rtol));
+    if (result.energy_scale > 0 && result.energy_residual_max > 0)
+        note += fmt::format(" · energy closes to {}", power_of_ten(result.energy_residual_max / result.energy_scale));
+    if (result.beyond_model) note += beyond_model(problem);
+    return note;
+}
+
+render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene& scene, PlanResults& results) {
+    const Pictures& p = plan.pictures[picture];
+    render::FilmSetup setup;
+    setup.title = scene.title;
+    setup.width = p.picture.size.width;
+    setup.height = p.picture.size.height;
+    setup.view = p.picture.view;
+    setup.layout = p.picture.layout;
+    setup.comparison = p.picture.comparison;
+    if (p.kind != Pictures::Kind::still) setup.fps = p.span.fps.value();
+    setup.speeds = p.speeds;
+    setup.slow_motion = is_slow_motion(p);
+    setup.callouts = p.callouts;
+    if (!p.compared.empty()) {
+        add_compared(p, results.compared[picture], results.compared_poses[picture], setup);
+        return setup;
+    }
+    static_cast<render::Motion&>(setup) = motion_of(scene.problem, results.run, p.poses, p.chart, p.trace);
+    if (results.poses.empty())
+        setup.survey = stored(results.run.poses[p.survey], plan.simulation->request.poses[p.survey]);
+    else
+        setup.stored = results.poses[picture].frames, setup.survey = results.poses[picture].survey;
+    setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p));
+    setup.impacts = results.seen_by(p).impacts;
+    return setup;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,113 @@
+#include "scenes/outputs/output_files.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "output/files/atomic_file.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/plan/survey.hpp"
+#include "scenes/scene/files.hpp"
+#include "scenes/scene/version.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Most pictures and films carry their scene inside; these do not.
+bool carries_no_scene(const fs::path& file) {
+    static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp"};
+    return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
+}
+
+}  // namespace
+
+fs::path OutputFiles::path_of(const std::string& file) const { return place_of(context_.options.directory, file); }
+
+void OutputFiles::recover() {
+    std::set<fs::path> folders;
+    for (const Output& output : scene_.outputs)
+        if (!is_stdout(file_of(output))) folders.insert(path_of(file_of(output)).parent_path());
+    for (const fs::path& folder : folders) context_.manifest.recover(folder);
+}
+
+void OutputFiles::claim(const Plan& plan) {
+    const std::vector<fs::path> claimed = files_of(plan);
+    const std::string& directory = context_.options.directory;
+    for (const fs::path& file : claimed) {
+        std::error_code ignored;
+        if (fs::is_directory(file, ignored))
+            throw output::IoError(fmt::format("{} is a directory; choose another name for the output", file.string()));
+        const fs::path folder = file.parent_path();
+        if (directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
+            throw output::IoError(
+                fmt::format("{}: there is no directory {}; make it first", file.string(), folder.string()));
+        if (!directory.empty()) output::require_within(file, directory);
+        context_.manifest.require_replaceable(file);
+    }
+    if (!directory.empty())
+        for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
+}
+
+std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
+    std::vector<fs::path> all;
+    if (p.kind != Pictures::Kind::frames) {
+        all.push_back(path_of(p.file));
+        if (!p.poster_file.empty() && (!p.settled || p.makes_poster())) all.push_back(path_of(p.poster_file));
+    } else if (!p.settled) {
+        all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, also before their number is known
+    } else {
+        for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
+    }
+    return all;
+}
+
+std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
+    std::vector<fs::path> all;
+    for (const Pictures& p : plan.pictures) std::ranges::move(files_of(p), std::back_inserter(all));
+    for (const FigureFile& f : plan.figures)
+        for (const std::string& file : scenes::files_of(std::get<FigureOutput>(scene_.outputs[f.output])))
+            all.push_back(path_of(file));
+    const auto add = [&](const auto& list) {
+        for (const auto& each : list)
+            if (!is_stdout(each.file)) all.push_back(path_of(each.file));
+    };
+    add(plan.tables);
+    add(plan.impacts);
+    add(plan.summaries);
+    return all;
+}
+
+output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
+    output::Origin origin;
+    if (output) origin.inputs = inputs_[*output];
+    if (carries_no_scene(file)) origin.version = kVersion, origin.scene = to_json(scene_);
+    output::Target target = context_.manifest.target(file, std::move(origin));
+    target.within = context_.options.directory;
+    return target;
+}
+
+void OutputFiles::wrote(const fs::path& file, const std::string& what) {
+    count_written(file);
+    context_.progress.end();
+    context_.say("wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
+}
+
+void OutputFiles::count_written(const fs::path& file) {
+    std::error_code ignored;
+    ++context_.work.files_written;
+    context_.work.bytes_written += static_cast<long>(fs::file_size(file, ignored));
+}
+
+void OutputFiles::note_work(const std::vector<std::string>& names, double units, Clock::time_point since,
+                            const std::vector<fs::path>& made) {
+    double bytes = 0;
+    for (const fs::path& file : made) {
+        std::error_code gone;
+        const std::uintmax_t size = fs::file_size(file, gone);
+        if (!gone) bytes += static_cast<double>(size);
+    }
+    context_.history.note(names, units, seconds_since(since), bytes);
+}
+
+}  // namespace beamcam::scenes

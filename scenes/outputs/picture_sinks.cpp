@@ -1,0 +1,137 @@
+#include "scenes/outputs/picture_sinks.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "output/files/atomic_file.hpp"
+#include "output/image/png.hpp"
+#include "scenes/scene/files.hpp"
+#include "scenes/scene/version.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+class PngSink final : public PictureSink {
+  public:
+    PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {}
+
+    std::unique_ptr<Input> input(Gate&) override { return std::make_unique<ToFiles>(*this); }
+    void finish() override {
+        if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
+        to_.context.progress.end();
+        to_.context.say("wrote {} … {} ({} frames)\n", path_of(0).string(),
+                        numbered_file(p_.file, p_.first_frame + p_.draw.back()), p_.draw.size());
+    }
+
+  private:
+    class ToFiles final : public Input {
+      public:
+        explicit ToFiles(PngSink& sink)
+            : sink_(sink), sequence_({std::nullopt, sink.metadata_, output::PngCompression::quick}) {}
+        void put(long k, const render::Image& image, const render::Tiles& changed) override {
+            const std::filesystem::path file = sink_.path_of(static_cast<std::size_t>(k));
+            const output::Target target = sink_.to_.files.target(file, sink_.p_.output);
+            const auto start = Clock::now();
+            if (sink_.p_.kind == Pictures::Kind::still)
+                output::write_png(target, image, {std::nullopt, sink_.metadata_});
+            else
+                output::write_file(target, sequence_.encode(image, changed), output::Durability::buffered);
+            sink_.count(file, seconds_since(start));
+        }
+
+      private:
+        PngSink& sink_;
+        output::PngSequence sequence_;
+    };
+
+    std::filesystem::path path_of(std::size_t k) const {
+        return to_.files.path_of(
+            p_.kind == Pictures::Kind::still ? p_.file : numbered_file(p_.file, p_.first_frame + p_.draw[k]));
+    }
+    void count(const std::filesystem::path& file, double seconds) {
+        const std::lock_guard lock(mutex_);
+        to_.context.times.write += seconds;
+        if (p_.kind == Pictures::Kind::frames) to_.files.count_written(file);
+    }
+
+    const Pictures& p_;
+    SinkFiles to_;
+    const std::map<std::string, std::string> metadata_;
+    std::mutex mutex_;  // of the counts
+};
+
+class CaptureSink final : public PictureSink {
+  public:
+    CaptureSink(const Pictures& p, const Capture& capture) : p_(p), capture_(capture) {}
+    std::unique_ptr<Input> input(Gate&) override { return std::make_unique<ToCapture>(*this); }
+    void finish() override {}
+
+  private:
+    struct ToCapture final : Input {
+        explicit ToCapture(const CaptureSink& from) : sink(from) {}
+        void put(long k, const render::Image& image, const render::Tiles&) override {
+            sink.capture_.picture(sink.p_, k, image);
+        }
+        const CaptureSink& sink;
+    };
+
+    const Pictures& p_;
+    const Capture& capture_;
+};
+
+}  // namespace
+
+std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
+    std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
+                                              {"beamcam-scene", to_json(to.scene)},
+                                              {"beamcam-accuracy", to.accuracy}};
+    if (!to.scene.title.empty()) all["Title"] = to.scene.title;
+    return all;
+}
+
+std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files) {
+    return std::make_unique<PngSink>(p, files);
+}
+std::unique_ptr<PictureSink> make_capture_sink(const Pictures& p, const Capture& capture) {
+    return std::make_unique<CaptureSink>(p, capture);
+}
+
+void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context) {
+    const auto count = static_cast<long>(p.draw.size());
+    context.progress.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
+    Gate gate;
+    std::mutex mutex;  // of the counts and times
+    long put = 0;
+    const auto make_worker = [&]() -> Worker {
+        const auto own = std::make_shared<render::Film>(film.another());
+        const std::shared_ptr<PictureSink::Input> input = sink.input(gate);
+        return [&, own, input](long k) {
+            stop_if_interrupted();
+            double spent = 0;
+            const bool repeated = input->repeat(k, *own);
+            if (!repeated) {
+                const auto start = Clock::now();
+                const render::Image& image = own->draw(p.draw[static_cast<std::size_t>(k)]);
+                spent = seconds_since(start);
+                input->put(k, image, own->changed());
+            }
+            const std::lock_guard lock(mutex);
+            context.times.draw += spent;
+            ++(repeated ? context.work.frames_repeated : context.work.frames_drawn);
+            context.progress.reach(sink.done(++put));
+        };
+    };
+    const Crew crew = sink.crew(thread_count(context.options.threads));
+    context.times.threads = std::max(context.times.threads, fan_out(count, crew, make_worker, gate));
+    stop_if_interrupted();
+    sink.finish();
+    context.progress.end();
+    const render::DrawingCounts& counts = film.counts();
+    context.work.font_sets += counts.font_sets;
+    context.work.gl_contexts += counts.gl_contexts;
+    context.work.mechanisms_lit += counts.mechanisms_lit;
+    context.times.read_back += counts.read_back;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,25 @@
+#include "scenes/outputs/run_context.hpp"
+
+#include "output/files/interrupt.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/plan/survey.hpp"
+
+namespace beamcam::scenes {
+
+std::string counted(std::size_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+void stop_if_interrupted() {
+    if (output::interrupted()) throw Stopped();
+}
+
+RunContext::RunContext(const RunOptions& wanted)
+    : options(wanted),
+      progress(resolve(wanted.progress)),
+      manifest(wanted.force),
+      cache(open_cache(wanted.no_cache)),
+      history(cache ? History(cache->directory()) : History()),
+      motions(kept(), &history, progress, {thread_count(wanted.threads), wanted.quiet, wanted.verbose}) {}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,55 @@
+// What the scenes of one call of `run` share: options, the record of files, motions, counts and times.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "output/data/manifest.hpp"
+#include "output/files/standard_output.hpp"
+#include "output/files/work.hpp"
+#include "scenes/motions/motions.hpp"
+#include "scenes/outputs/run.hpp"
+
+namespace beamcam::scenes {
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string counted(std::size_t n, std::string_view thing);  // "2 impacts"
+void stop_if_interrupted();                                  // throws Stopped
+inline bool is_stdout(const std::string& file) { return file == "-"; }
+
+// Where the time went [s], for -v; drawing is summed over threads.
+struct Times {
+    double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;
+    int threads = 0;  // that drew
+};
+
+struct RunContext {
+    explicit RunContext(const RunOptions& options);
+
+    const Cache* kept() const { return cache ? &*cache : nullptr; }
+    // A message, unless the run is quiet.
+    template <class... Values>
+    void say(fmt::format_string<Values...> words, Values&&... values) const {
+        if (!options.quiet) output::tell(words, std::forward<Values>(values)...);
+    }
+
+    const RunOptions& options;
+    Progress progress;
+    output::Manifest manifest;
+    std::optional<Cache> cache;
+    History history;
+    Motions motions;
+    output::Work work;
+    Times times;
+    std::size_t refused = 0;  // outputs that cannot be made
+    Clock::time_point started = Clock::now();
+};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,229 @@
+#include "scenes/outputs/scene_run.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include "output/data/records.hpp"
+#include "output/data/tables.hpp"
+#include "output/files/atomic_file.hpp"
+#include "render/base/error.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/outputs/film_setup.hpp"
+#include "scenes/outputs/picture_sinks.hpp"
+#include "scenes/plan/estimate.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rows that a failed run never reached hold nothing, not even their time.
+sim::Table reached_rows(const sim::Table& table) {
+    sim::Table reached{table.channels, std::vector<std::vector<double>>(table.values.size())};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (std::ranges::all_of(table.values, [&](const auto& column) { return std::isnan(column[row]); })) continue;
+        for (std::size_t c = 0; c < table.values.size(); ++c) reached.values[c].push_back(table.values[c][row]);
+    }
+    return reached;
+}
+
+}  // namespace
+
+SceneRun::SceneRun(const Scene& scene, RunContext& context)
+    : scene_(scene),
+      context_(context),
+      found_(survey(scene, context.options.ask, context.options.directory, context.manifest, context.kept(),
+                    context.options.force)),
+      plan_(scenes::plan(scene, context.options.ask, found_.known)),
+      files_(scene, found_.inputs, context),
+      motions_(plan_, scene.problem, context.motions) {}
+
+// ---- before the motions ------------------------------------------------------------------------
+
+void SceneRun::prepare() {
+    say_what_is_left();
+    files_.recover();
+    files_.claim(plan_);
+    try_encoders();
+}
+
+void SceneRun::say_what_is_left() {
+    for (std::size_t output : found_.known.finished) {
+        ++context_.work.files_left;
+        context_.say("left {} as it is: made from the same inputs (--force makes it anew)\n",
+                     files_.path_of(file_of(scene_.outputs[output])).string());
+    }
+    for (const auto& [output, frames] : found_.known.frames) {
+        context_.work.frames_left += static_cast<long>(frames.size());
+        context_.say("left {} frames of {} as they are: made from the same inputs\n", frames.size(),
+                     files_.path_of(file_of(scene_.outputs[output])).string());
+    }
+}
+
+// A film of each codec is opened and dropped, so that a missing encoder is reported before anything is computed.
+void SceneRun::try_encoders() {
+    std::set<output::Codec> tried;
+    for (const Pictures& p : plan_.pictures)
+        if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
+            const output::VideoWriter trial(files_.target(files_.path_of(p.file)), video_options(p));
+            context_.work.encoder_modules = 1;
+            ++context_.work.encoders;
+        }
+}
+
+void SceneRun::find_impacts(double far) {
+    if (!plan_.impacts_until) return;
+    const auto start = Clock::now();
+    settle(
+        plan_, scene_,
+        [&](const sim::Problem& problem, double until) {
+            sim::Request request;
+            request.end_time = until;
+            request.turning_points = false;
+            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
+        },
+        [&](const Pictures& p, const std::string& why) { refuse(p.output, why); });
+    context_.times.simulate += seconds_since(start);
+    files_.claim(plan_);  // now that the number of frames is known
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+// The summaries come last, because they tell of the work.
+void SceneRun::write_outputs() {
+    write_tables();
+    write_impacts();
+    for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
+    for (std::size_t i = 0; i < plan_.pictures.size(); ++i)
+        attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
+    write_summaries();
+}
+
+void SceneRun::write_tables() {
+    for (const TableFile& t : plan_.tables) {
+        stop_if_interrupted();
+        const sim::Table& table = results_.run.tables[t.table];
+        const auto start = Clock::now();
+        if (is_stdout(t.file)) {
+            output::write_csv(std::cout, table);
+            output::flush_data();
+        } else {
+            const fs::path file = files_.path_of(t.file);
+            output::write_table(files_.target(file, t.output), table);
+            files_.wrote(file, fmt::format("{} rows", table.rows()));
+            files_.note_work(table_work(t), static_cast<double>(table.rows() * table.channels.size()), start, {file});
+        }
+        context_.times.write += seconds_since(start);
+    }
+}
+
+void SceneRun::write_impacts() {
+    for (const ImpactsFile& i : plan_.impacts) {
+        if (is_stdout(i.file)) {
+            output::print_json(output::impacts_json(results_.run));
+        } else {
+            const fs::path file = files_.path_of(i.file);
+            output::write_impacts(files_.target(file, i.output), results_.run);
+            files_.wrote(file, fmt::format("{} in {}", counted(results_.run.impacts.size(), "impact"),
+                                           counted(results_.run.collisions.size(), "collision")));
+        }
+    }
+}
+
+void SceneRun::write_summaries() {
+    for (const SummaryFile& s : plan_.summaries) {
+        const std::string text =
+            output::summary_json(scene_.problem, results_.run, plan_.simulation->request.extrema, &context_.work);
+        if (is_stdout(s.file)) {
+            output::print_json(text);
+        } else {
+            const fs::path file = files_.path_of(s.file);
+            output::write_file(files_.target(file, s.output), text);
+            files_.wrote(file, results_.run.reproducibility);
+        }
+    }
+}
+
+void SceneRun::write_figure(std::size_t figure) {
+    stop_if_interrupted();
+    const auto start = Clock::now();
+    const FigureFile& f = plan_.figures[figure];
+    const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
+    const auto made = figure_files(f.make(results_.of_figure(figure)), how, scene_of_figure(scene_, how));
+    for (const auto& [file, bytes] : made) {
+        output::write_file(files_.target(files_.path_of(file), f.output), bytes);
+        files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");
+    }
+    files_.note_work(figure_work(f), 1, start, {files_.path_of(f.file)});
+    ++context_.work.figures_drawn;
+    ++context_.work.font_sets;
+    context_.times.write += seconds_since(start);
+}
+
+void SceneRun::write_pictures(std::size_t picture) {
+    const Pictures& p = plan_.pictures[picture];
+    if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
+    stop_if_interrupted();
+    warn_of_missing(p);
+    const auto start = Clock::now();
+    render::Film film(film_setup(plan_, picture, scene_, results_));
+    if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields())
+        context_.say(
+            "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
+            "far from where it touches\n",
+            p.file, film.exaggeration(), *wanted);
+    const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p))};
+    const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
+    draw(p, film, *sink, context_);
+    files_.note_work(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()), start,
+                     files_.files_of(p));
+}
+
+// What was asked for and the picture does not show.
+void SceneRun::warn_of_missing(const Pictures& p) const {
+    if (!p.too_small.empty())
+        context_.say("warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
+    if (!p.unshown.empty())
+        context_.say("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
+    if (!context_.options.verbose || context_.options.quiet) return;
+    if (const std::string what = unwritten(p, scene_); !what.empty())
+        context_.say("warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));
+}
+
+void SceneRun::keep_partial_tables() {
+    const sim::Result* partial = motions_.reached();
+    if (!partial) return;
+    for (const TableFile& t : plan_.tables) {
+        if (is_stdout(t.file) || t.table >= partial->tables.size() || partial->tables[t.table].rows() == 0) continue;
+        fs::path file = files_.path_of(t.file);
+        file.replace_extension(".partial.csv");
+        output::write_csv(files_.target(file), reached_rows(partial->tables[t.table]));
+        files_.wrote(file, "as far as the solver came");
+    }
+}
+
+// ---- outputs that cannot be made ---------------------------------------------------------------
+
+// A picture that cannot be drawn costs its own output alone.
+void SceneRun::attempt(std::size_t output, const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const render::PictureError& error) {
+        refuse(output, error.what());
+    }
+}
+
+void SceneRun::refuse(std::size_t output, const std::string& why) {
+    context_.progress.end();
+    const bool listed = output < scene_.output_places.size();
+    output::tell("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
+                 file_of(scene_.outputs[output]), why);
+    ++context_.refused;
+}
+
+}  // namespace beamcam::scenes
