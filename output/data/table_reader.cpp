@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -15,6 +14,7 @@
 #include "output/data/name_index.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
+#include "output/files/numbers.hpp"
 
 namespace beamcam::output {
 
@@ -102,10 +102,7 @@ class CsvParser {
 
     static std::optional<double> number(std::string_view cell) {
         if (cell.starts_with('+')) cell.remove_prefix(1);
-        double value = 0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
-        return value;
+        return number_in<double>(cell);
     }
 
     // Short, without bytes that would speak to a terminal.

@@ -3,7 +3,9 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace beamcam::output {
 
@@ -13,6 +15,14 @@ inline void append_number(std::string& text, double value) {
     char buffer[32];  // sign, 17 digits, point, e, sign, 3 digits: 25
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
     text.append(buffer, end.ptr);
+}
+
+// The whole text as a number; nothing where it is none, or one that the type does not hold.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace beamcam::output

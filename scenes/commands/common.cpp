@@ -2,11 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
 #include "output/files/errors.hpp"
+#include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
@@ -56,14 +56,12 @@ void add_shard(Command& app, std::optional<std::string>& shard) {
 
 Ask shard_argument(const std::string& text) {
     Ask ask;
-    const char* end = text.data() + text.size();
-    const auto [slash, error] = std::from_chars(text.data(), end, ask.shard);
-    const bool cut = error == std::errc{} && slash != end && *slash == '/';
-    const auto [last, bad] =
-        cut ? std::from_chars(slash + 1, end, ask.shards) : std::from_chars_result{end, std::errc::invalid_argument};
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::string_view all = text;
+    ask.shard = output::number_in<int>(all.substr(0, slash)).value_or(0);
+    ask.shards = output::number_in<int>(all.substr(std::min(slash + 1, text.size()))).value_or(0);
     constexpr int kMost = 10000;
-    if (bad != std::errc{} || last != end || ask.shards < 1 || ask.shards > kMost || ask.shard < 1 ||
-        ask.shard > ask.shards)
+    if (ask.shards < 1 || ask.shards > kMost || ask.shard < 1 || ask.shard > ask.shards)
         throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3", text));
     return ask;
 }

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <set>
 
+#include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/checks.hpp"
@@ -188,9 +188,7 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
     const std::size_t colon = text.find(':');
     const auto number = [&](std::string_view part, long otherwise) {
         if (part.empty()) return otherwise;
-        long value = -1;
-        const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-        return error == std::errc{} && last == part.data() + part.size() ? value : -1;
+        return output::number_in<long>(part).value_or(-1);
     };
     if (colon == std::string::npos)
         throw UsageError(

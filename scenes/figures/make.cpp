@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 
+#include "output/files/numbers.hpp"
 #include "output/image/png.hpp"
 #include "render/base/error.hpp"
 #include "render/plot/text.hpp"
@@ -21,12 +21,9 @@ std::string ending(const std::string& file) { return std::filesystem::path(file)
 // https://reproducible-builds.org/specs/source-date-epoch
 std::int64_t creation_instant() {
     const char* text = std::getenv("SOURCE_DATE_EPOCH");
-    const std::string_view given = text ? text : "";
-    std::int64_t instant = 0;
-    const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), instant);
+    const auto instant = output::number_in<std::int64_t>(text ? text : "");
     constexpr std::int64_t kLatest = 253402300799;  // the end of the year 9999
-    const bool fine = error == std::errc{} && end == given.data() + given.size() && instant >= 0 && instant <= kLatest;
-    return fine ? instant : 0;
+    return instant && *instant >= 0 && *instant <= kLatest ? *instant : 0;
 }
 
 std::string whole_caption(const figure::Figure& f) {

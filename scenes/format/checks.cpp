@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
+#include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/scene/files.hpp"
@@ -32,14 +32,12 @@ Place place_of(const Node& root, std::string_view path, bool& exact) {
             node = &member->value;
             continue;
         }
-        std::size_t index = 0;
-        const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-        if (node->kind != Node::Kind::array || error != std::errc{} || end != key.data() + key.size() ||
-            index >= node->items.size()) {
+        const auto index = output::number_in<std::size_t>(key);
+        if (node->kind != Node::Kind::array || !index || *index >= node->items.size()) {
             exact = false;
             break;
         }
-        node = &node->items[index];
+        node = &node->items[*index];
         place = node->place;
     }
     return place;

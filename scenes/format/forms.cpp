@@ -4,29 +4,24 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <numeric>
 
+#include "output/files/numbers.hpp"
 #include "output/film/video.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
+
 namespace {
+
+using output::number_in;
 
 // Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
 constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
-
-// The whole text as a number; nothing where it is none.
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
 
 // ---- files -------------------------------------------------------------------------------------
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "output/files/numbers.hpp"
+
 namespace beamcam::scenes {
 namespace {
 
@@ -88,12 +90,11 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
             }
             node = &member->value;
         } else if (node->kind == Node::Kind::array) {
-            std::size_t index = 0;
-            const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-            if (error != std::errc{} || end != key.data() + key.size() || index >= node->items.size())
+            const auto index = output::number_in<std::size_t>(key);
+            if (!index || *index >= node->items.size())
                 return refuse(fmt::format("{} has {} entries, counted from 0; there is none named {}", here,
                                           node->items.size(), in_quotes(key)));
-            node = &node->items[index];
+            node = &node->items[*index];
         } else {
             return refuse(fmt::format("{} is {}, which has no key {}; set {} as a whole", here, name(node->kind),
                                       in_quotes(key), here));

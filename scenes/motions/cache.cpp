@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/checksum.hpp"
+#include "output/files/numbers.hpp"
 
 namespace beamcam::scenes {
 
@@ -92,11 +92,8 @@ std::optional<fs::path> cache_directory() {
 
 std::uintmax_t cache_limit() {
     const char* text = variable("BEAMCAM_CACHE_SIZE");
-    if (!text) return kUsualLimit;
-    std::uintmax_t mib = 0;
-    const char* end = text + std::strlen(text);
-    const auto [last, error] = std::from_chars(text, end, mib);
-    return error == std::errc{} && last == end && mib < (std::uintmax_t{1} << 40) ? mib * kMiB : kUsualLimit;
+    const auto mib = output::number_in<std::uintmax_t>(text ? text : "");
+    return mib && *mib < (std::uintmax_t{1} << 40) ? *mib * kMiB : kUsualLimit;
 }
 
 fs::path Cache::path_of(const std::string& key) const { return directory_ / (key + kEnding); }
