@@ -209,7 +209,7 @@ std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& st
                                    sim::tangent_distance(centred, 0, Printing::printed),
                                    sim::tangent_distance(cam, 0, Printing::corrected),
                                    touch.impacts.empty() ? std::nan("") : touch.impacts.front().x),
-                       "`Paper.TrialMethodFindsTheLocatedTouch`"});
+                       "`Figures.TrialMethodMeetsTheLocatedTouch`"});
         out.push_back(
             {"The system moves in the horizontal plane", "Gravity is in its potential (2); without it nothing falls",
              "g is not printed; 9.81 m/s² reproduces 0.37 s", "`FallingRod.ReachesTheHorizontalWhenItShould`"});

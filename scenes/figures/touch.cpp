@@ -1,5 +1,5 @@
-// The paper's trial method: which point of the falling beam reaches the cam first. One simulation of the fall serves
-// the trial, its refinement and the curves.
+// The paper's trial method (S49): which point of the falling beam reaches the cam first. One simulation of the fall
+// serves the trial, its refinement and the curves.
 #include <fmt/format.h>
 
 #include <algorithm>

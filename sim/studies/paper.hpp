@@ -1,14 +1,10 @@
 // The paper's own formulas, as printed and as they should read: static deflection of the supported
-// beam (its eq. 5), the trial method of its §3.4, the rod with doubled torque. MODEL.md §14.
+// beam (its eq. 5), the rod with doubled torque. MODEL.md §14.
 //
 // Source: Yang, Feng, Chen & Wu, Acta Physica Sinica 65, 240502 (2016).
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "sim/problem/problem.hpp"
-#include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 
@@ -24,20 +20,6 @@ struct StaticDeflection {
 // `overhang`: evaluate the expression of the overhanging span (at the support both apply).
 StaticDeflection supported_beam(const Problem& problem, double angle, double support, double x, Printing printing,
                                 bool overhang);
-
-// §3.4: distance of the point at arc position x of the beam from the cam's surface, D′ = |r(x) − B| − R;
-// as printed, B is the axis C. Rows of `times`, [m].
-std::vector<double> point_distance(const Problem& problem, double x, const std::vector<double>& times,
-                                   Printing printing);
-
-// The trial method: which of `points` reaches the cam first, and when; refined by subdividing between
-// the neighbours until the spacing is below `resolution` [m].
-struct TrialContact {
-    double x = 0, t = 0;
-    std::vector<double> points, instants;  // the first round; infinity where a point never arrives
-};
-std::optional<TrialContact> trial_contact(const Problem& problem, const std::vector<double>& points, double end_time,
-                                          double resolution, Printing printing);
 
 // Time for the rigid rod with the gravity torque multiplied by `torque_factor` to fall from `angle` at
 // rest to the horizontal [s]: 1 is the exact rod, 2 what gives the paper's 0.262 s. Exact quadrature.

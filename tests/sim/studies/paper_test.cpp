@@ -53,30 +53,11 @@ TEST(Paper, MissingTermsOfTheDeflectionAreSmall) {
     EXPECT_NEAR(at(support, Printing::completed, false).slope, at(support, Printing::completed, true).slope, 1e-15);
 }
 
-TEST(Paper, TrialMethodFindsTheLocatedTouch) {
+TEST(Paper, WithoutEccentricityThePrintedTangentIsRight) {
     Problem problem;
-    const auto trial = trial_contact(problem, {0.21, 0.22, 0.23, 0.24, 0.25}, 0.4, 1e-6, Printing::corrected);
-    ASSERT_TRUE(trial);
-    Request request;
-    request.end_time = 0.3;
-    const Result located = simulate(problem, request);
-    ASSERT_FALSE(located.impacts.empty());
-    // The first point of the beam to arrive is the contact point up to the spacing of the points; its arrival is later
-    // than the touch by the square of that.
-    EXPECT_NEAR(trial->t, located.impacts[0].t_start, 1e-6);
-    EXPECT_EQ(trial->instants.size(), 5u);
-    // With e = 0 and a motionless cam the paper's own reading is right: 0.229 m.
-    problem.cam->eccentricity = problem.cam->speed = 0;
-    const auto concentric = trial_contact(problem, {0.21, 0.22, 0.23, 0.24, 0.25}, 0.4, 1e-6, Printing::printed);
-    ASSERT_TRUE(concentric);
-    EXPECT_NEAR(concentric->x, 0.22913, 2e-4);
+    problem.cam->eccentricity = 0;
     EXPECT_NEAR(tangent_distance(*problem.cam, 0, Printing::printed), std::sqrt(0.25 * 0.25 - 0.01), 1e-15);
-}
-
-TEST(Paper, TrialMethodSaysWhenNothingArrives) {
-    Problem problem;
-    problem.cam->centre = {0.25, -0.9};
-    EXPECT_FALSE(trial_contact(problem, {0.2, 0.3}, 0.3, 1e-3, Printing::corrected));
+    EXPECT_NEAR(tangent_distance(*problem.cam, 0, Printing::corrected), std::sqrt(0.25 * 0.25 - 0.01), 1e-15);
 }
 
 TEST(Modes, TurningBeamAsPublished) {  // Wright et al. 1982, in the plane: ω² less Ω²
