@@ -1,10 +1,13 @@
-// Every key of a scene, once: those of the problem are visited in sim/problem/keys.cpp, those of pictures, films and
-// outputs in keys.cpp. What reads scenes, writes them or explains their format is a SceneVisitor.
+// Every key of a scene, once: those of the problem are visited in sim/problem/keys.cpp, those of each type of output in
+// its file (outputs/), the others in keys.cpp. What reads scenes, writes them or explains their format is a
+// SceneVisitor.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +53,18 @@ class SceneVisitor : public sim::Visitor {
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
     // What the keys visited so far ask of each other and of the scene; only a reader judges it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}
+
+    using Visitor::choice;
+    template <class Enum, std::size_t n>
+    void choice(const Key& key, Enum& value, const sim::Named<Enum> (&among)[n], const char* meaning) {
+        choice(key, value, std::span<const sim::Named<Enum>>(among), meaning);
+    }
+    void choice(const Key& key, std::string& value, const std::vector<std::string>& words, const char* meaning) {
+        auto chosen = static_cast<std::size_t>(std::ranges::find(words, value) - words.begin());
+        if (chosen == words.size()) chosen = 0;
+        word(key, words, chosen, meaning);
+        value = words[chosen];
+    }
 
     using Visitor::object;
     template <class Struct>

@@ -51,25 +51,6 @@ sim::Problem canonical(sim::Problem p) {
     return p;
 }
 
-// Data show no title.
-bool is_data(const Output& output) {
-    return std::holds_alternative<TrajectoryOutput>(output) || std::holds_alternative<ImpactsOutput>(output) ||
-           std::holds_alternative<SummaryOutput>(output);
-}
-
-bool tells_of_the_whole_run(const Output& output) {
-    return std::holds_alternative<ImpactsOutput>(output) || std::holds_alternative<SummaryOutput>(output);
-}
-
-// Whether the output's own keys say how far it looks.
-bool ends_by_itself(const Output& output) {
-    if (const auto* video = std::get_if<VideoOutput>(&output)) return video->span.to.has_value();
-    if (const auto* frames = std::get_if<FramesOutput>(&output)) return frames->span.to.has_value();
-    if (const auto* table = std::get_if<TrajectoryOutput>(&output)) return !table->times.empty();
-    const auto* still = std::get_if<StillOutput>(&output);
-    return still && still->at.kind == Instant::Kind::time;
-}
-
 }  // namespace
 
 const std::string& program_identity() {
@@ -96,10 +77,8 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     Scene alone = scene;
     alone.outputs = {wanted};
     if (is_data(wanted)) alone.title.clear();
-    if (tells_of_the_whole_run(wanted))
-        alone.end_time = until;
-    else if (ends_by_itself(wanted))
-        alone.end_time = 0;
+    const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
+    if (extent != Extent::scene) alone.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
     if (const auto* figure = std::get_if<FigureOutput>(&wanted)) {  // what the scene does not say
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");

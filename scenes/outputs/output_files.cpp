@@ -68,13 +68,8 @@ std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
     for (const FigureFile& f : plan.figures)
         for (const std::string& file : scenes::files_of(std::get<FigureOutput>(scene_.outputs[f.output])))
             all.push_back(path_of(file));
-    const auto add = [&](const auto& list) {
-        for (const auto& each : list)
-            if (!is_stdout(each.file)) all.push_back(path_of(each.file));
-    };
-    add(plan.tables);
-    add(plan.impacts);
-    add(plan.summaries);
+    for (const DataFile& d : plan.data)
+        if (!is_stdout(d.file)) all.push_back(path_of(d.file));
     return all;
 }
 

@@ -16,7 +16,22 @@ class PngSink final : public PictureSink {
   public:
     PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {}
 
-    std::unique_ptr<Input> input(Gate&) override { return std::make_unique<ToFiles>(*this); }
+    Input input(Gate&) override {
+        const output::PngOptions options{std::nullopt, metadata_, output::PngCompression::quick};
+        return [this, sequence = std::make_shared<output::PngSequence>(options)](long k, const render::Image& image,
+                                                                                 const render::Tiles& changed) {
+            const std::filesystem::path file = path_of(static_cast<std::size_t>(k));
+            const output::Target target = to_.files.target(file, p_.output);
+            const auto start = Clock::now();
+            if (p_.kind == Pictures::Kind::still)
+                output::write_png(target, image, {std::nullopt, metadata_});
+            else
+                output::write_file(target, sequence->encode(image, changed), output::Durability::buffered);
+            const std::lock_guard lock(mutex_);
+            to_.context.times.write += seconds_since(start);
+            if (p_.kind == Pictures::Kind::frames) to_.files.count_written(file);
+        };
+    }
     void finish() override {
         if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
@@ -25,34 +40,9 @@ class PngSink final : public PictureSink {
     }
 
   private:
-    class ToFiles final : public Input {
-      public:
-        explicit ToFiles(PngSink& sink)
-            : sink_(sink), sequence_({std::nullopt, sink.metadata_, output::PngCompression::quick}) {}
-        void put(long k, const render::Image& image, const render::Tiles& changed) override {
-            const std::filesystem::path file = sink_.path_of(static_cast<std::size_t>(k));
-            const output::Target target = sink_.to_.files.target(file, sink_.p_.output);
-            const auto start = Clock::now();
-            if (sink_.p_.kind == Pictures::Kind::still)
-                output::write_png(target, image, {std::nullopt, sink_.metadata_});
-            else
-                output::write_file(target, sequence_.encode(image, changed), output::Durability::buffered);
-            sink_.count(file, seconds_since(start));
-        }
-
-      private:
-        PngSink& sink_;
-        output::PngSequence sequence_;
-    };
-
     std::filesystem::path path_of(std::size_t k) const {
         return to_.files.path_of(
             p_.kind == Pictures::Kind::still ? p_.file : numbered_file(p_.file, p_.first_frame + p_.draw[k]));
-    }
-    void count(const std::filesystem::path& file, double seconds) {
-        const std::lock_guard lock(mutex_);
-        to_.context.times.write += seconds;
-        if (p_.kind == Pictures::Kind::frames) to_.files.count_written(file);
     }
 
     const Pictures& p_;
@@ -64,18 +54,11 @@ class PngSink final : public PictureSink {
 class CaptureSink final : public PictureSink {
   public:
     CaptureSink(const Pictures& p, const Capture& capture) : p_(p), capture_(capture) {}
-    std::unique_ptr<Input> input(Gate&) override { return std::make_unique<ToCapture>(*this); }
-    void finish() override {}
+    Input input(Gate&) override {
+        return [this](long k, const render::Image& image, const render::Tiles&) { capture_.picture(p_, k, image); };
+    }
 
   private:
-    struct ToCapture final : Input {
-        explicit ToCapture(const CaptureSink& from) : sink(from) {}
-        void put(long k, const render::Image& image, const render::Tiles&) override {
-            sink.capture_.picture(sink.p_, k, image);
-        }
-        const CaptureSink& sink;
-    };
-
     const Pictures& p_;
     const Capture& capture_;
 };
@@ -105,16 +88,15 @@ void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunCon
     long put = 0;
     const auto make_worker = [&]() -> Worker {
         const auto own = std::make_shared<render::Film>(film.another());
-        const std::shared_ptr<PictureSink::Input> input = sink.input(gate);
-        return [&, own, input](long k) {
+        return [&, own, input = sink.input(gate)](long k) {
             stop_if_interrupted();
             double spent = 0;
-            const bool repeated = input->repeat(k, *own);
+            const bool repeated = sink.repeat(k, *own, gate);
             if (!repeated) {
                 const auto start = Clock::now();
                 const render::Image& image = own->draw(p.draw[static_cast<std::size_t>(k)]);
                 spent = seconds_since(start);
-                input->put(k, image, own->changed());
+                input(k, image, own->changed());
             }
             const std::lock_guard lock(mutex);
             context.times.draw += spent;

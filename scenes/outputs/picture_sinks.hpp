@@ -1,6 +1,7 @@
 // Where the pictures of a film go: into a video, into PNG files, or to a command that compares them.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,24 +16,20 @@ namespace beamcam::scenes {
 
 class PictureSink {
   public:
-    // What one drawing thread gives its pictures to. `k` counts from 0 those that are drawn (Pictures::draw).
-    class Input {
-      public:
-        virtual ~Input() = default;
-        // Takes picture k without its being drawn, because it equals the one before.
-        virtual bool repeat(long, const render::Film&) { return false; }
-        // `changed`: where the picture may differ from the one that this thread gave before.
-        virtual void put(long k, const render::Image& image, const render::Tiles& changed) = 0;
-    };
+    // What one drawing thread gives its pictures to. `k` counts from 0 those that are drawn (Pictures::draw);
+    // `changed`: where the picture may differ from the one that this thread gave before.
+    using Input = std::function<void(long k, const render::Image& image, const render::Tiles& changed)>;
 
     virtual ~PictureSink() = default;
-    // One for each thread; pictures that need an order pass the gate.
-    virtual std::unique_ptr<Input> input(Gate& gate) = 0;
+    // For one thread; pictures that need an order pass the gate.
+    virtual Input input(Gate& gate) = 0;
+    // Takes picture k without its being drawn, where it equals the one before.
+    virtual bool repeat(long, const render::Film&, Gate&) { return false; }
     virtual Crew crew(int most) const { return {most, most}; }
     // How many of `put` pictures are done with.
     virtual double done(long put) const { return static_cast<double>(put); }
     // All pictures are there.
-    virtual void finish() = 0;
+    virtual void finish() {}
 };
 
 // What sinks that write files share.

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <set>
 
-#include "output/data/records.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
@@ -94,59 +92,31 @@ void SceneRun::find_impacts(double far) {
 
 // ---- files -------------------------------------------------------------------------------------
 
-// The summaries come last, because they tell of the work.
+// What tells of the work comes last.
 void SceneRun::write_outputs() {
-    write_tables();
-    write_impacts();
+    for (const DataFile& d : plan_.data)
+        if (!d.tells_of_work) write_data(d);
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
     for (std::size_t i = 0; i < plan_.pictures.size(); ++i)
         attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
-    write_summaries();
+    for (const DataFile& d : plan_.data)
+        if (d.tells_of_work) write_data(d);
 }
 
-void SceneRun::write_tables() {
-    for (const TableFile& t : plan_.tables) {
-        stop_if_interrupted();
-        const sim::Table& table = results_.run.tables[t.table];
-        const auto start = Clock::now();
-        if (is_stdout(t.file)) {
-            output::write_csv(std::cout, table);
-            output::flush_data();
-        } else {
-            const fs::path file = files_.path_of(t.file);
-            output::write_table(files_.target(file, t.output), table);
-            files_.wrote(file, fmt::format("{} rows", table.rows()));
-            files_.note_work(table_work(t), static_cast<double>(table.rows() * table.channels.size()), start, {file});
-        }
-        context_.times.write += seconds_since(start);
+void SceneRun::write_data(const DataFile& d) {
+    stop_if_interrupted();
+    const auto start = Clock::now();
+    DataSource from{scene_.problem, plan_.simulation->request, results_.run, context_.work, nullptr};
+    if (is_stdout(d.file)) {
+        d.write(from);
+    } else {
+        const fs::path file = files_.path_of(d.file);
+        const output::Target target = files_.target(file, d.output);
+        from.file = &target;
+        files_.wrote(file, d.write(from));
+        if (d.numbers > 0) files_.note_work(data_work(d), static_cast<double>(d.numbers), start, {file});
     }
-}
-
-void SceneRun::write_impacts() {
-    for (const ImpactsFile& i : plan_.impacts) {
-        if (is_stdout(i.file)) {
-            output::print_json(output::impacts_json(results_.run));
-        } else {
-            const fs::path file = files_.path_of(i.file);
-            output::write_impacts(files_.target(file, i.output), results_.run);
-            files_.wrote(file, fmt::format("{} in {}", counted(results_.run.impacts.size(), "impact"),
-                                           counted(results_.run.collisions.size(), "collision")));
-        }
-    }
-}
-
-void SceneRun::write_summaries() {
-    for (const SummaryFile& s : plan_.summaries) {
-        const std::string text =
-            output::summary_json(scene_.problem, results_.run, plan_.simulation->request.extrema, &context_.work);
-        if (is_stdout(s.file)) {
-            output::print_json(text);
-        } else {
-            const fs::path file = files_.path_of(s.file);
-            output::write_file(files_.target(file, s.output), text);
-            files_.wrote(file, results_.run.reproducibility);
-        }
-    }
+    context_.times.write += seconds_since(start);
 }
 
 void SceneRun::write_figure(std::size_t figure) {
@@ -198,11 +168,13 @@ void SceneRun::warn_of_missing(const Pictures& p) const {
 void SceneRun::keep_partial_tables() {
     const sim::Result* partial = motions_.reached();
     if (!partial) return;
-    for (const TableFile& t : plan_.tables) {
-        if (is_stdout(t.file) || t.table >= partial->tables.size() || partial->tables[t.table].rows() == 0) continue;
-        fs::path file = files_.path_of(t.file);
+    for (const DataFile& d : plan_.data) {
+        if (is_stdout(d.file) || !d.table || *d.table >= partial->tables.size()) continue;
+        const sim::Table& table = partial->tables[*d.table];
+        if (table.rows() == 0) continue;
+        fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial.csv");
-        output::write_csv(files_.target(file), reached_rows(partial->tables[t.table]));
+        output::write_csv(files_.target(file), reached_rows(table));
         files_.wrote(file, "as far as the solver came");
     }
 }

@@ -32,10 +32,8 @@ class SceneRun {
   private:
     void say_what_is_left();
     void try_encoders();
-    void write_tables();
-    void write_impacts();
+    void write_data(const DataFile& data);
     void write_figure(std::size_t figure);
-    void write_summaries();
     void write_pictures(std::size_t picture);
     void warn_of_missing(const Pictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);

@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "output/film/palette.hpp"
 #include "output/image/png.hpp"
-#include "scenes/outputs/demand.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -41,6 +41,35 @@ output::VideoOptions options_of(const Pictures& p, render::Film& film, const Sin
     return options;
 }
 
+// Whether the encoder waits for pictures: then another thread that draws them helps. One that is not needed costs: it
+// keeps a picture of its own, in which it has to draw what moved since the last one it drew.
+class EncoderBacklog {
+  public:
+    explicit EncoderBacklog(const output::VideoWriter& film) : film_(film) {}  // which outlives it
+
+    // The encoder has been idle for most of the time since the last answer. Asked by several threads.
+    bool operator()() {
+        const std::lock_guard lock(mutex_);
+        const output::VideoStatistics now = film_.statistics();
+        if (now.frames < (asked_ == 0 ? kFirst : asked_ + kWindow)) return false;
+        const Clock::time_point time = Clock::now();
+        const double passed = std::chrono::duration<double>(time - then_).count(), idle = now.idle_seconds - idle_;
+        const bool first = asked_ == 0;
+        asked_ = now.frames, idle_ = now.idle_seconds, then_ = time;
+        return !first && idle > 0.5 * passed;
+    }
+
+  private:
+    // An encoder takes its first pictures without encoding any: it looks ahead. Then, windows of so many.
+    static constexpr long kFirst = 48, kWindow = 16;
+
+    const output::VideoWriter& film_;
+    std::mutex mutex_;
+    long asked_ = 0;   // pictures encoded at the last answer; 0: none yet
+    double idle_ = 0;  // until then [s]
+    Clock::time_point then_;
+};
+
 class VideoSink final : public PictureSink {
   public:
     VideoSink(const Pictures& p, render::Film& film, const SinkFiles& to)
@@ -51,12 +80,29 @@ class VideoSink final : public PictureSink {
         ++to.context.work.encoders;
     }
 
-    std::unique_ptr<Input> input(Gate& gate) override { return std::make_unique<ToVideo>(*this, gate); }
+    Input input(Gate& gate) override {
+        return [this, &gate, converter = std::make_shared<output::VideoInput>(video_)](
+                   long k, const render::Image& image, const render::Tiles& changed) {
+            if (is_poster(static_cast<std::size_t>(k)))
+                output::write_png(to_.files.target(to_.files.path_of(p_.poster_file), p_.output), image,
+                                  {std::nullopt, poster_metadata_});
+            converter->convert(image, changed);
+            gate.pass(k, [&] { converter->send(); });
+        };
+    }
+    // Not where it is wanted beside the film.
+    bool repeat(long k, const render::Film& film, Gate& gate) override {
+        const auto at = static_cast<std::size_t>(k);
+        if (k == 0 || p_.draw[at] != p_.draw[at - 1] + 1 || !film.repeats(p_.draw[at]) || is_poster(at)) return false;
+        gate.pass(k, [&] { video_.repeat(); });
+        return true;
+    }
     // An encoder has its own threads; few have to draw to keep it busy.
     Crew crew(int most) const override {
         if (p_.picture.view.style == render::Style::solid) return {most, most};
         const int share = p_.picture.view.style == render::Style::flat ? 4 : 2;
-        return {std::max(1, most / share), most, [demand = std::make_shared<Demand>(video_)] { return (*demand)(); }};
+        return {std::max(1, most / share), most,
+                [backlog = std::make_shared<EncoderBacklog>(video_)] { return (*backlog)(); }};
     }
     double done(long) const override {
         const output::VideoStatistics now = video_.statistics();
@@ -74,35 +120,7 @@ class VideoSink final : public PictureSink {
     }
 
   private:
-    class ToVideo final : public Input {
-      public:
-        ToVideo(VideoSink& sink, Gate& gate) : sink_(sink), gate_(gate), converter_(sink.video_) {}
-        bool repeat(long k, const render::Film& film) override {
-            if (!sink_.repeats(static_cast<std::size_t>(k), film)) return false;
-            gate_.pass(k, [&] { sink_.video_.repeat(); });
-            return true;
-        }
-        void put(long k, const render::Image& image, const render::Tiles& changed) override {
-            if (sink_.is_poster(static_cast<std::size_t>(k))) sink_.write_poster(image);
-            converter_.convert(image, changed);
-            gate_.pass(k, [&] { converter_.send(); });
-        }
-
-      private:
-        VideoSink& sink_;
-        Gate& gate_;
-        output::VideoInput converter_;
-    };
-
     bool is_poster(std::size_t k) const { return p_.makes_poster() && p_.draw[k] == *p_.poster; }
-    // Equal to the picture that is written just before it, and not wanted beside the film.
-    bool repeats(std::size_t k, const render::Film& film) const {
-        return k > 0 && p_.draw[k] == p_.draw[k - 1] + 1 && film.repeats(p_.draw[k]) && !is_poster(k);
-    }
-    void write_poster(const render::Image& image) const {
-        output::write_png(to_.files.target(to_.files.path_of(p_.poster_file), p_.output), image,
-                          {std::nullopt, poster_metadata_});
-    }
 
     const Pictures& p_;
     SinkFiles to_;

@@ -20,8 +20,8 @@ std::vector<std::string> figure_work(const FigureFile& f) {
     return {fmt::format("figure {} {}", f.figure, std::filesystem::path(f.file).extension().string()), "figure"};
 }
 
-std::vector<std::string> table_work(const TableFile& t) {
-    return {"numbers of " + std::filesystem::path(t.file).extension().string()};
+std::vector<std::string> data_work(const DataFile& d) {
+    return {"numbers of " + std::filesystem::path(d.file).extension().string()};
 }
 
 namespace {
@@ -47,10 +47,8 @@ void estimate(Plan& plan, const Scene& scene, const History& history, int thread
         if (p.settled) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
     }
     for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);
-    for (TableFile& t : plan.tables) {
-        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
-        t.cost = cost(history, table_work(t), static_cast<double>(table.times.size() * table.channels.size()));
-    }
+    for (DataFile& d : plan.data)
+        if (d.numbers > 0) d.cost = cost(history, data_work(d), static_cast<double>(d.numbers));
 }
 
 }  // namespace beamcam::scenes

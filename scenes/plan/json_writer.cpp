@@ -15,16 +15,41 @@ void put_cost(Json& stage, const std::optional<Cost>& cost, const char* amount) 
     stage[amount] = cost->amount;
 }
 
+Json motion_stage(const sim::Problem& problem, const sim::Request& request, const std::string& because) {
+    return {{"stage", "simulate"},
+            {"model", name(problem.beam.model)},
+            {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
+            {"until", request.end_time},
+            {"because", because}};
+}
+
 Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
-    Json stage = {{"stage", "simulate"},
-                  {"model", name(problem.beam.model)},
-                  {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
-                  {"until", simulation.request.end_time},
-                  {"because", simulation.until_because},
-                  {"horizon", simulation.horizon},
-                  {"from_cache", simulation.from_cache},
-                  {"keep", simulation.keep}};
+    Json stage = motion_stage(problem, simulation.request, simulation.until_because);
+    stage["horizon"] = simulation.horizon;
+    stage["from_cache"] = simulation.from_cache;
+    stage["keep"] = simulation.keep;
     put_cost(stage, simulation.cost, "steps");
+    return stage;
+}
+
+Json stage_of(const Pictures& p, const std::vector<double>& times) {
+    Json stage = {{"stage", kind_name(p.kind)}, {"file", p.file}, {"output", p.output}};
+    if (p.settled) {
+        stage["frames"] = p.draw.size();
+        stage["from"] = times[static_cast<std::size_t>(p.draw.front())];
+        stage["last"] = times[static_cast<std::size_t>(p.draw.back())];
+    }
+    stage["size"] = {p.picture.size.width, p.picture.size.height};
+    stage["style"] = view_name(p.picture.view);
+    if (p.kind != Pictures::Kind::still) stage["fps"] = p.span.fps.value();
+    if (p.kind == Pictures::Kind::video) {
+        stage["codec"] = output::name(p.encoding.codec);
+        if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
+        if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
+        if (p.encoding.variable_rate) stage["rate_mode"] = "variable";
+        if (!p.poster_file.empty()) stage["poster"] = p.poster_file;
+    }
+    put_cost(stage, p.cost, "bytes");
     return stage;
 }
 
@@ -35,33 +60,11 @@ std::string to_json(const Plan& plan, const Scene& scene) {
     if (plan.impacts_until) stages.push_back({{"stage", "impacts"}, {"until", *plan.impacts_until}});
     if (plan.simulation) stages.push_back(stage_of(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
-        const std::vector<double>& times = plan.times(p);
-        for (const ComparedMotion& motion : p.compared)
-            stages.push_back(
-                {{"stage", "simulate"},
-                 {"model", name(motion.problem.beam.model)},
-                 {"modes", motion.problem.beam.model == sim::ModelKind::rigid ? 0 : motion.problem.beam.modes},
-                 {"until", motion.request.end_time},
-                 {"because", p.file},
-                 {"label", motion.label}});
-        Json stage = {{"stage", kind_name(p.kind)}, {"file", p.file}, {"output", p.output}};
-        if (p.settled) {
-            stage["frames"] = p.draw.size();
-            stage["from"] = times[static_cast<std::size_t>(p.draw.front())];
-            stage["last"] = times[static_cast<std::size_t>(p.draw.back())];
+        for (const ComparedMotion& motion : p.compared) {
+            stages.push_back(motion_stage(motion.problem, motion.request, p.file));
+            stages.back()["label"] = motion.label;
         }
-        stage["size"] = {p.picture.size.width, p.picture.size.height};
-        stage["style"] = view_name(p.picture.view);
-        if (p.kind != Pictures::Kind::still) stage["fps"] = p.span.fps.value();
-        if (p.kind == Pictures::Kind::video) {
-            stage["codec"] = output::name(p.encoding.codec);
-            if (p.encoding.crf) stage["crf"] = *p.encoding.crf;
-            if (p.encoding.codec == output::Codec::h264) stage["preset"] = p.encoding.preset;
-            if (p.encoding.variable_rate) stage["rate_mode"] = "variable";
-            if (!p.poster_file.empty()) stage["poster"] = p.poster_file;
-        }
-        put_cost(stage, p.cost, "bytes");
-        stages.push_back(std::move(stage));
+        stages.push_back(stage_of(p, plan.times(p)));
     }
     for (const Variant& variant : plan.variants) stages.push_back(stage_of(variant.simulation, variant.problem));
     for (const FigureFile& f : plan.figures) {
@@ -69,22 +72,12 @@ std::string to_json(const Plan& plan, const Scene& scene) {
         put_cost(stage, f.cost, "bytes");
         stages.push_back(std::move(stage));
     }
-    for (const TableFile& t : plan.tables) {
-        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
-        Json channels = Json::array();
-        for (const sim::Channel& channel : table.channels) channels.push_back(name(channel));
-        Json stage = {{"stage", "table"},
-                      {"file", t.file},
-                      {"output", t.output},
-                      {"rows", table.times.size()},
-                      {"channels", channels}};
-        put_cost(stage, t.cost, "bytes");
+    for (const DataFile& d : plan.data) {
+        Json stage = {{"stage", d.stage}, {"file", d.file}, {"output", d.output}};
+        stage.update(Json::parse(to_text(d.details)));
+        put_cost(stage, d.cost, "bytes");
         stages.push_back(std::move(stage));
     }
-    for (const ImpactsFile& i : plan.impacts)
-        stages.push_back({{"stage", "impacts"}, {"file", i.file}, {"output", i.output}});
-    for (const SummaryFile& s : plan.summaries)
-        stages.push_back({{"stage", "summary"}, {"file", s.file}, {"output", s.output}});
     out["stages"] = std::move(stages);
     put_cost(out, plan.cost(), "bytes");
     Json skipped = Json::array();

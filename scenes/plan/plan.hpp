@@ -14,8 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "output/files/target.hpp"
+#include "output/files/work.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/studies.hpp"
+#include "scenes/format/tree.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -113,19 +116,27 @@ struct FigureFile {
     FigureMaker make;            // from their results
     std::optional<Cost> cost;
 };
-struct TableFile {
-    std::size_t output = 0;
-    std::string file;
-    std::size_t table = 0;  // index into Request::tables
-    std::optional<Cost> cost;
+
+// What a data file is written from, and where.
+struct DataSource {
+    const sim::Problem& problem;
+    const sim::Request& request;  // of the scene's motion
+    const sim::Result& run;
+    const output::Work& work;    // so far
+    const output::Target* file;  // null: standard output
 };
-struct ImpactsFile {
+// A file that holds numbers of the scene's motion.
+struct DataFile {
     std::size_t output = 0;
-    std::string file;
-};
-struct SummaryFile {
-    std::size_t output = 0;
-    std::string file;
+    std::string file, stage;  // stage: what the plan calls it, "table"
+    // Writes it, and returns what to say of it: "1501 rows".
+    std::function<std::string(const DataSource& from)> write;
+    std::string content = {};               // for the plan in words: "1501 rows of 29 channels"
+    Node details = object_node();           // for the plan as JSON
+    std::size_t numbers = 0;                // how many it holds; 0: so few that writing them takes no time
+    std::optional<std::size_t> table = {};  // index into Request::tables; its rows are kept if the solver fails
+    bool tells_of_work = false;             // it is written after all others
+    std::optional<Cost> cost = {};
 };
 
 struct Skipped {
@@ -139,9 +150,7 @@ struct Plan {
     std::vector<Variant> variants;
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
-    std::vector<TableFile> tables;
-    std::vector<ImpactsFile> impacts;
-    std::vector<SummaryFile> summaries;
+    std::vector<DataFile> data;
     std::vector<Skipped> skipped;
 
     bool needs_gl() const;                                             // a lit view

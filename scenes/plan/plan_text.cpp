@@ -153,13 +153,8 @@ std::string to_text(const Plan& plan, const Scene& scene) {
         line("simulate", simulation_words(variant.simulation, variant.problem));
     for (const FigureFile& f : plan.figures)
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
-    for (const TableFile& t : plan.tables) {
-        const sim::TableRequest& table = plan.simulation->request.tables[t.table];
-        line("table", fmt::format("{}: {} rows of {} channels{}", t.file, table.times.size(), table.channels.size(),
-                                  file_cost(t.cost)));
-    }
-    for (const ImpactsFile& i : plan.impacts) line("impacts", i.file);
-    for (const SummaryFile& s : plan.summaries) line("summary", s.file);
+    for (const DataFile& d : plan.data)
+        line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
     const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.settled; });
     if (const auto cost = plan.cost())
         line("in all", fmt::format("{}{}, as past runs tell", some ? "besides pictures that look at impacts, " : "",

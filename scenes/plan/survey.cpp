@@ -55,9 +55,7 @@ class Surveyor {
             else if (!awaits_poster(p))
                 look_at(p.file, p.output);
         for (const FigureFile& f : whole_.figures) look_at_figure(f);
-        for (const TableFile& t : whole_.tables) look_at(t.file, t.output);
-        for (const ImpactsFile& i : whole_.impacts) look_at(i.file, i.output);
-        for (const SummaryFile& s : whole_.summaries) look_at(s.file, s.output);
+        for (const DataFile& d : whole_.data) look_at(d.file, d.output);
     }
 
     // A film whose poster is not there is not finished. Which part of it has the poster, only the impacts may tell.

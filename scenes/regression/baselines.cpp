@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "output/files/numbers.hpp"
@@ -363,23 +362,17 @@ Tolerance Tolerance::overridden_by(const Tolerance& over) const {
             over.impacts ? over.impacts : impacts};
 }
 
-bool Baseline::has_pictures() const {
-    return !std::holds_alternative<TrajectoryOutput>(output()) && !std::holds_alternative<ImpactsOutput>(output()) &&
-           !std::holds_alternative<SummaryOutput>(output());
-}
+bool Baseline::has_pictures() const { return !is_data(output()); }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }
 
 void apply_tolerance(Tolerance& tolerance, const std::string& text) {
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    double value = 0;
-    const char* begin = equals == std::string::npos ? nullptr : text.data() + equals + 1;
-    const bool number = begin &&
-                        std::from_chars(begin, text.data() + text.size(), value).ptr == text.data() + text.size() &&
-                        begin != text.data() + text.size();
+    const auto number = output::number_in<double>(equals == std::string::npos ? "" : text.substr(equals + 1));
     if (!number)
         throw UsageError(fmt::format("--tolerance {}: write channel=2, share=1e-4, motion=1e-5 or impacts=1e-4", text));
+    const double value = *number;
     if (key == "channel") {
         if (!(value >= 0 && value <= 255 && value == static_cast<int>(value)))
             throw UsageError(fmt::format("--tolerance {}: a channel differs by 0 … 255", text));

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <mutex>
+#include <memory>
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
-#include "output/files/sha256.hpp"
 #include "output/files/standard_output.hpp"
-#include "output/image/png.hpp"
-#include "output/image/png_reader.hpp"
 #include "render/base/error.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/outputs/capture.hpp"
+#include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/motion_record.hpp"
 #include "scenes/regression/references.hpp"
 #include "scenes/scene/exit_code.hpp"
@@ -26,8 +24,6 @@ namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
 enum class Drawn { flat, lit, figure };
 
@@ -66,26 +62,26 @@ class EntryTest {
         : entry_(entry),
           options_(options),
           result_(result),
-          report_files_(report_files),
           update_(update),
           tolerance_(entry.tolerance.overridden_by(options.tolerance)),
-          folder_(baselines.references / entry.name) {
+          references_(baselines.references / entry.name),
+          pictures_(entry, tolerance_, references_, options.report, report_files, result) {
         if (entry.has_pictures()) result_.picture = Verdict::identical;
         if (entry.physics || !entry.has_pictures()) result_.motion = Verdict::identical;
-        if (update_) fresh_ = update_->begin(entry.name);
+        if (update_) references_.fresh = update_->begin(entry.name);
     }
 
     const Baseline& entry() const { return entry_; }
     bool asks_for_motion() const { return result_.motion.has_value(); }
     void ask_for_no_motion() { result_.motion.reset(); }
-    bool is_updated() const { return fresh_.has_value(); }
+    bool is_updated() const { return references_.fresh.has_value(); }
     EntryResult& result() { return result_; }
 
     void judge_motion(const sim::Table& all, const std::vector<sim::Impact>& impacts, double until,
                       std::optional<double> reproducible_until) {
         const sim::Table table = without_residuals(all);
-        if (fresh_) {
-            write_record(*fresh_, RecordNames(0), table, impacts, until);
+        if (references_.fresh) {
+            write_record(*references_.fresh, RecordNames(0), table, impacts, until);
             horizon_ = std::min(until, reproducible_until.value_or(until));
         }
         judge_record(RecordNames(0), "", record_of(table, impacts, until), entry_.reproducible_until.value_or(until));
@@ -95,42 +91,25 @@ class EntryTest {
     sim::TableRequest motion_compared(std::size_t index, const sim::Problem& problem, double until) const {
         sim::TableRequest request = motion_behind_picture(problem, until);
         if (is_updated()) return request;
-        if (const auto expected = read_record(folder_, RecordNames(index + 1)))
+        if (const auto expected = read_record(references_.folder, RecordNames(index + 1)))
             if (const std::vector<double>* t = expected->table.find("t")) request.times = *t;
         return request;
     }
     void judge_compared(std::size_t index, const std::string& label, sim::Table table,
                         const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until) {
         const RecordNames names(index + 1);
-        if (fresh_) {
+        if (references_.fresh) {
             if (reproducible_until) cut(table, *reproducible_until);
-            write_record(*fresh_, names, table, impacts, table.values.front().back());
+            write_record(*references_.fresh, names, table, impacts, table.values.front().back());
         }
         const double until = table.values.front().back();
         judge_record(names, label + ": ", record_of(table, impacts, until), until);
     }
 
     // From any thread.
-    void judge_picture(long frame, const render::Image& image) {
-        thread_local output::Raster raster;
-        output::to_raster(image, raster);
-        FrameResult found;
-        found.sha256 = output::digest(raster);
-        const bool accepted = is_accepted(frame, found.sha256);
-        if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
-        with_old_reference([&] {
-            if (!accepted)
-                compare_with_reference(frame, raster, found);
-            else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
-                found.verdict = Verdict::different;
-        });
-        if (fresh_) output::write_png(*fresh_ / picture_name(frame), image);
-        const std::lock_guard lock(mutex_);
-        result_.frames[frame] = std::move(found);
-    }
-
+    void judge_picture(long frame, const render::Image& image) { pictures_.judge(frame, image); }
     void finish() {
-        if (result_.picture) conclude_pictures();
+        if (result_.picture) pictures_.conclude();
     }
 
     // There is nothing to judge. `exit_code`: what the program is to end with.
@@ -139,8 +118,8 @@ class EntryTest {
         if (result_.motion) result_.motion = verdict;
         (result_.motion ? result_.motion_lines : result_.picture_lines) = {why};
         result_.exit_code = exit_code;
-        if (fresh_) update_->drop(entry_.name);
-        fresh_.reset();
+        if (references_.fresh) update_->drop(entry_.name);
+        references_.fresh.reset();
     }
 
     // Does some work; what fails costs this entry alone. False: it has failed.
@@ -179,7 +158,7 @@ class EntryTest {
     // What the baselines file is to say, when this entry changes it.
     std::optional<BaselineEdit> edit(const std::string& renderer) {
         BaselineEdit change{entry_.name, entry_.accepted, entry_.reproducible_until};
-        if (fresh_) {
+        if (references_.fresh) {
             change.accepted.clear();
             if (result_.picture) change.accepted.push_back(digests(renderer));
             if (result_.motion) change.reproducible_until = horizon_;
@@ -201,15 +180,6 @@ class EntryTest {
     }
 
   private:
-    // Reads what may be damaged; then an update replaces it.
-    void with_old_reference(const std::function<void()>& work) const {
-        try {
-            work();
-        } catch (const output::IoError&) {
-            if (!fresh_) throw;
-        }
-    }
-
     // A table of all channels holds an error of the solver, which no two solvers share.
     sim::Table without_residuals(const sim::Table& table) const {
         const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output());
@@ -233,10 +203,10 @@ class EntryTest {
     void judge_record(const RecordNames& names, const std::string& label, const MotionRecord& actual, double horizon) {
         std::vector<std::string>& lines = result_.motion_lines;
         std::optional<MotionRecord> expected;
-        with_old_reference([&] { expected = read_record(folder_, names); });
+        references_.read([&] { expected = read_record(references_.folder, names); });
         if (!expected) {
             result_.motion = Verdict::missing;
-            lines.push_back(fmt::format("{}no motion is kept in {}", label, folder_.string()));
+            lines.push_back(fmt::format("{}no motion is kept in {}", label, references_.folder.string()));
             return;
         }
         if (const auto* asked = std::get_if<TrajectoryOutput>(&entry_.output()); asked && asked->channels.empty())
@@ -245,9 +215,9 @@ class EntryTest {
         result_.motion = worse(*result_.motion, found.verdict);
         for (const std::string& line : found.lines) lines.push_back(label + line);
         for (const std::string& name : {names.table, names.impacts})
-            if (!is_as_marked(name)) {
+            if (!references_.is_as_marked(name)) {
                 result_.motion = worse(*result_.motion, Verdict::different);
-                lines.push_back(fmt::format("{} is not what --update put there", (folder_ / name).string()));
+                lines.push_back(fmt::format("{} is not what --update put there", (references_.folder / name).string()));
             }
     }
 
@@ -256,108 +226,6 @@ class EntryTest {
         if (at == table.names.end()) return;
         table.columns.erase(table.columns.begin() + (at - table.names.begin()));
         table.names.erase(at);
-    }
-
-    bool is_accepted(long frame, const std::string& digest) const {
-        return std::any_of(entry_.accepted.begin(), entry_.accepted.end(), [&](const Accepted& accepted) {
-            const auto at = static_cast<std::size_t>(frame);
-            return at < accepted.sha256.size() && accepted.sha256[at] == digest;
-        });
-    }
-
-    const ReferenceFile* marked(const std::string& name) const {
-        const auto file = marked_.find(name);
-        return file == marked_.end() ? nullptr : &file->second;
-    }
-    // Folders that were made before there were markers tell nothing.
-    bool is_as_marked(const std::string& name) const {
-        const ReferenceFile* file = marked(name);
-        return marked_.empty() || (file && output::sha256_of_file(folder_ / name) == file->sha256);
-    }
-
-    // The reference picture belongs to one of the accepted digests, or there is none.
-    bool is_reference_accepted(long frame) const {
-        const std::string name = picture_name(frame);
-        if (!output::is_there(folder_ / name)) return true;
-        const ReferenceFile* file = marked(name);
-        const bool as_marked = file && output::sha256_of_file(folder_ / name) == file->sha256;
-        return is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(folder_ / name)));
-    }
-
-    void compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
-        const fs::path reference = folder_ / picture_name(frame);
-        if (!output::is_there(reference)) return write_actual(frame, actual, found);
-        const output::Raster expected = output::read_png(reference);
-        found.expected = reference;
-        found.compared = true;
-        found.reference_accepted = entry_.accepted.empty() || is_accepted(frame, output::digest(expected));
-        found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
-        const bool near =
-            found.comparison.same_size() && found.comparison.difference.share() <= tolerance_.share.value_or(0);
-        if (near && found.reference_accepted && !entry_.accepted.empty()) found.verdict = Verdict::equivalent;
-        write_difference(frame, expected, actual, found);
-    }
-
-    void write_actual(long frame, const output::Raster& actual, FrameResult& found) {
-        if (!options_.report) return;
-        found.actual = put(frame, "actual", actual);
-    }
-    void write_difference(long frame, const output::Raster& expected, const output::Raster& actual,
-                          FrameResult& found) {
-        if (!options_.report) return;
-        found.actual = put(frame, "actual", actual);
-        if (!found.comparison.same_size()) return;
-        const int threshold = found.comparison.difference.changed > 0 ? tolerance_.channel.value_or(0) : 0;
-        found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
-    }
-    fs::path put(long frame, const char* what, const output::Raster& picture) {
-        fs::path file = *options_.report / entry_.name / fmt::format("{:04}-{}.png", frame, what);
-        const std::string bytes = output::encode_png(output::to_image(picture));
-        output::require_within(file, *options_.report);
-        output::ensure_directory(file.parent_path());
-        output::Target target = report_files_.target(file);
-        target.within = *options_.report;
-        output::write_file(target, bytes, output::Durability::buffered);
-        return file;
-    }
-
-    void conclude_pictures() {
-        Verdict verdict = Verdict::identical;
-        for (const auto& [frame, found] : result_.frames) verdict = worse(verdict, found.verdict);
-        if (entry_.accepted.empty()) {
-            result_.picture_lines = {
-                fmt::format("no digest is accepted yet; look at the picture and --update {}", entry_.name)};
-            verdict = Verdict::missing;
-        } else if (const std::size_t count = entry_.accepted.front().sha256.size(); count != result_.frames.size()) {
-            result_.picture_lines = {
-                fmt::format("{} pictures were expected, {} were drawn", count, result_.frames.size())};
-            verdict = Verdict::different;
-        } else if (const auto* worst = result_.worst()) {
-            result_.picture_lines = {in_words(*worst)};
-        }
-        result_.picture = verdict;
-        for (const auto& [frame, found] : result_.frames) {
-            if (found.verdict == Verdict::identical) continue;
-            result_.new_digest = found.sha256;
-            const auto at = static_cast<std::size_t>(frame);
-            if (!entry_.accepted.empty() && at < entry_.accepted.front().sha256.size())
-                result_.old_digest = entry_.accepted.front().sha256[at];
-            break;
-        }
-    }
-
-    std::string in_words(const std::pair<const long, FrameResult>& worst) const {
-        const std::size_t changed = result_.frames.size() - result_.frames_with(Verdict::identical);
-        if (!worst.second.reference_accepted)
-            return fmt::format("{} is not the picture that was accepted: its digest is not among those of the entry",
-                               (folder_ / picture_name(worst.first)).string());
-        const std::string which = result_.frames.size() > 1
-                                      ? fmt::format("{} of {} pictures changed, most number {}: ", changed,
-                                                    result_.frames.size(), worst.first)
-                                      : "";
-        if (!worst.second.compared)
-            return which + fmt::format("the reference {} is not there", (folder_ / picture_name(worst.first)).string());
-        return which + scenes::in_words(worst.second.comparison);
     }
 
     Accepted digests(const std::string& renderer) const {
@@ -369,14 +237,11 @@ class EntryTest {
     const Baseline& entry_;
     const RegressionOptions& options_;
     EntryResult& result_;
-    output::Manifest& report_files_;
     ReferenceUpdate* update_;
-    Tolerance tolerance_;
-    fs::path folder_;
-    const ReferenceFiles marked_ = marked_files(folder_).value_or(ReferenceFiles{});
-    std::optional<fs::path> fresh_;  // where the new references go
+    const Tolerance tolerance_;
+    EntryReferences references_;
+    EntryPictures pictures_;
     double horizon_ = 0;
-    std::mutex mutex_;  // of result_.frames
 };
 
 // ---- entries that share one motion ----------------------------------------------------------------------
@@ -449,8 +314,9 @@ class Group {
         job.until = request.end_time;
         if (job.test->is_updated()) request.horizon = true;  // some figures ask for it anyway
         job.motion = request.tables.size();
-        if (!job.plan.tables.empty())
-            job.motion = job.plan.tables.front().table;
+        const auto table = std::ranges::find_if(job.plan.data, [](const DataFile& d) { return d.table.has_value(); });
+        if (table != job.plan.data.end())
+            job.motion = *table->table;
         else if (job.test->asks_for_motion())
             request.tables.push_back(motion_behind_picture(scene.problem, job.until));
         if (!job.test->asks_for_motion()) return;

@@ -34,17 +34,8 @@ double memory_of(const Picture& picture) {
     return 0;
 }
 
-const char* type_name(const Output& output) {
-    struct Name {
-        const char* operator()(const VideoOutput&) const { return "video"; }
-        const char* operator()(const FramesOutput&) const { return "frames"; }
-        const char* operator()(const StillOutput&) const { return "still"; }
-        const char* operator()(const FigureOutput&) const { return "figure"; }
-        const char* operator()(const TrajectoryOutput&) const { return "trajectory"; }
-        const char* operator()(const ImpactsOutput&) const { return "impacts"; }
-        const char* operator()(const SummaryOutput&) const { return "summary"; }
-    };
-    return std::visit(Name{}, output);
+bool is_data(const Output& output) {
+    return std::visit([](const auto& o) { return o.kIsData; }, output);
 }
 
 bool FrameSpan::looks_at_impacts() const {

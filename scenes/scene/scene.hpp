@@ -100,34 +100,82 @@ struct FrameSpan {
     bool looks_at_impacts() const;  // they have to be known before the frames' instants are
 };
 
+class Planner;       // plan/planner.hpp
+class SceneVisitor;  // format/keys.hpp
+
+// What decides until when an output looks at the motion: its own keys, the scene's end, or the run of all outputs.
+enum class Extent { keys, scene, run };
+
+// The types of outputs. Each is complete in a file of its own (outputs/): `visit` names its keys, `plan` says what it
+// needs of the motion and how its file is written. A new type is such a file, a struct here, and a line in Output.
+
 struct VideoOutput : Picture {
-    std::string file;  // relative to the output directory, as in every output
+    static constexpr const char *kType = "video", *kMeaning = "A film; the ending of its name decides the format.";
+    static constexpr bool kIsData = false;  // holds numbers alone: the scene's title is not in it
+    std::string file;                       // relative to the output directory, as in every output
     FrameSpan span;
     Encoding encoding;
+
+    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;  // `output`: its index in the scene
 };
 struct FramesOutput : Picture {
+    static constexpr const char *kType = "frames", *kMeaning = "A sequence of PNG files.";
+    static constexpr bool kIsData = false;
     std::string file;  // with one run of '#', replaced by the frame number
     FrameSpan span;
+
+    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 struct StillOutput : Picture {
+    static constexpr const char *kType = "still", *kMeaning = "One picture.";
+    static constexpr bool kIsData = false;
     std::string file;
     Instant at;
+
+    Extent extent() const { return at.kind == Instant::Kind::time ? Extent::keys : Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 struct TrajectoryOutput {
+    static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
+    static constexpr bool kIsData = true;
     std::string file;                    // .csv or .npz
     std::vector<sim::Channel> channels;  // in this order; the time comes first in any case
     double rate = 1000;                  // [Hz], rows k/rate and the end; unless there are times
     std::vector<double> times;           // [s], rows in this order
+
+    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 struct ImpactsOutput {
+    static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
+    static constexpr bool kIsData = true;
     std::string file;  // .json or .csv
+
+    Extent extent() const { return Extent::run; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 struct SummaryOutput {
+    static constexpr const char *kType = "summary", *kMeaning = "Counts, extremes, energy balance, warnings.";
+    static constexpr bool kIsData = true;
     std::string file;  // .json
     bool horizon = false;
+
+    Extent extent() const { return Extent::run; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 enum class Lang { en, zh };
 struct FigureOutput {
+    static constexpr const char *kType = "figure",
+                                *kMeaning = "A figure for print: one of those that `beamcam figure SCENE` lists.";
+    static constexpr bool kIsData = false;
     std::string file;                 // .pdf, .svg or .png
     std::string figure;               // its name, see figures/recipes.hpp
     std::string column = "elsevier";  // a journal's, see render/plot/style.hpp
@@ -135,6 +183,10 @@ struct FigureOutput {
     Lang lang = Lang::en;
     double dpi = 300;                     // of .png
     std::string data_file, caption_file;  // beside it; only the command line asks for them
+
+    Extent extent() const { return Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
 };
 using Output =
     std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
@@ -146,7 +198,7 @@ constexpr double kMuchMemory = 1e9;
 const std::string& file_of(const Output& output);
 std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
 std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
-const char* type_name(const Output& output);                // "video", "frames", …
+bool is_data(const Output& output);
 
 struct Scene {
     std::string name = "scene";  // the file's name without its ending

@@ -1,0 +1,199 @@
+// Outputs "video", "frames" and "still": pictures of the mechanism and its charts.
+#include "output/film/video_format.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/plan/planner.hpp"
+
+namespace beamcam::scenes {
+
+namespace dim = sim::dimension;
+using sim::between, sim::kNotNegative, sim::Named, sim::Range, sim::required, sim::written_if;
+
+// ---- how pictures look -------------------------------------------------------------------------
+
+static void visit(SceneVisitor& v, render::Orbit& orbit) {
+    // Further round, beam and cam hide each other.
+    constexpr Range kVisible = between(-1.2, 1.2, "is outside −1.2 … 1.2 rad, from where the mechanism can be seen");
+    v.number("yaw", orbit.yaw, dim::kAngle, kVisible, "Angle to the right of the plane of motion.");
+    v.number("pitch", orbit.pitch, dim::kAngle, kVisible, "Angle above the horizontal.");
+    v.number("swing", orbit.swing, dim::kAngle, kVisible,
+             "Amplitude of the yaw: over a film the camera swings once to either side and back.");
+}
+
+static void visit(SceneVisitor& v, render::View& view) {
+    using render::Style, render::TraceColor;
+    v.choice("style", view.style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
+             "lit: shaded metal from the front, by OpenGL; flat: a clean drawing; solid: bodies in perspective with "
+             "shadows, by OpenGL.");
+    v.choice("trace", view.trace, {{TraceColor::force, "force"}, {TraceColor::age, "age"}},
+             "What colours the trace of the contact on the disc: the largest force, or the time since the last touch.");
+    v.choice("tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
+             "recent: the tip's path over the last frames of a film; whole: all of it since the film's first instant, "
+             "in a still since the motion's start.");
+    v.object(written_if(view.style == Style::solid, "camera"), view.orbit, "Camera of the solid view.");
+    v.check([&view](ObjectReader& r) { warn_of_unused_camera(r, view); });
+    v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
+             between(1, 1e6, "is outside 1 (true shape) … 1e6"),
+             "Factor on the deflection, stated on the picture; 1 is the true shape. auto picks a round one by the "
+             "motion over the time that a film shows (whatever its frame rate), that a scene lasts (stills at impacts) "
+             "or that leads to a still of an instant.",
+             "auto");
+}
+
+static void visit_picture(SceneVisitor& v, Picture& picture) {
+    using render::Theme, render::Comparison;
+    v.object("view", picture.view, "How the mechanism is seen.");
+    v.choice("theme", picture.view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
+             "Colours.");
+    v.choice("background", picture.view.transparent, {{false, "paper"}, {true, "transparent"}},
+             "transparent: no paper behind the picture, where the format can.");
+    v.form("size", size_form(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
+    v.either(
+        "layout", layout_form(picture.layout),
+        [&picture](sim::Visitor& inside) {
+            if (!picture.layout) picture.layout.emplace();
+            visit(static_cast<SceneVisitor&>(inside), *picture.layout);
+        },
+        "auto, a panel, or a grid: {\"columns\": [{\"panel\": \"mechanism\", \"share\": 2}, {\"rows\": [\"theta\", "
+        "\"contact_force\", \"close-up\"]}]}.");
+    v.choice(written_if(!picture.compare.empty(), "comparison"), picture.comparison,
+             {{Comparison::panels, "panels"}, {Comparison::ghosts, "ghosts"}},
+             "panels: each motion in a mechanism of its own; ghosts: all in one, those after the first as outlines.");
+    List compare = SceneVisitor::items_of(picture.compare);
+    compare.least = 2, compare.most = kMostCompared, compare.of = "motions";
+    compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
+    v.list("compare", compare,
+           "The motions that the picture shows, aligned in time: this scene's mechanics, or another scene's, with "
+           "changes. The first is the main one.");
+    v.check([&picture](ObjectReader& r) { judge_picture(r, picture); });
+}
+
+// ---- how time runs in films --------------------------------------------------------------------
+
+static void visit(SceneVisitor& v, Speed& speed) {
+    if (!speed.around) speed.around.emplace();
+    SlowMotion& slow = *speed.around;
+    const auto fields = [&](sim::Visitor& inside) {
+        inside.number("factor", slow.factor, dim::kNone, kSpeedRange, "Speed there.");
+        inside.number("otherwise", speed.factor, dim::kNone, kSpeedRange, "Speed elsewhere.");
+        inside.number("before", slow.before, dim::kTime, kNotNegative, "Slow from so long before the first touch.");
+        inside.number("after", slow.after, dim::kTime, kNotNegative, "Slow until so long after the release.");
+        inside.number("ease", slow.ease, dim::kTime, kNotNegative,
+                      "Time of the motion in which one speed becomes the other.");
+    };
+    v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", true, fields}});
+}
+
+static void visit(SceneVisitor& v, FilmEvent& event) {
+    v.form(required("at", "\"impact:1\""), instant_form(event.at), "When.");
+    v.number("freeze", event.freeze, dim::kTime, kNotNegative,
+             "The picture stands still for so long, in the film's time.");
+    v.text("text", event.text, "Words beside the contact.");
+    v.number("show", event.show, dim::kTime, kNotNegative,
+             "How long the words are shown, in the film's time; at least as long as the picture stands still.");
+}
+
+static void visit_span(SceneVisitor& v, FrameSpan& span) {
+    v.form("fps", frame_rate_form(span.fps),
+           "Frames a second, 0.1 to 1000, or a fraction such as \"30000/1001\"; 29.97 means that one.");
+    v.number("from", span.from, dim::kTime, kFromStart, "First instant.");
+    v.number("to", span.to, dim::kTime, kFromStart, "Last instant; the end of the scene when left out.");
+    v.either(
+        "speed", speed_form(span.speed),
+        [&span](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), span.speed); },
+        "How fast time runs: a factor, 1 is real time; \"impacts\": slow motion around them, or an object that says "
+        "how "
+        "slow.");
+    v.list("events", SceneVisitor::items_of(span.events),
+           "What the film does at instants: it stands still, or says something at the contact.");
+}
+
+// ---- the outputs -------------------------------------------------------------------------------
+
+void VideoOutput::visit(SceneVisitor& v) {
+    using output::Codec;
+    static const std::vector<Named<Codec>> kCodecs = [] {
+        std::vector<Named<Codec>> all;
+        for (const Codec codec :
+             {Codec::h264, Codec::vp9, Codec::av1, Codec::prores, Codec::ffv1, Codec::gif, Codec::apng, Codec::webp})
+            all.push_back({codec, output::name(codec)});
+        return all;
+    }();
+    v.form("file", file_form(file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}),
+           "Name of the film; the scene's name with .mp4 when left out.");
+    v.check([this](ObjectReader& r) { take_usual_codec(r, *this); });
+    visit_picture(v, *this);
+    visit_span(v, span);
+    v.form(
+        "poster", instant_form(span.poster),
+        "The frame at this instant, or the first after it, is also put beside the film as a picture: fall.png beside "
+        "fall.mp4. A time outside the film stands for its nearest frame.");
+    v.choice(sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
+             "Codec; by the ending when left out: .mp4 h264 (or av1), .webm vp9 (av1), .mov prores (h264), .mkv ffv1 "
+             "(h264, vp9, av1).");
+    v.whole("crf", encoding.crf, 0, 63,
+            "Quality of h264 (to 51), vp9 and av1: 0 is best; 18, 24 and 26 look lossless and are the defaults.");
+    v.choice(written_if(encoding.codec == Codec::h264, "preset"), encoding.preset,
+             {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
+             "x264's trade of time for size; of h264 alone.");
+    v.choice(
+        written_if(encoding.variable_rate, "rate_mode"), encoding.variable_rate,
+        {{false, "constant"}, {true, "variable"}},
+        "variable: a picture that does not change is coded once and lasts longer, up to 5 s; players show the same, "
+        "some editors want a constant rate. Parts (--shard, --frames) are constant.");
+    v.check([this](ObjectReader& r) { judge_video(r, *this); });
+}
+
+void FramesOutput::visit(SceneVisitor& v) {
+    v.form("file", numbered_file_form(file),
+           "Name of the files with #### for the frame number; the scene's name with -####.png when left out.");
+    visit_picture(v, *this);
+    visit_span(v, span);
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, "-####.png");
+        judge_span(r, span);
+    });
+}
+
+void StillOutput::visit(SceneVisitor& v) {
+    v.form("file", file_form(file, {".png"}), "Name of the file; the scene's name with .png when left out.");
+    visit_picture(v, *this);
+    v.form(required("at", "\"370 ms\""), instant_form(at), "The instant that it shows.");
+    v.check([this](ObjectReader& r) { name_after_scene(r, file, ".png"); });
+}
+
+namespace {
+
+template <class Output>
+Pictures pictures(Pictures::Kind kind, const Output& output, std::size_t index) {
+    Pictures p;
+    p.kind = kind;
+    p.output = index;
+    p.file = output.file;
+    p.picture = output;
+    return p;
+}
+
+}  // namespace
+
+void VideoOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p = pictures(Pictures::Kind::video, *this, output);
+    p.span = span;
+    p.encoding = encoding;
+    if (span.poster) p.poster_file = poster_file(*this);
+    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
+}
+
+void FramesOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p = pictures(Pictures::Kind::frames, *this, output);
+    p.span = span;
+    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
+}
+
+void StillOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p = pictures(Pictures::Kind::still, *this, output);
+    p.at = at;
+    planner.add(std::move(p), at.kind == Instant::Kind::time ? at.t : planner.scene().end_time);
+}
+
+}  // namespace beamcam::scenes

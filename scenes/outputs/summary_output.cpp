@@ -1,0 +1,35 @@
+// Output "summary": counts, extremes, energy balance and warnings of the run, and what was done for all outputs.
+#include "output/data/records.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/plan/planner.hpp"
+
+namespace beamcam::scenes {
+
+void SummaryOutput::visit(SceneVisitor& v) {
+    v.form("file", file_form(file, {".json"}), "Name of the file; the scene's name with -summary.json when left out.");
+    v.truth("horizon", horizon,
+            "State during which intervals the motion is reproducible; costs a second run, by another method.");
+    v.check([this](ObjectReader& r) { name_after_scene(r, file, "-summary.json"); });
+}
+
+void SummaryOutput::plan(Planner& planner, std::size_t output) const {
+    const auto write = [](const DataSource& from) {
+        const std::vector<sim::Channel>& extrema = from.request.extrema;
+        if (from.file)
+            output::write_summary(*from.file, from.problem, from.run, extrema, &from.work);
+        else
+            output::print_json(output::summary_json(from.problem, from.run, extrema, &from.work));
+        return from.run.reproducibility;
+    };
+    planner.look_until(planner.run_end(), file);
+    planner.request().turning_points = true;
+    if (planner.request().extrema.empty())
+        for (const sim::Channel& channel : all_channels(planner.scene().problem))
+            if (channel.kind != sim::ChannelKind::t) planner.request().extrema.push_back(channel);
+    if (horizon) planner.ask_for_horizon();
+    planner.add(DataFile{.output = output, .file = file, .stage = "summary", .write = write, .tells_of_work = true});
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,64 @@
+// Output "trajectory": a table of channels against time, as CSV or NPZ.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "output/data/tables.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/plan/planner.hpp"
+#include "scenes/scene/film_times.hpp"
+
+namespace beamcam::scenes {
+
+namespace dim = sim::dimension;
+
+void TrajectoryOutput::visit(SceneVisitor& v) {
+    v.form("file", file_form(file, {".csv", ".npz"}), "Name of the file; the scene's name with .csv when left out.");
+    v.form("channels", channels_form(channels),
+           "Columns in this order; the time always comes first. All when left out.");
+    v.number(sim::written_if(times.empty(), "rate"), rate, dim::kFrequency, sim::kPositive,
+             "Rows at k/rate, and at the end.");
+    v.numbers("times", times, dim::kTime, kFromStart, {1}, "Exactly these rows, in this order.");
+    v.exclude("rate", "times");
+    v.check([this](ObjectReader& r) { judge_table(r, *this); });
+}
+
+namespace {
+
+std::string write_table(const DataSource& from, const sim::Table& table) {
+    if (from.file) {
+        output::write_table(*from.file, table);
+    } else {
+        output::write_csv(std::cout, table);
+        output::flush_data();
+    }
+    return fmt::format("{} rows", table.rows());
+}
+
+}  // namespace
+
+void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
+    const Scene& scene = planner.scene();
+    std::vector<sim::Channel> columns = channels.empty() ? all_channels(scene.problem) : channels;
+    const sim::Channel t{sim::ChannelKind::t, 0};
+    if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
+    std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
+    planner.look_until(*std::ranges::max_element(instants), file);
+
+    Node names = array_node();
+    for (const sim::Channel& channel : columns) names.items.push_back(text_node(name(channel)));
+    DataFile data{output, file, "table", {}};
+    data.content = fmt::format("{} rows of {} channels", instants.size(), columns.size());
+    data.numbers = instants.size() * columns.size();
+    add(data.details, "rows", integer_node(static_cast<long>(instants.size())));
+    add(data.details, "channels", std::move(names));
+    const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
+    data.table = index;
+    data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };
+    planner.add(std::move(data));
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,93 @@
+#include "scenes/plan/picture_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/base/error.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// A still of an instant is chosen by what led to it; one of an impact, which is found in the whole motion, by that.
+double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
+
+// Slow around the impacts of all that is shown; "impact:N" counts those of the first.
+FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
+    const sim::Result first = find(p.compared.front().problem, p.end_time);
+    std::vector<sim::Impact> all = first.impacts;
+    for (std::size_t i = 1; i < p.compared.size(); ++i) {
+        const sim::Result other = find(p.compared[i].problem, p.end_time);
+        all.insert(all.end(), other.impacts.begin(), other.impacts.end());
+    }
+    std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
+    return p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
+                                           : film_times(p.span, p.end_time, first, all);
+}
+
+}  // namespace
+
+FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
+    return p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p), p.collisions)
+                                           : film_times(p.span, p.end_time, motion, p.collisions);
+}
+
+void choose_frames(Pictures& p, const FilmTimes& times) {
+    p.first_frame = times.first;
+    const auto count = static_cast<long>(times.frames.size());
+    const long begin = p.first_frame, end = begin + count;
+    long from = begin, to = end;
+    if (p.kind != Pictures::Kind::still && p.ask.frames) {
+        from = std::max(begin, p.ask.frames->first);
+        to = std::min(end, p.ask.frames->second);
+    } else if (p.kind != Pictures::Kind::still && p.ask.shards > 1) {
+        from = begin + count * (p.ask.shard - 1) / p.ask.shards;
+        to = begin + count * p.ask.shard / p.ask.shards;
+    }
+    if (p.kind == Pictures::Kind::video && (from > begin || to < end))
+        p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);
+    p.draw.clear();
+    for (long k = from; k < to; ++k)
+        if (!p.there.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
+}
+
+void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
+    choose_frames(p, times);
+    p.speeds = std::move(times.speeds);
+    p.callouts = std::move(times.callouts);
+    p.unshown = std::move(times.unshown);
+    p.poster = times.poster;
+    for (ComparedMotion& other : p.compared) {
+        other.request.poses.front().times = times.frames;
+        other.request.poses.back().times = times.survey;
+        other.request.tables.front().times = times.chart;
+        if (other.problem.cam) other.request.tables[1].times = times.trace;
+    }
+    if (!p.compared.empty()) return;
+    request.poses[p.poses].times = std::move(times.frames);
+    request.poses[p.survey].times = std::move(times.survey);
+    request.tables[p.chart].times = std::move(times.chart);
+    if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
+}
+
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
+    std::optional<sim::Result> own;
+    sim::Request none;
+    for (Pictures& p : plan.pictures) {
+        if (p.settled) continue;
+        const bool compares = !p.compared.empty();
+        if (!compares && !own) own = find(scene.problem, *plan.impacts_until);
+        try {
+            put_times(p, compares ? none : plan.simulation->request,
+                      compares ? times_of_compared(p, find) : times_of(p, *own));
+            p.settled = true;
+        } catch (const render::PictureError& error) {
+            if (!refuse) throw;
+            refuse(p, error.what());
+        }
+    }
+    std::erase_if(plan.pictures, [](const Pictures& p) { return !p.settled; });
+    plan.impacts_until.reset();
+}
+
+}  // namespace beamcam::scenes

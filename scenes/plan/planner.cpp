@@ -1,0 +1,265 @@
+#include "scenes/plan/planner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/motions/motions.hpp"
+#include "scenes/plan/picture_times.hpp"
+#include "sim/observe/observe.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using sim::ChannelKind;
+
+const std::vector<sim::Channel> kTraceChannels = {
+    {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
+
+std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& problem) {
+    if (p.picture.layout) return render::panels_of(*p.picture.layout);
+    const sim::Problem* shown = p.picture.compare.empty() ? &problem : &p.picture.compare.front().problem;
+    for (const Compared& each : p.picture.compare)
+        if (!shown->cam) shown = &each.problem;
+    return render::standard_panels(*shown, is_slow_motion(p));
+}
+
+std::string too_small(const Picture& picture) {
+    std::string out;
+    if (!picture.layout) return out;
+    for (const render::PanelSpec& panel : render::left_out(picture.size.width, picture.size.height, *picture.layout))
+        out += (out.empty() ? "" : ", ") +
+               (panel.channels.empty() ? std::string(render::name(panel.kind)) : name(panel.channels.front()));
+    return out;
+}
+
+// One collision after the other, which takes more rows than the whole time does.
+bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
+    return p.picture.compare.empty() && problem.cam &&
+           std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
+}
+
+sim::PoseRequest survey() {
+    sim::PoseRequest request;
+    request.contacts = 400;  // ten collisions of a flexible beam: the hardest are among them, since each takes energy
+    return request;
+}
+
+// What a phase panel draws of the chart's table.
+std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vector<render::PanelSpec>& panels) {
+    if (std::ranges::none_of(panels, [](const auto& panel) { return panel.kind == render::PanelKind::phase; }))
+        return std::nullopt;
+    return std::pair{sim::Channel{ChannelKind::theta, 0}, sim::Channel{ChannelKind::theta_dot, 0}};
+}
+
+// Films and sequences are what shards share.
+bool is_shared(const Output& output) {
+    return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output);
+}
+
+}  // namespace
+
+Planner::Planner(const Scene& scene, const Ask& ask, const Known& known)
+    : scene_(scene), ask_(ask), known_(known), own_key_(Studies::key(scene.problem)) {
+    simulation_.request.turning_points = false;
+}
+
+Plan Planner::make() {
+    for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
+        const Output& output = scene_.outputs[i];
+        if (known_.finished.contains(i)) {
+            ++finished_;
+            skip(file_of(output), "it is there already, made from the same inputs");
+        } else if (ask_.shard > 1 && !is_shared(output)) {
+            skip(file_of(output), "the first shard makes it");
+        } else {
+            std::visit([&](const auto& wanted) { wanted.plan(*this, i); }, output);
+        }
+    }
+    if (needed_) finish_simulation();
+    for (Variant& variant : plan_.variants) {
+        const auto kept = known_.variants_kept.find(Studies::key(variant.problem));
+        settle_cache(variant.simulation,
+                     kept == known_.variants_kept.end() ? std::nullopt : std::optional(kept->second));
+    }
+    // In the order of the types.
+    std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
+    note_skipped();
+    return std::move(plan_);
+}
+
+void Planner::finish_simulation() {
+    const double end = simulation_.request.end_time;
+    for (Pictures& p : plan_.pictures) {
+        if (!p.compared.empty() || !(p.end_time < end)) continue;
+        std::vector<double>& ends = simulation_.ends;
+        const auto at = std::find(ends.begin(), ends.end(), p.end_time);
+        p.until = static_cast<std::size_t>(at - ends.begin());
+        if (at == ends.end()) ends.push_back(p.end_time);
+    }
+    simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
+    for (const sim::Request& of_figure : figures_ask_)
+        simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
+    settle_cache(simulation_, known_.kept_until);
+    plan_.simulation = std::move(simulation_);
+}
+
+// `keep` says so far whether it is worth it.
+void Planner::settle_cache(Simulation& simulation, std::optional<double> kept_until) const {
+    simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time;
+    simulation.keep = simulation.keep && known_.keeps && !simulation.from_cache;
+}
+
+// ---- what outputs need -------------------------------------------------------------------------
+
+double Planner::run_end() const { return std::max(scene_.end_time, known_.until); }
+
+void Planner::look_until(double t, const std::string& file) {
+    needed_ = true;
+    if (t > simulation_.request.end_time || simulation_.until_because.empty()) {
+        simulation_.request.end_time = std::max(t, simulation_.request.end_time);
+        simulation_.until_because = file;
+    }
+}
+
+std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Channel> channels) {
+    simulation_.request.tables.push_back({std::move(times), std::move(channels)});
+    return simulation_.request.tables.size() - 1;
+}
+
+void Planner::add(Pictures p, double ends) {
+    p.end_time = ends;
+    p.ask = ask_;
+    if (const auto there = known_.frames.find(p.output); there != known_.frames.end()) p.there = there->second;
+    if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
+    const bool still = p.kind == Pictures::Kind::still;
+    p.collisions = shows_collisions(p, scene_.problem);
+    p.settled = !p.collisions && (still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts());
+    p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
+    p.too_small = too_small(p.picture);
+    if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));
+    FilmTimes times;
+    if (p.settled) {
+        times = times_of(p, {});
+        choose_frames(p, times);
+        note_left_frames(p, times.frames.size());
+        if (p.draw.empty()) return;
+    }
+    if (p.picture.compare.empty())
+        add_own_motion(p, ends);
+    else
+        add_compared(p);
+    if (p.settled)
+        put_times(p, simulation_.request, std::move(times));
+    else
+        plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), ends);
+    plan_.pictures.push_back(std::move(p));
+}
+
+void Planner::add_own_motion(Pictures& p, double ends) {
+    sim::Request& request = simulation_.request;
+    look_until(ends, p.file);
+    p.poses = request.poses.size();
+    request.poses.push_back({});
+    p.survey = request.poses.size();
+    request.poses.push_back(survey());
+    p.chart = add_table({}, p.chart_channels);
+    request.tables[p.chart].curve = drawn_curve(panels_of(p, scene_.problem));
+    if (scene_.problem.cam) p.trace = add_table({}, kTraceChannels);
+}
+
+void Planner::add_compared(Pictures& p) {
+    for (const Compared& each : p.picture.compare) {
+        ComparedMotion motion{each.label, each.problem, {}, {}};
+        motion.request.end_time = p.end_time;
+        motion.request.turning_points = false;
+        motion.request.poses = {{}, survey()};
+        motion.request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
+        if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
+        p.compared.push_back(std::move(motion));
+    }
+}
+
+void Planner::add(FigureFile figure) {
+    for (Study& study : figure.studies) add_study(study, figure.file);
+    plan_.figures.push_back(std::move(figure));
+}
+
+// A figure's run joins others of its motion.
+void Planner::add_study(Study& study, const std::string& file) {
+    const std::string key = Studies::key(study.problem);
+    study.of_scene = key == own_key_;
+    if (study.of_scene) {
+        look_until(end_of(study.request), file);
+        figures_ask_.push_back(study.request);
+        simulation_.horizon = simulation_.horizon || study.request.horizon;
+        return;
+    }
+    auto same = std::ranges::find_if(plan_.variants,
+                                     [&](const Variant& variant) { return Studies::key(variant.problem) == key; });
+    if (same == plan_.variants.end()) {
+        plan_.variants.push_back({study.problem, {}});
+        same = plan_.variants.end() - 1;
+    }
+    Simulation& all = same->simulation;
+    if (all.until_because.empty() || end_of(study.request) > all.request.end_time) {
+        all.request.end_time = std::max(all.request.end_time, end_of(study.request));
+        all.until_because = file;
+    }
+    all.horizon = all.horizon || study.request.horizon;
+    all.keep = all.keep || worth_keeping(study.problem, study.request);
+}
+
+// ---- what is skipped ---------------------------------------------------------------------------
+
+void Planner::note_left_frames(const Pictures& p, std::size_t count) {
+    if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.there.size() < count))
+        skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.there.size(), count, p.file),
+             p.ask.frames ? "outside the frames asked for" : "other shards draw them");
+    if (!p.there.empty())
+        skip(fmt::format("{} frames of {}", p.there.size(), p.file),
+             "they are there already, made from the same inputs");
+}
+
+void Planner::note_skipped() {
+    const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
+    if (!needed_ && !compares && !plan_.variants.empty())
+        return skip("simulation of the scene itself", "its figures look at variants of it");
+    if (!needed_)
+        return skip(compares ? "simulation of the scene itself" : "simulation",
+                    compares        ? "only compared motions are shown"
+                    : finished_ > 0 ? "everything is there already"
+                                    : "no output looks at the motion");
+    const double end = plan_.simulation->request.end_time;
+    if (end < scene_.end_time)
+        skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");
+    if (!scene_.problem.cam) skip("contact", "the scene has no cam");
+    if (plan_.simulation->from_cache) skip("integration", "the motion is kept from an earlier run");
+    note_unread_channels();
+    if (plan_.pictures.empty())
+        skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");
+    else if (!plan_.needs_gl())
+        skip("OpenGL", "every view is flat");
+    if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
+    if (!plan_.simulation->request.turning_points) skip("extrema and turning points", "no output is a summary");
+    if (!plan_.simulation->horizon) skip("second run for the reproducible horizon", "nothing asks for it");
+}
+
+void Planner::note_unread_channels() {
+    const std::vector<sim::Channel> every = all_channels(scene_.problem);
+    auto read = [&](const sim::Channel& channel) {
+        const sim::Request& request = plan_.simulation->request;
+        auto holds = [&](const std::vector<sim::Channel>& some) {
+            return std::find(some.begin(), some.end(), channel) != some.end();
+        };
+        const auto in_tables = [&](const sim::Request& some) {
+            return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
+        };
+        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(figures_ask_, in_tables);
+    };
+    const auto unread = std::count_if(every.begin(), every.end(),
+                                      [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
+    if (unread > 0) skip(fmt::format("{} of {} channels", unread, every.size() - 1), "no output reads them");
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,53 @@
+// Collects what the outputs of a scene need of its one simulation. Each type of output adds its own (outputs/).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/plan/plan.hpp"
+
+namespace beamcam::scenes {
+
+class Planner {
+  public:
+    Planner(const Scene& scene, const Ask& ask, const Known& known);
+    Plan make();
+
+    // ---- for the types of outputs ----
+
+    const Scene& scene() const { return scene_; }
+    // Where the run of all outputs ends, finished ones too.
+    double run_end() const;
+    // The scene's motion is needed until `t` [s], because of `file`.
+    void look_until(double t, const std::string& file);
+    std::size_t add_table(std::vector<double> times, std::vector<sim::Channel> channels);  // its index
+    sim::Request& request() { return simulation_.request; }
+    void ask_for_horizon() { simulation_.request.horizon = simulation_.horizon = true; }
+
+    void add(Pictures p, double ends);  // `ends`: the latest instant that the pictures can look at [s]
+    void add(FigureFile figure);
+    void add(DataFile data) { plan_.data.push_back(std::move(data)); }
+
+  private:
+    void finish_simulation();
+    void settle_cache(Simulation& simulation, std::optional<double> kept_until) const;
+    void add_study(Study& study, const std::string& file);
+    void add_own_motion(Pictures& p, double ends);
+    void add_compared(Pictures& p);
+    void note_left_frames(const Pictures& p, std::size_t count);
+    void note_skipped();
+    void note_unread_channels();
+    void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
+
+    const Scene& scene_;
+    const Ask& ask_;
+    const Known& known_;
+    Plan plan_;
+    Simulation simulation_;
+    const std::string own_key_;
+    std::vector<sim::Request> figures_ask_;  // of the scene's motion
+    bool needed_ = false;
+    int finished_ = 0;
+};
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,134 @@
+#include "scenes/regression/entry_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/sha256.hpp"
+#include "output/image/png.hpp"
+#include "output/image/png_reader.hpp"
+
+namespace beamcam::scenes {
+
+namespace fs = std::filesystem;
+
+std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
+
+// Folders that were made before there were markers tell nothing.
+bool EntryReferences::is_as_marked(const std::string& name) const {
+    const ReferenceFile* file = marked(name);
+    return marked_.empty() || (file && output::sha256_of_file(folder / name) == file->sha256);
+}
+
+void EntryPictures::judge(long frame, const render::Image& image) {
+    thread_local output::Raster raster;
+    output::to_raster(image, raster);
+    FrameResult found;
+    found.sha256 = output::digest(raster);
+    const bool accepted = is_accepted(frame, found.sha256);
+    if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
+    references_.read([&] {
+        if (!accepted)
+            compare_with_reference(frame, raster, found);
+        else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
+            found.verdict = Verdict::different;
+    });
+    if (references_.fresh) output::write_png(*references_.fresh / picture_name(frame), image);
+    const std::lock_guard lock(mutex_);
+    result_.frames[frame] = std::move(found);
+}
+
+bool EntryPictures::is_accepted(long frame, const std::string& digest) const {
+    return std::any_of(entry_.accepted.begin(), entry_.accepted.end(), [&](const Accepted& accepted) {
+        const auto at = static_cast<std::size_t>(frame);
+        return at < accepted.sha256.size() && accepted.sha256[at] == digest;
+    });
+}
+
+// The reference picture belongs to one of the accepted digests, or there is none.
+bool EntryPictures::is_reference_accepted(long frame) const {
+    const std::string name = picture_name(frame);
+    if (!output::is_there(references_.folder / name)) return true;
+    const ReferenceFile* file = references_.marked(name);
+    const bool as_marked = file && output::sha256_of_file(references_.folder / name) == file->sha256;
+    return is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(references_.folder / name)));
+}
+
+void EntryPictures::compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
+    const fs::path reference = references_.folder / picture_name(frame);
+    if (!output::is_there(reference)) return write_actual(frame, actual, found);
+    const output::Raster expected = output::read_png(reference);
+    found.expected = reference;
+    found.compared = true;
+    found.reference_accepted = entry_.accepted.empty() || is_accepted(frame, output::digest(expected));
+    found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
+    const bool near =
+        found.comparison.same_size() && found.comparison.difference.share() <= tolerance_.share.value_or(0);
+    if (near && found.reference_accepted && !entry_.accepted.empty()) found.verdict = Verdict::equivalent;
+    write_difference(frame, expected, actual, found);
+}
+
+void EntryPictures::write_actual(long frame, const output::Raster& actual, FrameResult& found) {
+    if (!report_) return;
+    found.actual = put(frame, "actual", actual);
+}
+void EntryPictures::write_difference(long frame, const output::Raster& expected, const output::Raster& actual,
+                                     FrameResult& found) {
+    if (!report_) return;
+    found.actual = put(frame, "actual", actual);
+    if (!found.comparison.same_size()) return;
+    const int threshold = found.comparison.difference.changed > 0 ? tolerance_.channel.value_or(0) : 0;
+    found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
+}
+fs::path EntryPictures::put(long frame, const char* what, const output::Raster& picture) {
+    fs::path file = *report_ / entry_.name / fmt::format("{:04}-{}.png", frame, what);
+    const std::string bytes = output::encode_png(output::to_image(picture));
+    output::require_within(file, *report_);
+    output::ensure_directory(file.parent_path());
+    output::Target target = report_files_.target(file);
+    target.within = *report_;
+    output::write_file(target, bytes, output::Durability::buffered);
+    return file;
+}
+
+void EntryPictures::conclude() {
+    Verdict verdict = Verdict::identical;
+    for (const auto& [frame, found] : result_.frames) verdict = worse(verdict, found.verdict);
+    if (entry_.accepted.empty()) {
+        result_.picture_lines = {
+            fmt::format("no digest is accepted yet; look at the picture and --update {}", entry_.name)};
+        verdict = Verdict::missing;
+    } else if (const std::size_t count = entry_.accepted.front().sha256.size(); count != result_.frames.size()) {
+        result_.picture_lines = {fmt::format("{} pictures were expected, {} were drawn", count, result_.frames.size())};
+        verdict = Verdict::different;
+    } else if (const auto* worst = result_.worst()) {
+        result_.picture_lines = {in_words(*worst)};
+    }
+    result_.picture = verdict;
+    for (const auto& [frame, found] : result_.frames) {
+        if (found.verdict == Verdict::identical) continue;
+        result_.new_digest = found.sha256;
+        const auto at = static_cast<std::size_t>(frame);
+        if (!entry_.accepted.empty() && at < entry_.accepted.front().sha256.size())
+            result_.old_digest = entry_.accepted.front().sha256[at];
+        break;
+    }
+}
+
+std::string EntryPictures::in_words(const std::pair<const long, FrameResult>& worst) const {
+    const std::size_t changed = result_.frames.size() - result_.frames_with(Verdict::identical);
+    if (!worst.second.reference_accepted)
+        return fmt::format("{} is not the picture that was accepted: its digest is not among those of the entry",
+                           (references_.folder / picture_name(worst.first)).string());
+    const std::string which =
+        result_.frames.size() > 1
+            ? fmt::format("{} of {} pictures changed, most number {}: ", changed, result_.frames.size(), worst.first)
+            : "";
+    if (!worst.second.compared)
+        return which +
+               fmt::format("the reference {} is not there", (references_.folder / picture_name(worst.first)).string());
+    return which + scenes::in_words(worst.second.comparison);
+}
+
+}  // namespace beamcam::scenes
