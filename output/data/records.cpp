@@ -199,6 +199,8 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     json["modes"] = problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes;
     json["end_time"] = result.end_time;
     json["steps"] = result.counters.steps;
+    Json& steps = json["steps_by_method"] = Json::object();
+    for (const auto& [method, count] : result.steps_by_method) steps[std::string(sim::name(method))] = count;
     json["rhs_evaluations"] = result.counters.rhs_evaluations;
     json["wall_seconds"] = result.wall_seconds;
     Json& zeros = json["events"]["theta_zero"] = Json::array();

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "sim/base/numerics.hpp"
+#include "sim/integrate/collocation.hpp"
 #include "sim/observe/warnings.hpp"
 
 namespace beamcam::sim {
@@ -20,6 +21,8 @@ constexpr int kExtremePieces = 100;
 constexpr std::size_t kMostPeaks = 4;
 constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
 constexpr double kNoHigher = 1e-9;  // … by this share
+// The rise of a peak above its sample over that of the parabola: 1.09 for a vibration with 1.5 samples a radian.
+constexpr double kSteeper = 1.1;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
 constexpr int kContactSteps = 4;
@@ -28,9 +31,10 @@ constexpr int kContactSteps = 4;
 // exceed `best`. A parabola rises above its highest sample by at most an eighth of the second difference;
 // twice that is looked into. At the ends of a stretch, which bracket nothing, a look a little inside
 // tells whether f rises there. Of a vibration's many peaks those are looked into whose parabolas rise highest; once
-// `vain` of them were no higher than the best, only those that promise to be.
+// `vain` of them were no higher than the best, only those that promise to be. Returns whether all that
+// promise to exceed `best` were looked into.
 template <class F, class Time, class Offer>
-void each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, long& vain, Offer&& offer) {
+bool each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, long& vain, Offer&& offer) {
     const auto look = [&](double a, double b) {
         const double before = best;
         const auto [t, value] = find_peak(f, a, b);
@@ -45,8 +49,8 @@ void each_maximum(F&& f, Time&& time, const double* values, int count, const dou
     const auto may_exceed = [&](int i) { return bend_at(i) > 0 && values[i] + 0.25 * bend_at(i) > best; };
     for (const int end : {0, count}) {
         const int other = end == 0 ? 1 : count - 1;
-        if (!may_exceed(end) || !(values[end] >= values[other]) || !promises(values[end] + 0.125 * bend_at(end)))
-            continue;
+        if (!may_exceed(end) || !(values[end] >= values[other])) continue;
+        if (!promises(values[end] + kSteeper * 0.125 * bend_at(end))) continue;
         const double inside = time(end) + 1e-3 * (time(other) - time(end));
         if (f(inside) > values[end]) look(std::min(time(end), time(other)), std::max(time(end), time(other)));
     }
@@ -58,15 +62,20 @@ void each_maximum(F&& f, Time&& time, const double* values, int count, const dou
     for (int i = 1; i < count; ++i) {
         if (!may_exceed(i) || values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
         const double lean = values[i + 1] - values[i - 1];
-        peaks.push_back({i, values[i] + lean * lean / (8 * bend_at(i))});
+        peaks.push_back({i, values[i] + kSteeper * lean * lean / (8 * bend_at(i))});
     }
-    if (peaks.size() > kMostPeaks) {
+    if (peaks.size() > kMostPeaks)
         std::nth_element(peaks.begin(), peaks.begin() + kMostPeaks, peaks.end(),
                          [](const Peak& a, const Peak& b) { return a.height > b.height; });
-        peaks.resize(kMostPeaks);
+    bool complete = true;
+    for (std::size_t k = 0; k < peaks.size(); ++k) {
+        if (!may_exceed(peaks[k].i) || !promises(peaks[k].height)) continue;
+        if (k < kMostPeaks)
+            look(time(peaks[k].i - 1), time(peaks[k].i + 1));
+        else if (peaks[k].height > best)
+            complete = false;
     }
-    for (const Peak& peak : peaks)
-        if (may_exceed(peak.i) && promises(peak.height)) look(time(peak.i - 1), time(peak.i + 1));
+    return complete;
 }
 
 // The polynomial through the samples of a step (barycentric formula).
@@ -534,7 +543,7 @@ void Recorder::contact_peaks(const Stretch& s) {
     const auto depth = [&](double t) { return -contact_at(t).gap; };
     const int count = std::max(4, pieces(s));
     const auto time = [&](int i) { return i >= count ? s.to : s.from + (s.to - s.from) * i / count; };
-    std::array<double, kMaxPieces + 1> forces, depths;
+    std::vector<double> forces(static_cast<std::size_t>(count) + 1), depths(forces.size());
     for (int i = 0; i <= count; ++i) {
         const ContactState& c = contact_at(time(i));
         forces[static_cast<std::size_t>(i)] = c.force;
@@ -555,6 +564,7 @@ void Recorder::contact_peaks(const Stretch& s) {
 void Recorder::extrema(const Stretch& s) {
     if (request_.extrema.empty()) return;
     const int count = std::min(pieces(s), kExtremePieces);
+    bool complete = count == pieces(s);
     const std::size_t channels = request_.extrema.size();
     std::vector<std::vector<double>> values(channels, std::vector<double>(static_cast<std::size_t>(count) + 1));
     const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
@@ -582,15 +592,23 @@ void Recorder::extrema(const Stretch& s) {
             return eye_.value(request_.extrema[c]);
         };
         for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
-        each_maximum(at, time, values[c].data(), count, e.max, vain_[2 * c], offer);
+        if (request_.extrema[c].kind == ChannelKind::energy_residual)  // largest near the nodes of a collocation
+            for (int k = 0; k < kNodes; ++k) {
+                const double t = s.from + Collocation::get().c[k] * (s.to - s.from);
+                offer(t, at(t));
+            }
+        complete = each_maximum(at, time, values[c].data(), count, e.max, vain_[2 * c], offer) && complete;
         for (double& value : values[c]) value = -value;
         double highest = -e.min;
-        each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, highest, vain_[2 * c + 1],
-                     [&](double t, double value) {
-                         offer(t, -value);
-                         highest = -e.min;
-                     });
+        const auto offer_lowest = [&](double t, double value) {
+            offer(t, -value);
+            highest = -e.min;
+        };
+        complete = each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, highest,
+                                vain_[2 * c + 1], offer_lowest) &&
+                   complete;
     }
+    if (!complete) ++thinned_;
 }
 
 void Recorder::ledger() {
@@ -735,8 +753,15 @@ void Recorder::finish(double t, const double* y, const Tally& tally) {
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
     result_.end_time = t;
     result_.counters = tally.counters;
+    const Method method = problem_.solver.method;
+    for (const auto& [by, steps] : {std::pair{method == Method::automatic ? Method::exponential : method,
+                                              tally.counters.steps - tally.fallbacks.steps},
+                                    std::pair{tally.fallbacks.method, tally.fallbacks.steps}})
+        if (steps > 0) result_.steps_by_method.emplace_back(by, steps);
     result_.beyond_model = bends_beyond(problem_, largest_elastic_);
-    result_.warnings = warnings(problem_, result_, tally, largest_elastic_);
+    Tally all = tally;
+    all.fallbacks.thinned = thinned_;
+    result_.warnings = warnings(problem_, result_, all, largest_elastic_);
 }
 
 // ---- audience --------------------------------------------------------------------------------

@@ -65,6 +65,7 @@ struct Fallbacks {
     long strikes = 0;      // taken as plastic because the step's error swallows the rebound
     long coarse = 0;       // steps whose vibration is faster than the looks for a touch resolve
     long left_behind = 0;  // resting starts on a turning cam without a motion along it
+    long thinned = 0;      // steps in which not every peak of a vibration was searched for an extremum
     double gap = 0;        // largest distance from zero of the gap at an event, taken out of it from there on [m]
     Method method = Method::rk8;
 };
@@ -123,6 +124,7 @@ class Recorder {
     Result result_;
     Eye eye_;
     std::vector<double> y_;
+    long thinned_ = 0;        // steps whose extrema were searched for in part
     std::vector<long> vain_;  // peaks looked into that were no extremes, of each channel's maximum and minimum
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     struct Refined {  // rows between the times of a table with a curve

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/observe/channels.hpp"
@@ -81,6 +82,7 @@ struct Result {
     std::string compared_with;                      // method and tolerance of the second run
     std::string reproducibility;                    // all of it in a sentence
     Counters counters;
+    std::vector<std::pair<Method, long>> steps_by_method;  // accepted steps of each method that took any
     double wall_seconds = 0;
     bool beyond_model = false;          // it bends through angles that its model does not hold for
     std::vector<std::string> warnings;  // in the user's terms

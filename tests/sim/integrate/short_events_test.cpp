@@ -252,15 +252,20 @@ TEST(ShortEvents, NoDriveHidesATouchFromLongSteps) {
 
 // ---- the other method, where the collocation gives up ----------------------------------------------
 
-TEST(Fallback, AContactHandedOverKeepsItsFirstStepShort) {
-    // The foot lies so near the tip that the expansion about it does not fit: the contact is handed over before its
-    // first step.
+// The foot lies so near the tip that the expansion about it does not fit: the contact is handed over before its first
+// step.
+Problem contact_at_the_end() {
     Problem p;
     p.beam.model = ModelKind::rigid;
     p.gravity = 0;
     p.cam = Cam{{0.999999, -0.01}, 0.01, 0, 0, 0, {}, 0.3};
     p.initial = {0.35, -2, InitialShape::straight};
     p.contact.damping = DampingLaw::none;
+    return p;
+}
+
+TEST(Fallback, AContactHandedOverKeepsItsFirstStepShort) {
+    Problem p = contact_at_the_end();
     for (const double stiffness : {1e8, 1e10, 1e12})
         for (const double rtol : {1e-3, 1e-6, 1e-8}) {
             p.contact.stiffness = stiffness;
@@ -270,6 +275,53 @@ TEST(Fallback, AContactHandedOverKeepsItsFirstStepShort) {
             ASSERT_EQ(r.impacts.size(), 1u) << stiffness << " " << rtol;
             EXPECT_NEAR(r.impacts[0].restitution.value_or(0), 1, 0.3 * rtol + 2e-8) << stiffness << " " << rtol;
         }
+}
+
+bool reports(const Result& result, const char* words) {
+    return std::ranges::any_of(result.warnings,
+                               [&](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+
+using StepsByMethod = std::vector<std::pair<Method, long>>;
+
+TEST(Fallback, AContactAtTheEndOfTheBeamIsHandedOverCountedAndReported) {
+    Problem p = contact_at_the_end();
+    const Result r = run(p, 0.4);
+    EXPECT_TRUE(reports(r, "1 contact could not be solved by the exponential collocation; rk8 made"));
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
+    EXPECT_EQ(r.steps_by_method[0].first, Method::exponential);
+    EXPECT_EQ(r.steps_by_method[1].first, Method::rk8);
+    EXPECT_EQ(r.steps_by_method[0].second + r.steps_by_method[1].second, r.counters.steps);
+    p.cam->centre.x = 0.9;
+    EXPECT_FALSE(reports(run(p, 0.4), "could not be solved"));
+}
+
+TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
+    Problem p;
+    Result r = run(p, 0.5);
+    EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::exponential, r.counters.steps}}));
+    p.contact.friction = StickSlipFriction{0.3, 0.5, 1e5, 0.5};
+    r = run(p, 0.5);
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
+    EXPECT_EQ(r.steps_by_method[1].first, Method::rk8);
+    EXPECT_GT(r.steps_by_method[1].second, 10);
+    EXPECT_EQ(r.steps_by_method[0].second + r.steps_by_method[1].second, r.counters.steps);
+    p.solver.method = Method::cvode_adams;
+    r = run(p, 0.5);
+    EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
+}
+
+// A step carries the tip past a small cam by more than 10⁵ halves of its radius.
+TEST(Fallback, ACappedSearchForATouchIsCountedAndReported) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.gravity = 0;
+    p.initial = {0.05, -1, InitialShape::straight};
+    p.solver.method = Method::rk8;
+    p.cam = Cam{{1.001, 0}, 1e-7, 0, 0, 0, {}, 0.3};
+    EXPECT_TRUE(reports(run(p, 0.1), "a touch may be missed"));
+    p.cam->radius = 1e-4;
+    EXPECT_FALSE(reports(run(p, 0.1), "a touch may be missed"));
 }
 
 }  // namespace

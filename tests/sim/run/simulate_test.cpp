@@ -708,6 +708,39 @@ TEST(Extrema, AreThoseOfAFineTable) {
     }
 }
 
+// A hundred samples of a step of many periods.
+TEST(Extrema, SearchedForInPartAreReported) {
+    const auto reported = [](int modes) {
+        Problem p;
+        p.beam.modes = modes;
+        Request request;
+        request.end_time = 0.1;
+        request.extrema = {channel("theta")};
+        return std::ranges::any_of(simulate(p, request).warnings, [](const std::string& w) {
+            return w.find("not every peak of the vibration was searched") != std::string::npos;
+        });
+    };
+    EXPECT_FALSE(reported(2));
+    EXPECT_TRUE(reported(40));
+}
+
+TEST(Extrema, OfTheEnergyBalanceAreFoundWithinSteps) {
+    for (const Method method : {Method::automatic, Method::rk8}) {
+        Problem p;
+        p.solver.method = method;
+        Request request;
+        request.end_time = 0.5;
+        request.extrema = {channel("energy_residual")};
+        const Result r = simulate(p, request);
+        std::vector<double> times;
+        for (int k = 0; k <= 50'000; ++k) times.push_back(1e-5 * k);
+        double largest = 0;
+        for (const double value : series(p, "energy_residual", times)) largest = std::max(largest, std::fabs(value));
+        // At nodes and samples of a step; it is flat where it is largest.
+        EXPECT_GE(std::max(r.extrema[0].max, -r.extrema[0].min), 0.95 * largest) << name(method);
+    }
+}
+
 TEST(Runs, OfNoLengthShowTheStart) {
     const Problem p;
     const Result r = run(p, 0);
