@@ -28,7 +28,7 @@ struct Film::Prepared {
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
         for (const PanelSlot& slot : facts.places.panels) {
-            panels.push_back(make_panel(facts, slot));
+            panels.push_back(type_of(slot.spec.kind).make(facts, slot));
             if (slot.spec.kind == PanelKind::mechanism && !mechanism)
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }

@@ -117,7 +117,7 @@ std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, cons
 
 void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
     if (node.kind == LayoutNode::Kind::panel) {
-        const Vec2 least = smallest(node.panel.kind);
+        const Vec2 least = type_of(node.panel.kind).smallest;
         if (box.w >= least.x * out.unit && box.h >= least.y * out.unit) out.panels.push_back({node.panel, whole(box)});
         return;
     }
@@ -155,7 +155,7 @@ double scale_in(const Cells& c, const Sight& sight, double u) { return sight.cam
 
 // As many as have room, in the rows and columns that give them the largest scale.
 Cells best_cells(const Box& box, int& count, const Sight& sight, double u) {
-    const Vec2 least = smallest(PanelKind::mechanism) * u;
+    const Vec2 least = type_of(PanelKind::mechanism).smallest * u;
     for (; count > 1; --count) {
         std::optional<Cells> best;
         for (int columns = count; columns >= 1; --columns) {
@@ -209,39 +209,6 @@ const PanelSlot* Layout::first(PanelKind kind) const {
 
 Box plot_area(const Box& box, double u) {
     return whole({box.x + 70 * u, box.y + 46 * u, box.w - 78 * u, box.h - 46 * u - 44 * u});
-}
-
-Vec2 smallest(PanelKind kind) {
-    switch (kind) {
-        case PanelKind::mechanism:
-            return {16, 16};
-        case PanelKind::strip:
-        case PanelKind::energy:
-            return {300, 150};
-        case PanelKind::phase:
-        case PanelKind::close_up:
-        case PanelKind::traces:
-            return {240, 170};
-    }
-    return {};
-}
-
-const char* name(PanelKind kind) {
-    switch (kind) {
-        case PanelKind::mechanism:
-            return "mechanism";
-        case PanelKind::strip:
-            return "strip";
-        case PanelKind::phase:
-            return "phase";
-        case PanelKind::energy:
-            return "energy";
-        case PanelKind::close_up:
-            return "close-up";
-        case PanelKind::traces:
-            return "traces";
-    }
-    return "";
 }
 
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,

@@ -4,6 +4,7 @@
 // readable; what then no longer fits is left out (panels first, then the lines of text) rather than overlapped.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,16 +14,8 @@
 
 namespace beamcam::render {
 
-enum class PanelKind {
-    mechanism,
-    strip,     // channels against time
-    phase,     // hub speed against hub angle
-    energy,    // the ledger as stacked bands against time
-    close_up,  // the contact in micrometres
-    traces     // where the contact has been on the disc, and the tip in the plane
-};
-
-const char* name(PanelKind kind);  // as scenes write it
+// Each has a row in panel_types.cpp.
+enum class PanelKind { mechanism, strip, phase, energy, close_up, traces };
 
 struct PanelSpec {
     PanelKind kind = PanelKind::mechanism;
@@ -83,7 +76,25 @@ std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted)
 
 // The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
 Box plot_area(const Box& box, double unit);
-// The smallest room that a kind of panel can use [design px].
-Vec2 smallest(PanelKind kind);
+
+// ---- kinds of panels ---------------------------------------------------------------------------
+
+class Panel;
+struct FilmFacts;
+
+// All that layouts, scenes and films know of a kind of panel.
+struct PanelType {
+    PanelKind kind;
+    const char* name;  // as scenes write it
+    Vec2 smallest;     // room that it can use [design px]
+    std::unique_ptr<Panel> (*make)(const FilmFacts& facts, const PanelSlot& slot);
+    std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
+    bool takes_channels = false;                  // scenes name them
+    bool takes_window = false;                    // of time
+    bool takes_collisions = false;                // instead of a window
+    bool needs_cam = false;
+};
+const std::vector<PanelType>& panel_types();
+const PanelType& type_of(PanelKind kind);
 
 }  // namespace beamcam::render

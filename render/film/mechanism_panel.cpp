@@ -870,4 +870,8 @@ void MechanismPanel::callout(const Scene& s) const {
     }
 }
 
+std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<MechanismPanel>(facts, slot);
+}
+
 }  // namespace beamcam::render

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "render/base/error.hpp"
-#include "render/film/mechanism_panel.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -64,14 +63,7 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
     };
     for (const PanelSpec& panel : panels) {
         for (Channel c : panel.channels) add(c);
-        if (panel.kind == PanelKind::phase)
-            for (ChannelKind k : {ChannelKind::theta, ChannelKind::theta_dot}) add({k, 0});
-        if (panel.kind == PanelKind::energy)
-            for (ChannelKind k :
-                 {ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
-                  ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact,
-                  ChannelKind::loss_friction, ChannelKind::work_cam, ChannelKind::work_drive})
-                add({k, 0});
+        for (ChannelKind kind : type_of(panel.kind).channels) add({kind, 0});
     }
     return out;
 }
@@ -210,24 +202,5 @@ void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<flo
 }
 
 void Panel::grow(Canvas&, const Image&, int, bool, State*) const {}
-int Panel::stage(int) const { return 0; }
-
-std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    switch (slot.spec.kind) {
-        case PanelKind::mechanism:
-            return std::make_unique<MechanismPanel>(facts, slot);
-        case PanelKind::strip:
-            return make_strip_panel(facts, slot);
-        case PanelKind::phase:
-            return make_phase_panel(facts, slot);
-        case PanelKind::energy:
-            return make_energy_panel(facts, slot);
-        case PanelKind::close_up:
-            return make_close_up_panel(facts, slot);
-        case PanelKind::traces:
-            return make_traces_panel(facts, slot);
-    }
-    return nullptr;
-}
 
 }  // namespace beamcam::render

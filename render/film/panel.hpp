@@ -71,7 +71,7 @@ class Panel {
     // made.
     virtual void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const;
     // Frames of another stage keep nothing of each other.
-    virtual int stage(int frame) const;
+    virtual int stage(int /*frame*/) const { return 0; }
     // All that grows, nothing when nothing does [px].
     virtual Box growing() const { return {}; }
 
@@ -81,16 +81,6 @@ class Panel {
     // What moves. `style` may be flatter than the view's.
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
 };
-
-// The panel for a slot of the layout.
-std::unique_ptr<Panel> make_panel(const FilmFacts& facts, const PanelSlot& slot);
-
-// The makers, one a file.
-std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot);
 
 // ---- small things that panels share ------------------------------------------------------------
 

@@ -64,7 +64,7 @@ class PhasePanel final : public Panel {
         const std::string named = fmt::format("Hub speed {}", symbol);
         const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
         draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
-        const TextStyle label{.size = 17 * u, .color = p.muted};
+        TextStyle label{.size = 17 * u, .color = p.muted, .align = HAlign::centre};
         const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
         draw_levels(canvas, p, y_, plot_, u);
         const std::string name = x_.name(math("θ"));
@@ -74,15 +74,12 @@ class PhasePanel final : public Panel {
             canvas.move_to({at, plot_.y});
             canvas.line_to({at, plot_.bottom()});
             canvas.stroke(grid);
-            TextStyle centre = label;
-            centre.align = HAlign::centre;
             const std::string text = fixed(mark, x_.marks().decimals);
             if (at + canvas.measure(text, label).w / 2 < room)
-                canvas.text({at, plot_.bottom() + 26.5 * u}, text, centre);
+                canvas.text({at, plot_.bottom() + 26.5 * u}, text, label);
         }
-        TextStyle end = label;
-        end.align = HAlign::right;
-        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 26.5 * u}, name, end);
+        label.align = HAlign::right;
+        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 26.5 * u}, name, label);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "render/film/panel.hpp"
 #include "render/plot/chart.hpp"
@@ -287,72 +288,74 @@ Color curve_color(const FilmFacts& facts, Channel channel, std::size_t i, int me
     return energy_color(*facts.palette, channel.kind).value_or(series_color(*facts.palette, i));
 }
 
+// The places of contact as dots.
+void add_places(const FilmFacts& facts, ChartContent& c) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int m = 0; m < facts.members(); ++m)
+        for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
+            low = std::min(low, s.x), high = std::max(high, s.x);
+            if (s.t < c.time.low || s.t > c.time.high) continue;
+            const Palette& p = *facts.palette;
+            if (facts.members() > 1)
+                c.dots.push_back({s.t, s.x, facts.member_color(m), mix(p.paper, facts.member_color(m), 0.25)});
+            else
+                c.dots.push_back({s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)),
+                                  mix(p.paper, p.contact_faint, 0.9)});
+        }
+    const double length = facts.setup->problem.beam.length;
+    if (!(low <= high)) {
+        c.value = {0, length};
+        return;
+    }
+    const double around = std::max(0.05 * (high - low), 1e-3 * length);
+    c.value = {low - around, high + around};
+}
+
+// The curves of a strip's channels for every motion.
+ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
+    const Channel first = spec.channels.front();
+    const Palette& p = *facts.palette;
+    ChartContent c = blank(facts, spec, facts.members() > 1 ? -1 : 0);
+    const bool single = spec.channels.size() == 1;
+    const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
+    c.words = single ? name_of(first).words : "";
+    c.unit = unit_text(first, facts.setup->problem);
+    for (std::size_t i = 0; i < spec.channels.size(); ++i) {
+        std::string symbol = symbol_of(spec.channels[i]);
+        if (!single && facts.members() == 1)
+            symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
+        c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
+        for (int m = 0; m < facts.members(); ++m) {
+            Curve curve = dotted ? Curve{} : curve_of(facts, m, spec.channels[i]);
+            const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
+            const bool alone = single && facts.members() == 1;
+            curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
+            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
+            if (facts.members() > 1)
+                curve.label = escape(facts.motion(m).label) + ":";  // "ω = 0: 12"
+            else if (!single)
+                curve.label = symbol_of(spec.channels[i]);
+            // Colour alone does not tell curves apart for everybody.
+            const std::size_t dashes = facts.members() > 1 ? static_cast<std::size_t>(m) : i;
+            if (dashes % 3 == 1) curve.dash = {9, 4};
+            if (dashes % 3 == 2) curve.dash = {3, 3};
+            if (is_force(first)) curve.dash.clear();
+            c.curves.push_back(std::move(curve));
+        }
+    }
+    c.filled = single && is_force(first) && facts.members() == 1;
+    if (is_force(first)) c.reading_unit = c.unit;
+    c.value = range_of(facts, c.curves, first);
+    if (single && dotted) add_places(facts, c);
+    return c;
+}
+
 class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : ChartPanel(facts, content(facts, slot.spec), slot.box), spec_(slot.spec) {}
+        : ChartPanel(facts, strip_content(facts, slot.spec), slot.box), spec_(slot.spec) {}
 
   private:
-    static ChartContent content(const FilmFacts& facts, const PanelSpec& spec) {
-        const Channel first = spec.channels.front();
-        const sim::Problem& problem = facts.setup->problem;
-        const Palette& p = *facts.palette;
-        ChartContent c = blank(facts, spec, facts.members() > 1 ? -1 : 0);
-        const bool single = spec.channels.size() == 1;
-        c.words = single ? name_of(first).words : "";
-        c.unit = unit_text(first, problem);
-        for (std::size_t i = 0; i < spec.channels.size(); ++i) {
-            std::string symbol = symbol_of(spec.channels[i]);
-            if (!single && facts.members() == 1)
-                symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
-            c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
-            for (int m = 0; m < facts.members(); ++m) {
-                Curve curve = first.kind == ChannelKind::contact_x ? Curve{} : curve_of(facts, m, spec.channels[i]);
-                const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
-                const bool alone = single && facts.members() == 1;
-                curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
-                curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
-                if (facts.members() > 1)
-                    curve.label = escape(facts.motion(m).label) + ":";  // "ω = 0: 12"
-                else if (!single)
-                    curve.label = symbol_of(spec.channels[i]);
-                // Colour alone does not tell curves apart for everybody.
-                const std::size_t dashes = facts.members() > 1 ? static_cast<std::size_t>(m) : i;
-                if (dashes % 3 == 1) curve.dash = {9, 4};
-                if (dashes % 3 == 2) curve.dash = {3, 3};
-                if (is_force(first)) curve.dash.clear();
-                c.curves.push_back(std::move(curve));
-            }
-        }
-        c.filled = single && is_force(first) && facts.members() == 1;
-        if (is_force(first)) c.reading_unit = c.unit;
-        c.value = range_of(facts, c.curves, first);
-        if (single && first.kind == ChannelKind::contact_x) add_places(facts, c);
-        return c;
-    }
-
-    static void add_places(const FilmFacts& facts, ChartContent& c) {
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (int m = 0; m < facts.members(); ++m)
-            for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
-                low = std::min(low, s.x), high = std::max(high, s.x);
-                if (s.t < c.time.low || s.t > c.time.high) continue;
-                const Palette& p = *facts.palette;
-                if (facts.members() > 1)
-                    c.dots.push_back({s.t, s.x, facts.member_color(m), mix(p.paper, facts.member_color(m), 0.25)});
-                else
-                    c.dots.push_back({s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)),
-                                      mix(p.paper, p.contact_faint, 0.9)});
-            }
-        const double length = facts.setup->problem.beam.length;
-        if (!(low <= high)) {
-            c.value = {0, length};
-            return;
-        }
-        const double around = std::max(0.05 * (high - low), 1e-3 * length);
-        c.value = {low - around, high + around};
-    }
-
     std::vector<double> readings(int frame) const override {
         std::vector<double> out;
         for (const Channel channel : spec_.channels)
@@ -387,26 +390,9 @@ class CollisionPanel final : public Panel {
                 spans_.back().high = std::max(spans_.back().high, end);
             last_ = i.collision;
         }
-        content_.words = name_of(first()).words;
-        content_.unit = unit_text(first(), facts.setup->problem);
-        const Palette& p = *facts.palette;
-        const bool single = spec_.channels.size() == 1;
-        for (std::size_t i = 0; i < spec_.channels.size(); ++i) {
-            const Channel channel = spec_.channels[i];
-            Curve curve = curve_of(facts, 0, channel);
-            curve.color = is_force(channel) ? p.contact : single ? p.motion : series_color(p, i);
-            curve.faint = is_force(channel) ? p.contact_faint
-                          : single          ? p.motion_faint
-                                            : mix(p.paper, curve.color, 0.25);
-            const std::string symbol = symbol_of(channel);
-            if (!single) curve.label = symbol;
-            content_.symbol +=
-                fmt::format("{}{}", i > 0 ? ", " : "", single ? symbol : colored(symbol, readable(p, curve.color)));
-            curves_.push_back(std::move(curve));
-        }
-        content_.filled = single && is_force(first());
-        if (is_force(first())) content_.reading_unit = content_.unit;
-        content_.value = range_of(facts, curves_, first());
+        content_ = strip_content(facts, spec_);
+        content_.marks.clear();
+        curves_ = std::exchange(content_.curves, {});
     }
 
     void draw_ground(Canvas&) const override {}
@@ -455,8 +441,6 @@ class CollisionPanel final : public Panel {
     }
 
   private:
-    sim::Channel first() const { return spec_.channels.front(); }
-
     // The collision that has begun last.
     std::size_t shown(double t) const {
         std::size_t which = 0;
@@ -498,8 +482,7 @@ class CollisionPanel final : public Panel {
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
         const double t0 = start(which);
         for (const Curve& all : curves_) {
-            Curve curve;
-            curve.color = all.color, curve.faint = all.faint, curve.label = all.label;
+            Curve curve{{}, {}, all.color, all.faint, all.label, all.dash};
             const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
                        end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
             for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)

@@ -10,14 +10,12 @@
 
 namespace beamcam::scenes {
 
-using render::LayoutNode, render::PanelKind, render::PanelSpec;
+using render::LayoutNode, render::PanelKind, render::PanelSpec, render::PanelType;
 
 namespace {
 
 constexpr std::size_t kMostPanels = 24;  // a layout deeper or larger than this fits no picture
 constexpr int kDeepestLayout = 8;
-constexpr PanelKind kPanels[] = {PanelKind::mechanism, PanelKind::phase,  PanelKind::energy,
-                                 PanelKind::close_up,  PanelKind::traces, PanelKind::strip};
 
 // ---- panels ------------------------------------------------------------------------------------
 
@@ -30,7 +28,7 @@ std::vector<std::string> channel_names(const sim::Problem& problem) {
 
 std::vector<std::string> panel_words(const sim::Problem& problem) {
     std::vector<std::string> words;
-    for (const PanelKind kind : kPanels) words.emplace_back(render::name(kind));
+    for (const PanelType& type : render::panel_types()) words.emplace_back(type.name);
     for (std::string& channel : channel_names(problem)) words.push_back(std::move(channel));
     return words;
 }
@@ -44,10 +42,10 @@ std::optional<sim::Channel> known_channel(const sim::Problem& problem, std::stri
 void read_panel(ObjectReader& r, const Node& node, const std::string& key, PanelSpec& out) {
     const sim::Problem& problem = r.context().scene.problem;
     const bool is_text = node.kind == Node::Kind::string;
-    const auto kind =
-        std::ranges::find_if(kPanels, [&](PanelKind k) { return is_text && node.text == render::name(k); });
-    if (kind != std::end(kPanels)) {
-        out.kind = *kind;
+    const auto& types = render::panel_types();
+    if (const auto type = std::ranges::find_if(types, [&](const auto& t) { return is_text && node.text == t.name; });
+        type != types.end()) {
+        out.kind = type->kind;
     } else if (const auto channel = is_text ? known_channel(problem, node.text) : std::nullopt) {
         out.kind = PanelKind::strip;
         out.channels = {*channel};
@@ -61,7 +59,7 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
 Form panel_form(PanelSpec& panel) {
     return {"panel or channel", R"({"anyOf": [{"const": "strip"}, {"$ref": "#/$defs/panelName"}]})",
             [&panel](ObjectReader& r, const Node& node, const std::string& key) { read_panel(r, node, key, panel); },
-            [&panel] { return text_node(render::name(panel.kind)); }};
+            [&panel] { return text_node(type_of(panel.kind).name); }};
 }
 
 void read_strip_channels(ObjectReader& r, const Node& node, const std::string& key, PanelSpec& panel) {
@@ -94,7 +92,7 @@ void read_strip_channels(ObjectReader& r, const Node& node, const std::string& k
     }
 }
 
-bool names_a_strip(const ObjectReader& r) { return r.place("panel").text == render::name(PanelKind::strip); }
+bool names_a_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
 
 Form strip_channels_form(PanelSpec& panel) {
     Form form = channels_form(panel.channels);
@@ -110,10 +108,10 @@ Form strip_channels_form(PanelSpec& panel) {
 Form window_form(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         double window = 0;
-        if (panel.kind != PanelKind::strip && panel.kind != PanelKind::energy)
+        if (!type_of(panel.kind).takes_window)
             return r.fail(node, key, fmt::format("{} belongs to strips and \"energy\"", r.path(key)));
         panel.by_collision = node.kind == Node::Kind::string && node.text == "collision";
-        if (panel.by_collision && panel.kind == PanelKind::energy)
+        if (panel.by_collision && !type_of(panel.kind).takes_collisions)
             return r.fail(node, key, fmt::format("{} of the energies is a time, not a collision", r.path(key)));
         if (!panel.by_collision &&
             r.ranged_value(node, key, sim::dimension::kTime,
@@ -130,9 +128,17 @@ Form window_form(PanelSpec& panel) {
         read, write};
 }
 
+// The names of the panels that this holds for, each in `quotes`.
+std::string names_of(const char* quotes, bool (*holds)(const PanelType&)) {
+    std::vector<std::string> names;
+    for (const PanelType& type : render::panel_types())
+        if (holds(type)) names.push_back(fmt::format("{0}{1}{0}", quotes, type.name));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.form(sim::required("panel", "\"mechanism\""), panel_form(panel),
-           "mechanism, phase, energy, close-up, traces, strip, or a channel.");
+           (names_of("", [](const PanelType&) { return true; }) + ", or a channel.").c_str());
     v.form("channels", strip_channels_form(panel), "Of a strip: curves of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
@@ -142,13 +148,18 @@ void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.form("window", window_form(panel),
            "Of a strip or the energies: so much time, all of it when left out; or, of a strip, one \"collision\" after "
            "the other.");
-    v.restrict(R"({"allOf": [
+    const std::string timeless = names_of("\"", [](const PanelType&t) { return !t.takes_window; }),
+                      steady = names_of("\"", [](const PanelType&t) { return !t.takes_collisions; });
+    v.restrict((R"({"allOf": [
         {"if": {"properties": {"panel": {"const": "strip"}}},
          "then": {"required": ["channels"]}, "else": {"properties": {"channels": false}}},
-        {"if": {"properties": {"panel": {"enum": ["mechanism", "phase", "close-up", "traces"]}}},
+        {"if": {"properties": {"panel": {"enum": [)" +
+                timeless + R"(]}}},
          "then": {"properties": {"window": false}}},
-        {"if": {"properties": {"panel": {"const": "energy"}}},
-         "then": {"properties": {"window": {"not": {"const": "collision"}}}}}]})");
+        {"if": {"properties": {"panel": {"enum": [)" +
+                steady + R"(]}}},
+         "then": {"properties": {"window": {"not": {"const": "collision"}}}}}]})")
+                   .c_str());
     int motion = panel.member + 1;
     v.whole(sim::written_if(motion > 1, "motion"), motion, 1, static_cast<int>(kMostCompared),
             "Which of the compared motions, counted from 1.");
@@ -161,7 +172,7 @@ void visit_panel(SceneVisitor& v, PanelSpec& panel) {
 Form named_panel_form(std::vector<LayoutNode>& children) {
     const auto read = [&children](ObjectReader& r, const Node& node, const std::string& key) {
         LayoutNode& child = children.emplace_back();
-        if (node.kind == Node::Kind::string && node.text == render::name(PanelKind::strip))
+        if (node.kind == Node::Kind::string && node.text == type_of(PanelKind::strip).name)
             r.fail(node, key,
                    fmt::format("{} = {} needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}",
                                r.path(key), in_quotes(node.text)));
@@ -241,8 +252,8 @@ std::string without_cam(const sim::Problem& own, const Picture& picture, const P
     };
     bool any = false;
     for (std::size_t i = 0; i < std::max<std::size_t>(1, picture.compare.size()); ++i) any = any || has_cam(i);
-    if (panel.kind == PanelKind::close_up || panel.kind == PanelKind::traces)
-        return has_cam(static_cast<std::size_t>(panel.member)) ? "" : render::name(panel.kind);
+    if (type_of(panel.kind).needs_cam)
+        return has_cam(static_cast<std::size_t>(panel.member)) ? "" : type_of(panel.kind).name;
     for (const sim::Channel& channel : panel.channels)
         if (is_of_contact(channel.kind) && !any) return name(channel);
     return {};

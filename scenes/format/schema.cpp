@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "render/film/layout.hpp"
 #include "scenes/format/description.hpp"
 #include "sim/observe/channels.hpp"
 
@@ -30,14 +31,19 @@ constexpr const char* kDefinitions = R"({
             {"$ref": "#/$defs/withUnit"},
             {"type": "string", "pattern": "^(impact|collision):[1-9][0-9]{0,8}$"}
         ]
-    },
-    "panelName": {
-        "anyOf": [
-            {"enum": ["mechanism", "phase", "energy", "close-up", "traces"]},
-            {"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]}
-        ]
     }
 })";
+
+// A panel that needs no more than its name, or a channel in a strip.
+Node panel_schema() {
+    Node names = array_node(), known = object_node(), out = object_node();
+    for (const render::PanelType& type : render::panel_types())
+        if (!type.takes_channels) names.items.push_back(text_node(type.name));
+    add(known, "enum", std::move(names));
+    add(out, "anyOf",
+        array_node({std::move(known), parsed(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")}));
+    return out;
+}
 
 Node channel_schema() {
     Node names = array_node();
@@ -55,6 +61,7 @@ class SchemaWriter {
   public:
     Node write(const Shape& scene) {
         definitions_ = parsed(kDefinitions);
+        add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
         object(scene);  // counts what occurs more than once
         counted_ = true;

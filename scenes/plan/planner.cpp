@@ -29,7 +29,7 @@ std::string too_small(const Picture& picture) {
     if (!picture.layout) return out;
     for (const render::PanelSpec& panel : render::left_out(picture.size.width, picture.size.height, *picture.layout))
         out += (out.empty() ? "" : ", ") +
-               (panel.channels.empty() ? std::string(render::name(panel.kind)) : name(panel.channels.front()));
+               (panel.channels.empty() ? std::string(type_of(panel.kind).name) : name(panel.channels.front()));
     return out;
 }
 

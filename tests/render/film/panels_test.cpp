@@ -500,9 +500,9 @@ TEST(ForceArrows, AreInProportionToTheForce) {
                 }
             return top - bottom - (close ? 3.5 : 5) * u;  // the dot reaches below the arrow's foot
         };
-        EXPECT_GT(length(2), 40) << name(kind);
+        EXPECT_GT(length(2), 40) << type_of(kind).name;
         // Antialiasing takes some two pixels of a tip.
-        EXPECT_NEAR(length(1) / length(2), 2, 0.12) << name(kind);
+        EXPECT_NEAR(length(1) / length(2), 2, 0.12) << type_of(kind).name;
     }
 }
 
@@ -573,7 +573,7 @@ TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
     const Layout l = layout(1280, 720, grid(rows, many));
     EXPECT_LT(l.panels.size(), 8U);
     EXPECT_GT(l.panels.size(), 1U);
-    for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, smallest(PanelKind::strip).y * l.unit - 1);
+    for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, type_of(PanelKind::strip).smallest.y * l.unit - 1);
 }
 
 TEST(Layout, AGroupOfPanelsThatFindNoRoomLeavesItsOwn) {
