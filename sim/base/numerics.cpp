@@ -12,6 +12,7 @@ void legendre(double z, int count, double* values) {
 }
 
 Quadrature gauss_legendre(int n, double length) {
+    BEAMCAM_ASSERT(n >= 1 && length > 0);
     Quadrature rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
     std::vector<double> p(static_cast<std::size_t>(n) + 1);
     for (int k = 0; k < n; ++k) {

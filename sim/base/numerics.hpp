@@ -9,6 +9,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/assert.hpp"
+
 namespace beamcam::sim {
 
 // Quadrature with n nodes, exact for polynomials up to degree 2n − 1.
@@ -37,10 +39,12 @@ class SpectralIntegral {
 // Legendre polynomials P_0…P_{count−1} at z in [−1, 1].
 void legendre(double z, int count, double* values);
 
-// A root of f in [a, b], where f(a) and f(b) differ in sign or vanish; to the last bits or `tolerance`.
+// A root of f in [a, b], where f(a) and f(b) differ in sign or vanish; to the last bits.
 // Chandrupatla's method: inverse quadratic interpolation where it is safe, else bisection.
 template <class F>
-double find_root(F&& f, double a, double b, double fa, double fb, double tolerance = 0) {
+double find_root(F&& f, double a, double b, double fa, double fb) {
+    BEAMCAM_ASSERT(std::isfinite(a) && std::isfinite(b));
+    BEAMCAM_ASSERT(fa == 0 || fb == 0 || std::signbit(fa) != std::signbit(fb));
     if (fa == 0) return a;
     if (fb == 0) return b;
     double c = a, fc = fa;
@@ -61,7 +65,7 @@ double find_root(F&& f, double a, double b, double fa, double fb, double toleran
         fa = fx;
         const double best = std::fabs(fa) < std::fabs(fb) ? a : b;
         const double width = std::fabs(b - a);
-        const double eps = 2e-16 * std::fabs(best) + 0.5 * tolerance;
+        const double eps = 2e-16 * std::fabs(best);
         if (width <= 2 * eps || fa == 0 || fb == 0) return fa == 0 ? a : (fb == 0 ? b : best);
         const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
         if (1 - std::sqrt(1 - xi) < phi && phi < std::sqrt(xi))
@@ -84,6 +88,7 @@ double find_root(F&& f, double a, double b) {
 // the position need not be sharp.
 template <class F>
 std::pair<double, double> find_peak(F&& f, double a, double b) {
+    BEAMCAM_ASSERT(a <= b);
     constexpr double kRatio = 0.6180339887498949;
     const double span = b - a;
     double x1 = b - kRatio * (b - a), x2 = a + kRatio * (b - a), f1 = f(x1), f2 = f(x2);

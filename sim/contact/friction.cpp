@@ -22,6 +22,7 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
         law.bristle = problem.cam.has_value() && problem.contact.model == ContactModel::compliant;
         law.kinetic = stick_slip->coefficient;
         law.limit = std::max(law.kinetic, stick_slip->static_coefficient.value_or(law.kinetic));
+        if (!law.bristle) return law;
         // Mindlin's ratio of tangential to normal stiffness, 2(1−ν)/(2−ν), times the normal stiffness
         // n K δⁿ⁻¹ at the penetration that the beam's mass reaches at 1 m/s (S37).
         const double n = normal.exponent, nu = problem.beam.poisson_ratio;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/assert.hpp"
 #include "sim/base/ode.hpp"
 
 namespace beamcam::sim {
@@ -31,6 +32,8 @@ std::array<Piece, 2> course(const Compliance& c, double v_t, double mu) {
 
 ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double friction, double restitution,
                             ImpactLaw law) {
+    BEAMCAM_ASSERT(c.nn > 0 && c.tt >= 0 && friction >= 0);
+    BEAMCAM_ASSERT(restitution >= 0 && restitution <= 1);
     ImpactResult r{0, 0, v_n, v_t};
     if (!(v_n < 0)) return r;
     const std::array<Piece, 2> pieces = course(c, v_t, friction);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/beam/shapes.hpp"
 
 namespace beamcam::sim {
@@ -39,6 +40,7 @@ bool GapBound::nearly_straight(const double* q) const {
 
 // Distance of B from the straight beam at the frame's angle, less what bending, turning and the cam can add.
 double GapBound::lower_bound(const DriveLaw& drive, double t, double h, const double* xi, const double* spread) const {
+    BEAMCAM_ASSERT(h >= 0);
     double angle = xi[0], turn = spread[0];
     if (drive.prescribed()) {
         angle = drive.motion(t).angle;

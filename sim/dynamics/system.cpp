@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/assert.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -73,6 +75,7 @@ ContactState System::contact(double t, const double* y, bool search) {
 }
 
 ContactState System::contact_geometry(double t, bool search) {
+    BEAMCAM_ASSERT(has_cam());
     ++gap_evaluations;
     return geometry_.evaluate(*model_, gap_bound_, t, search, phase_.gap_offset);
 }
@@ -221,6 +224,7 @@ double System::touch_time(double t, const double* y, const ContactState& c, doub
 }
 
 void System::strike(double t, double* y, const ContactState& c, const ImpactResult& impact) {
+    BEAMCAM_ASSERT(impact.impulse_n >= 0);
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], jump[kMaxSize];
     place(t, y);
     require_inertia(f);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/beam/modal_model.hpp"
 
 namespace beamcam::sim {
@@ -42,6 +43,7 @@ ContactExpansion::ContactExpansion(std::shared_ptr<const ModalForm> form, System
 }
 
 void ContactExpansion::centre(double x) {
+    BEAMCAM_ASSERT(x >= 0 && x <= form_->length);
     if (x_ >= 0 && std::fabs(x - x_) < kKept * range_) return;
     x_ = x;
     if (n_ == 0) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
@@ -55,6 +56,7 @@ ContactStep::ContactStep(NodalStep& step)
 }
 
 void ContactStep::begin_touch(const ContactState& c) {
+    BEAMCAM_ASSERT(!c.at_end && step_.system.phase().approach > 0);
     approach = step_.system.phase().approach;
     gap_offset_ = step_.system.phase().gap_offset;
     expansion_.centre(c.x);

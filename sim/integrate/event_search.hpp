@@ -15,6 +15,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
@@ -102,6 +103,7 @@ std::optional<Bracket> first_dip(Probe& probe, const Guard& a, const Guard& b, d
 template <class Probe, class RippleOf = NoRipple>
 std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, double deep = 0, RippleOf ripple = {}) {
     using namespace event_search;
+    BEAMCAM_ASSERT(a.t < b.t && deep >= 0);
     if (a.value < 0 || (a.value == 0 && a.rate < 0)) return a.t;
     Bracket bracket{a, b};
     const Quartic q(a, b, ripple(b.t - a.t));
@@ -129,6 +131,7 @@ template <class Probe, class RippleOf = NoRipple>
 std::optional<double> first_passing(Probe&& probe, const Guard& a, const Guard& b, double level, double side,
                                     double none, RippleOf ripple = {}, int halvings = 0) {
     using namespace event_search;
+    BEAMCAM_ASSERT(a.t < b.t && std::fabs(side) == 1 && none >= 0);
     const auto over = [&](double rate) { return side * (rate - level); };
     const Quartic q(a, b, ripple(b.t - a.t));
     const double d0 = over(a.rate), d1 = over(q.rate(1)), d2 = over(q.rate(2)), d3 = over(b.rate);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_step_end.hpp"
 
@@ -149,6 +150,7 @@ class Exponential final : public Integrator {
     const Segment& shorten(double at) override {
         if (falling_back_) return counted(fallback_->shorten(at));
         ExponentialSegment& s = segment();
+        BEAMCAM_ASSERT(at > s.t0);
         if (at == s.t1) return s;
         // The dense output is as accurate as the step, but where a force of contact is cut short: its step is solved
         // anew unless the difference is rounding.

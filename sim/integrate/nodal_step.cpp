@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
@@ -167,6 +168,8 @@ void NodalStep::propagate(const StepTable& table) {
 }
 
 double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
+    BEAMCAM_ASSERT(table.h > 0 && table.rows.size() == n);
+    BEAMCAM_ASSERT(!load || load->jn.size() == n);
     ExponentialSegment& s = segment;
     const double h = table.h;
     evaluations += kNodes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
@@ -145,6 +146,8 @@ void respond(const OscillatorLanes& group, double tau, Lanes* r) {
 
 void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups,
                       double length) {
+    BEAMCAM_ASSERT(length > 0 && std::isfinite(length));
+    BEAMCAM_ASSERT(groups.size() == (oscillators.size() + kNodes - 1) / kNodes);
     const Collocation& gauss = Collocation::get();
     h = length;
     rows.resize(oscillators.size());

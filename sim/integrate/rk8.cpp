@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
@@ -238,6 +239,7 @@ class Rk8 final : public Integrator, private Segment {
     }
 
     const Segment& shorten(double at) override {
+        BEAMCAM_ASSERT(at > t0 && at <= t1);
         // Exactly the step that would have been taken with this size. The longer one may have passed the test by
         // chance.
         const double error = advance(at - t0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/assert.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/integrate/exponential.hpp"
 
@@ -110,6 +111,7 @@ Event Run::first_event(const Segment& segment) {
 // Puts the state at the event. False when the run ends before, or a shorter step was taken instead.
 bool Run::reach(const Segment& segment, const Event& event) {
     const double start = segment.t0;
+    BEAMCAM_ASSERT(event.t >= start && event.t <= segment.t1);
     if (event.t > start) {
         double at = event.t;
         const Segment& ended = shorten(start, event, at);
