@@ -1,8 +1,10 @@
 // What a problem may not be, and what it should not be: every finding at once.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
@@ -126,14 +128,15 @@ void check_beam(Findings& out, const Problem& p) {
 
 void check_contact(Findings& out, const Problem& p) {
     const Contact& c = p.contact;
-    const bool singular = c.damping == DampingLaw::gonthier || c.damping == DampingLaw::flores ||
-                          c.damping == DampingLaw::hu_guo || c.damping == DampingLaw::zhang_sharf;
-    if (c.model == ContactModel::compliant && singular && c.restitution < 0.01)
-        out.refuse(
-            "contact.restitution",
-            fmt::format("the law {} has no finite damping at 0: give at least 0.01 (is {:g}) or use hunt-crossley, "
-                        "lankarani-nikravesh, herbert-mcwhannell or lee-wang",
-                        name(c.damping), c.restitution));
+    const auto finite = [](DampingLaw law) { return std::isfinite(damping_factor(law, 0)); };
+    if (c.model == ContactModel::compliant && !finite(c.damping) && c.restitution < 0.01) {
+        std::vector<const char*> others;
+        for (const auto& law : names(DampingLaw{}))
+            if (law.value != DampingLaw::none && finite(law.value)) others.push_back(law.name);
+        out.refuse("contact.restitution",
+                   fmt::format("the law {} has no finite damping at 0: give at least 0.01 (is {:g}) or use one of {}",
+                               name(c.damping), c.restitution, fmt::join(others, ", ")));
+    }
     if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
         if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
             out.refuse(

@@ -1,4 +1,5 @@
-// The names that scenes, tables and messages use for the closed sets of problem.hpp.
+// The names that scenes, tables and messages use for the closed sets of problem.hpp; those of the dissipation laws
+// stand beside their formulas in contact/dissipation.cpp.
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {
@@ -9,15 +10,6 @@ constexpr Named<ModelKind> kModels[] = {
     {ModelKind::paper, "paper"}, {ModelKind::second_order, "second-order"}, {ModelKind::exact, "exact"}};
 constexpr Named<Basis> kBases[] = {
     {Basis::automatic, "auto"}, {Basis::cantilever, "cantilever"}, {Basis::hub_beam, "hub-beam"}};
-constexpr Named<DampingLaw> kDampingLaws[] = {{DampingLaw::none, "none"},
-                                              {DampingLaw::hunt_crossley, "hunt-crossley"},
-                                              {DampingLaw::lankarani_nikravesh, "lankarani-nikravesh"},
-                                              {DampingLaw::herbert_mcwhannell, "herbert-mcwhannell"},
-                                              {DampingLaw::lee_wang, "lee-wang"},
-                                              {DampingLaw::gonthier, "gonthier"},
-                                              {DampingLaw::flores, "flores"},
-                                              {DampingLaw::hu_guo, "hu-guo"},
-                                              {DampingLaw::zhang_sharf, "zhang-sharf"}};
 constexpr Named<ImpactLaw> kImpactLaws[] = {
     {ImpactLaw::newton, "newton"}, {ImpactLaw::poisson, "poisson"}, {ImpactLaw::stronge, "stronge"}};
 constexpr Named<ContactModel> kContactModels[] = {{ContactModel::compliant, "compliant"},
@@ -42,7 +34,6 @@ const char* name_of(Enum value) {
 
 std::span<const Named<ModelKind>> names(ModelKind) { return kModels; }
 std::span<const Named<Basis>> names(Basis) { return kBases; }
-std::span<const Named<DampingLaw>> names(DampingLaw) { return kDampingLaws; }
 std::span<const Named<ImpactLaw>> names(ImpactLaw) { return kImpactLaws; }
 std::span<const Named<ContactModel>> names(ContactModel) { return kContactModels; }
 std::span<const Named<ApproachFloorPolicy>> names(ApproachFloorPolicy) { return kPolicies; }

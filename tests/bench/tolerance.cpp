@@ -16,6 +16,7 @@
 #include <random>
 #include <vector>
 
+#include "sim/problem/keys.hpp"
 #include "sim/run/simulate.hpp"
 
 using namespace beamcam;
@@ -26,13 +27,14 @@ sim::Problem scene(std::mt19937_64& dice) {
     const auto between = [&](double low, double high) {
         return low + (high - low) * std::generate_canonical<double, 53>(dice);
     };
+    const auto laws = names(sim::DampingLaw{});
     sim::Problem p;
     p.beam.modes = static_cast<int>(between(1, 9));
     if (between(0, 1) < 0.3) p.beam.damping_ratio = {between(0, 0.05)};
     p.cam->speed = between(-8, 8);
     p.cam->phase = between(-3, 3);
     p.contact.stiffness = std::pow(10, between(7, 9));
-    p.contact.damping = static_cast<sim::DampingLaw>(static_cast<int>(between(0, 9)));
+    p.contact.damping = laws[static_cast<std::size_t>(between(0, static_cast<double>(laws.size())))].value;
     p.contact.restitution = between(0.3, 0.95);
     if (between(0, 1) < 0.3) p.contact.friction = sim::CoulombFriction{between(0.05, 0.5), 1e-2};
     p.solver.rtol = std::pow(10, between(-9, -4));

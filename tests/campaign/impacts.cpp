@@ -94,7 +94,7 @@ Scene brief(unsigned seed) {
             case 1:  // the law would pull: strong dissipation in a soft contact
                 p.contact.stiffness = std::pow(10, dice.between(3.5, 6));
                 p.contact.restitution = dice.between(0.05, 0.3);
-                p.contact.damping = static_cast<DampingLaw>(1 + dice.one_of(8));
+                p.contact.damping = dice.one_of(names(DampingLaw{}).subspan(1));  // not `none`
                 break;
             case 2:  // grazing touches: a slow cam swings up to a light beam
                 p.gravity = dice.between(0, 1);

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sim/beam/model.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/integrator.hpp"
+#include "sim/problem/keys.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim::testing {
@@ -79,10 +81,37 @@ class Dice {
     }
     double about_zero(double size) { return between(-size, size); }
     int one_of(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
+    template <class T>
+    T one_of(std::span<const Named<T>> all) {
+        return all[static_cast<std::size_t>(one_of(static_cast<int>(all.size())))].value;
+    }
 
   private:
     std::mt19937 engine_;
 };
+
+// A valid scene around the paper's, with compliant contact and without friction.
+inline Problem random_problem(Dice& dice, ModelKind kind) {
+    for (;;) {
+        Problem p;
+        p.beam.model = kind;
+        p.beam.modes = 1 + dice.one_of(3);
+        p.cam->speed = dice.about_zero(10);
+        p.cam->eccentricity = dice.between(0, 0.03);
+        p.cam->phase = dice.about_zero(3);
+        p.cam->radius = dice.between(0.05, 0.12);
+        p.cam->centre = {dice.between(0.25, 0.9), dice.about_zero(0.05)};
+        p.initial.angle = dice.between(0.4, 1.2);
+        p.initial.angular_velocity = dice.about_zero(1);
+        p.hub.radius = dice.one_of(2) ? dice.between(-0.1, 0.2) : 0;
+        p.hub.inertia = dice.one_of(2) ? dice.between(0, 0.05) : 0;
+        p.contact.stiffness = std::pow(10, dice.between(6, 9));
+        p.contact.exponent = dice.between(1, 2);
+        p.contact.restitution = dice.between(0.2, 1);
+        p.contact.damping = dice.one_of(names(DampingLaw{}));
+        if (validate(p).empty()) return p;
+    }
+}
 
 // A valid scene with compliant contact of any kind: soft and stiff, every dissipation law, exponent and friction, one
 // to eight modes, with and without offset of the face and hub radius.
@@ -103,7 +132,7 @@ inline Problem random_contact(unsigned seed) {
         p.cam->phase = dice.between(0, 6.28);
         p.contact.stiffness = std::pow(10, dice.between(4.5, 10.5));
         p.contact.exponent = dice.one_of(3) == 0 ? dice.between(1, 2) : dice.one_of(3) == 0 ? 1 : 1.5;
-        p.contact.damping = static_cast<DampingLaw>(dice.one_of(9));
+        p.contact.damping = dice.one_of(names(DampingLaw{}));
         p.contact.restitution = dice.between(0.2, 0.95);
         const int friction = dice.one_of(5);
         if (friction == 0)

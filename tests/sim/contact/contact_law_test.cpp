@@ -163,10 +163,8 @@ TEST(DampingLaws, SimulatedImpactsReturnTheEffectiveRestitution) {
 }
 
 TEST(DampingLaws, VanishAtFullRestitution) {
-    for (int law = 0; law <= static_cast<int>(DampingLaw::zhang_sharf); ++law) {
-        EXPECT_EQ(damping_factor(static_cast<DampingLaw>(law), 1), 0) << law;
-        EXPECT_EQ(effective_restitution(0), 1);
-    }
+    for (const auto& law : names(DampingLaw{})) EXPECT_EQ(damping_factor(law.value, 1), 0) << law.name;
+    EXPECT_EQ(effective_restitution(0), 1);
 }
 
 TEST(DampingLaws, MoreDampingGivesLessRebound) {

@@ -182,7 +182,8 @@ TEST(GapProbe, SeesWhatTheContactIs) {
                     y[n + i] = dice.about_zero(0.5);
                 }
                 const double t = 0.01 * k;
-                const ContactState is = alone.contact(t, y.data(), true), seen = probe.evaluate(t, y.data(), k % 7 == 0);
+                const ContactState is = alone.contact(t, y.data(), true),
+                                   seen = probe.evaluate(t, y.data(), k % 7 == 0);
                 if (is.at_end) continue;
                 ++expanded;
                 EXPECT_NEAR(seen.gap, is.gap, 1e-13) << modes;
@@ -470,25 +471,12 @@ TEST(ExponentialContact, WhatItDoesNotCoverStepsOverStrongDampingToo) {
 Problem random_covered_contact(unsigned seed) {
     Dice dice(seed);
     for (;;) {
-        Problem p;
         const int kind = dice.one_of(4);
-        p.beam.model = kind == 0 ? ModelKind::rigid : kind == 1 ? ModelKind::zeroth_order : ModelKind::first_order;
-        p.beam.modes = 1 + dice.one_of(4);
-        p.cam->speed = dice.about_zero(10);
-        p.cam->eccentricity = dice.between(0, 0.03);
-        p.cam->phase = dice.about_zero(3);
-        p.cam->radius = dice.between(0.05, 0.12);
-        p.cam->centre = {dice.between(0.25, 0.8), dice.about_zero(0.05)};
-        p.initial.angle = dice.between(0.3, 0.9);
-        p.initial.angular_velocity = dice.about_zero(1);
-        if (dice.one_of(2)) p.hub.radius = dice.between(-0.1, 0.2);
-        if (dice.one_of(2)) p.hub.inertia = dice.between(0, 0.05);
+        Problem p = random_problem(dice, kind == 0   ? ModelKind::rigid
+                                         : kind == 1 ? ModelKind::zeroth_order
+                                                     : ModelKind::first_order);
         if (dice.one_of(3) == 0) p.hub.drive = HarmonicTorque{0.2, dice.between(0, 5), 0};
         if (dice.one_of(3) == 0) p.beam.damping_ratio = {dice.between(0, 0.2)};
-        p.contact.stiffness = std::pow(10, dice.between(6, 9));
-        p.contact.exponent = dice.one_of(2) ? 1.5 : dice.between(1, 2);
-        p.contact.restitution = dice.between(0.2, 1);
-        p.contact.damping = static_cast<DampingLaw>(dice.one_of(9));
         if (dice.one_of(3) == 0) p.contact.friction = CoulombFriction{dice.between(0, 0.5), 1e-3};
         if (dice.one_of(3) == 0) p.contact.offset = dice.between(0, 0.02);
         if (validate(p).empty()) return p;

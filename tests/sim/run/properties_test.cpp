@@ -13,6 +13,7 @@
 
 #include "sim/dynamics/initial.hpp"
 #include "sim/integrate/exponential.hpp"
+#include "sim/problem/derived.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -29,6 +30,10 @@ class Reader {
     double between(double low, double high) { return low + (high - low) * share(); }
     double decades(double low, double high) { return std::pow(10, between(low, high)); }
     int below(int count) { return std::min(count - 1, static_cast<int>(share() * count)); }
+    template <class T>
+    T one_of(std::span<const Named<T>> all) {
+        return all[static_cast<std::size_t>(below(static_cast<int>(all.size())))].value;
+    }
 
   private:
     const Draws& draws_;
@@ -50,7 +55,7 @@ Problem drawn(const Draws& draws) {
     p.hub.inertia = r.below(2) ? r.between(0, 0.05) : 0;
     p.contact.stiffness = r.decades(8, 6);
     p.contact.exponent = r.below(2) ? r.between(1, 2) : 1.5;
-    p.contact.damping = static_cast<DampingLaw>(r.below(9));
+    p.contact.damping = r.one_of(names(DampingLaw{}));
     p.contact.restitution = r.between(0.7, 0.2);
     if (r.below(4) == 3) {
         p.contact.model = ContactModel::restitution;
@@ -62,7 +67,7 @@ Problem drawn(const Draws& draws) {
     if (r.below(2)) p.contact.offset.reset();
     if (r.below(3) == 2) p.beam.damping_ratio = {r.between(0, 0.1)};
     if (r.below(4) == 3) p.hub.drive = ConstantTorque{r.between(-1, 1)};
-    const Vec2 disc = p.cam->centre + p.cam->eccentricity * unit(p.cam->phase);
+    const Vec2 disc = disc_centre(*p.cam, 0);
     p.initial.angle =
         std::atan2(disc.y, disc.x) + std::asin((p.cam->radius + contact_offset(p)) / norm(disc)) + r.between(0.02, 0.3);
     p.initial.angular_velocity = r.between(-0.5, 0.5);
