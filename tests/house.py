@@ -28,7 +28,7 @@ FOLDERS = {
 # Which headers only some files may see: the pattern, how many .cpp of which room.
 PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
-    ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 1}),
+    ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),

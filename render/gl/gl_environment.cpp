@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 namespace beamcam::render {
 namespace {
 
-constexpr const char* kDriver = "llvmpipe";  // the one software driver with OpenGL 3.3
+// The one software driver with OpenGL 3.3; EGL would prefer a graphics card.
+constexpr std::pair<const char*, const char*> kChosen[] = {{"GALLIUM_DRIVER", "llvmpipe"},
+                                                           {"LIBGL_ALWAYS_SOFTWARE", "1"}};
 
 // The number of threads changes nothing but the speed.
 bool is_read_by_mesa(std::string_view name) {
@@ -26,8 +29,10 @@ std::vector<std::string> choose_driver() {
         if (is_read_by_mesa(setting.substr(0, setting.find('=')))) found.emplace_back(setting);
     }
     for (const std::string& setting : found) unsetenv(setting.substr(0, setting.find('=')).c_str());
-    setenv("GALLIUM_DRIVER", kDriver, 1);
-    std::erase(found, std::string("GALLIUM_DRIVER=") + kDriver);
+    for (const auto& [name, value] : kChosen) {
+        setenv(name, value, 1);
+        std::erase(found, std::string(name) + "=" + value);
+    }
     return found;
 }
 

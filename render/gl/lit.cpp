@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <new>
 
 #include "render/base/error.hpp"
@@ -10,21 +11,34 @@
 #include "render/gl/gl_environment.hpp"
 
 namespace beamcam::render {
+namespace {
+
+// To a context without a display, best first: OSMesa loads faster, newer releases of Mesa have EGL alone.
+std::vector<std::string> ways() {
+    if (const char* one = std::getenv("BEAMCAM_GL"); one != nullptr && *one != '\0') return {one};
+    return {"osmesa", "egl"};
+}
+
+}  // namespace
 
 std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
     ignored_gl_settings();  // settles the environment before Mesa reads it
-    try {
-        const auto* library = static_cast<const LitLibrary*>(load_module("beamcam_gl.so"));
-        return library->make_renderer(width, height);
-    } catch (const GlError&) {
-        if (memory_is_short()) throw std::bad_alloc();  // Mesa does not say so
-        throw;
-    } catch (const ModuleError& error) {
-        throw GlError(fmt::format(
-            "lit and solid views need OpenGL: install the Debian package libosmesa6, or choose the flat view "
-            "(\"view\": {{\"style\": \"flat\"}}); {}",
-            error.what()));
+    std::string reasons;
+    for (const std::string& way : ways()) {
+        try {
+            const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", way)));
+            return library->make_renderer(width, height);
+        } catch (const GlError& error) {
+            if (memory_is_short()) throw std::bad_alloc();  // Mesa does not say so
+            reasons += fmt::format("\n{}", error.what());
+        } catch (const ModuleError& error) {
+            reasons += fmt::format("\n{}", error.what());
+        }
     }
+    throw GlError(fmt::format(
+        "lit and solid views need OpenGL: install the Debian package libosmesa6, or libegl1 where there is none, or "
+        "choose the flat view (\"view\": {{\"style\": \"flat\"}}){}",
+        reasons));
 }
 
 }  // namespace beamcam::render

@@ -1,10 +1,11 @@
-// The lit view: shaded metal through OpenGL (OSMesa, core profile), orthographic, seen from the front; and the solid
-// view (solid.hpp), in perspective.
+// The lit view: shaded metal through OpenGL (core profile, in software), orthographic, seen from the front; and the
+// solid view (solid.hpp), in perspective.
 //
 // Light and shadow come from normals computed per pixel (chamfers, turned faces, brushed lengths); edges are
 // antialiased by the distance to the shape, which is smoother than four samples and needs none. The renderer lives in
-// a module of its own (gl/osmesa.cpp) that is loaded when a lit picture is drawn, and only then. A machine without it
-// gets GlError, which names the package and the flat view.
+// modules of its own (gl/module/), one on OSMesa and one on EGL, the first of which that works is loaded when a lit
+// picture is drawn, and only then; $BEAMCAM_GL, "osmesa" or "egl", names one. A machine without either gets GlError,
+// which names the package and the flat view.
 #pragma once
 
 #include <memory>
@@ -61,7 +62,7 @@ class LitRenderer {
     double read_back = 0;  // so far, of lit pictures, once they are drawn [s]
 };
 
-// What the module beamcam_gl.so offers.
+// What the modules beamcam_osmesa.so and beamcam_egl.so offer.
 class LitLibrary {
   public:
     virtual ~LitLibrary() = default;

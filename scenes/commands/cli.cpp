@@ -44,6 +44,14 @@ void refuse_unknown_command(int argc, const char* const* argv, const Grammar& gr
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
 }
 
+// "Exit codes: 0 done, 1 bug, …", in two lines.
+std::string exit_code_words() {
+    std::string text = "Exit codes: ";
+    for (const auto& [code, meaning] : Grammar::kExitCodes)
+        text += fmt::format("{} {}{}", code, meaning, code == kMissingPart ? ",\n" : code == kInterrupted ? "." : ", ");
+    return text;
+}
+
 // A parsed command and its parser.
 using ParserOf = std::vector<std::pair<const CLI::App*, const Command*>>;
 
@@ -82,13 +90,10 @@ int parse_and_run(int argc, const char* const* argv) {
     for (const auto add : kCommands) add(grammar);
     refuse_unknown_command(argc, argv, grammar);
 
-    CLI::App app("Films a mechanism: JSON scenes of a flexible beam and a turning cam in; films, stills and data out.",
-                 "beamcam");
+    CLI::App app(Grammar::kSummary, "beamcam");
     app.set_version_flag("--version", fmt::format("beamcam {}", kVersion));
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 done, 1 bug, 2 usage, 3 scene, 4 solver, 5 missing renderer, codec or font,\n"
-        "6 input/output, 7 differs, 130 interrupted.");
+    app.footer(exit_code_words());
     ParserOf parsers;
     for (const Command& command : grammar.commands) add_command(app, command, parsers);
     try {

@@ -28,6 +28,7 @@ void add_cache(Grammar& grammar);
 void add_concat(Grammar& grammar);
 void add_init(Grammar& grammar);
 void add_stress(Grammar& grammar);
+void add_examples(Grammar& grammar);
 void add_schema(Grammar& grammar);
 void add_keys(Grammar& grammar);
 void add_hash(Grammar& grammar);
@@ -38,12 +39,14 @@ void add_doctor(Grammar& grammar);
 void add_accuracy(Grammar& grammar);
 void add_figure(Grammar& grammar);
 void add_paper(Grammar& grammar);
+void add_completion(Grammar& grammar);
+void add_manual(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,    add_render, add_simulate, add_modes,  add_check, add_plan,   add_cache,
-    add_concat, add_init,   add_schema,   add_keys,   add_hash,  add_diff,   add_test,
-    add_info,   add_doctor, add_accuracy, add_figure, add_paper, add_stress,
+    add_run,    add_render,   add_simulate, add_modes, add_check,  add_plan,       add_cache,  add_concat,
+    add_init,   add_examples, add_schema,   add_keys,  add_hash,   add_diff,       add_test,   add_info,
+    add_doctor, add_accuracy, add_figure,   add_paper, add_stress, add_completion, add_manual,
 };
 
 // ---- options that several commands share --------------------------------------------------------

@@ -91,9 +91,9 @@ int act(const Arguments& args) {
 
 void add_figure(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
-    Command& app = grammar.command("figure", "Make a figure for print (.pdf, .svg, .png); no NAME: list them");
+    Command& app = grammar.command("figure", "Make a figure for print (.pdf, .svg, .png); no FIGURE: list them");
     add_scene(app, args->scene, args->common);
-    app.positional("NAME", &args->figure, "Which figure; none: list those of the scene");
+    app.positional("FIGURE", &args->figure, "Which figure; none: list those of the scene");
     app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg or .png");
     app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
         .one_of(render::figure::column_names());

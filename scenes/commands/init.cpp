@@ -1,39 +1,69 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/errors.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/description.hpp"
 #include "scenes/format/embedded.hpp"
+#include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 struct Arguments {
     Common common;
-    std::string name = "scene";
+    std::string name, from = "default";
 };
 
+const EmbeddedScene& example_named(const std::string& name) {
+    std::vector<std::string> known;
+    for (const EmbeddedScene& scene : embedded_scenes()) {
+        if (scene.name == name || fmt::format("{}.json", scene.name) == name) return scene;
+        known.emplace_back(scene.name);
+    }
+    throw UsageError(fmt::format("no example is named {}{}", in_quotes(name), suggestion_or_list(name, known)));
+}
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+}
+
 int act(const Arguments& args) {
-    std::string text(default_scene_text());
-    const std::filesystem::path path(args.name.ends_with(".json") ? args.name : args.name + ".json");
-    if (args.name == "-") {
+    const EmbeddedScene& example = example_named(args.from);
+    const std::string own = std::filesystem::path(example.name).filename().string();
+    const std::string name = !args.name.empty() ? args.name : args.from == "default" ? "scene" : own;
+    std::string text(example.text);
+    replace_all(text, "\"../beamcam-scene.schema.json\"", "\"beamcam-scene.schema.json\"");
+    if (name == "-") {
         print_data(text);
         return 0;
     }
-    const std::string film = "\"default.mp4\"", title = path.stem().string();
-    if (const std::size_t at = text.find(film); at != std::string::npos)
-        text.replace(at, film.size(), fmt::format("\"{}.mp4\"", title));
+    const std::filesystem::path path(name.ends_with(".json") ? name : name + ".json");
+    // Files that are named like the example are named like the new scene.
+    replace_all(text, fmt::format("\"{}.", own), fmt::format("\"{}.", path.stem().string()));
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)) && !args.common.force)
         throw output::WouldOverwrite(
             fmt::format("{} exists; choose another name, or replace it with --force", path.string()));
     output::write_file(path, text);
-    say(args.common, fmt::format("wrote {}; `beamcam run {}` films it, `beamcam schema > beamcam-scene.schema.json` "
-                                 "lets an editor complete its keys",
+    say(args.common, fmt::format("wrote {}; `beamcam run {}` makes its outputs, `beamcam schema > "
+                                 "beamcam-scene.schema.json` lets an editor complete its keys",
                                  path.string(), path.string()));
+    return 0;
+}
+
+int list_examples(const Common&) {
+    std::size_t width = 0;
+    for (const EmbeddedScene& scene : embedded_scenes()) width = std::max(width, scene.name.size());
+    std::string text;
+    for (const EmbeddedScene& scene : embedded_scenes())
+        text += fmt::format("{:<{}}  {}\n", scene.name, width, scene.summary());
+    print_text(text);
     return 0;
 }
 
@@ -51,10 +81,16 @@ int print_schema(const SchemaArguments& args) {
 void add_init(Grammar& grammar) {
     auto args = std::make_shared<Arguments>();
     Command& app = grammar.command("init", "Write a commented scene to start from");
-    app.positional("NAME", &args->name, "Its name (default: scene); - is standard output");
+    app.positional("NAME", &args->name, "Its name (default: scene, or that of the example); - is standard output");
+    app.option("--from", &args->from, "EXAMPLE", "Copy this shipped scene; `beamcam examples` lists them");
     app.flag("--force", args->common.force, "Replace an existing file");
     add_quiet(app, args->common);
     app.bind(args, act);
+}
+
+void add_examples(Grammar& grammar) {
+    Command& app = grammar.command("examples", "List the scenes that come with beamcam, for `beamcam init --from`");
+    app.bind(std::make_shared<Common>(), list_examples);
 }
 
 void add_schema(Grammar& grammar) {

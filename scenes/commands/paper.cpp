@@ -45,9 +45,10 @@ std::string with_ending(const std::string& file, const char* ending) {
 // Every figure of the scenes that come with the program; one set of studies for all of them.
 std::vector<Job> jobs_of(const Arguments& args, Studies& studies) {
     std::vector<Job> jobs;
-    for (const EmbeddedScene& embedded : paper_scenes()) {
-        Reading reading =
-            read_scene({std::string(embedded.name), std::string(embedded.text), true}, args.common.overrides);
+    for (const EmbeddedScene& embedded : embedded_scenes()) {
+        if (!embedded.is_of_paper()) continue;
+        Reading reading = read_scene({fmt::format("{}.json", embedded.name), std::string(embedded.text), true},
+                                     args.common.overrides);
         if (!reading.scene) throw SceneError(reading.report());
         for (const Output& output : reading.scene->outputs) {
             const auto* figure = std::get_if<FigureOutput>(&output);

@@ -91,7 +91,8 @@ void add_simulate(Grammar& grammar) {
                "Table of channels, .csv or .npz; - is standard output (CSV)");
     app.option("--rate", &args->rate, "HZ", "Rows a second (default: 1000)");
     app.option("--times", &args->times, "T,T,...", "Exactly these rows, in this order").separated_by(',');
-    app.option("--channels", &args->channels, "A,B,...", "Columns besides the time (default: all)").separated_by(',');
+    app.option("--channels", &args->channels, "CHANNEL,...", "Columns besides the time (default: all)")
+        .separated_by(',');
     app.option("--impacts", &args->impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
     app.option("--summary", &args->summary, "FILE", "Counts, extremes, energy balance, .json; - is standard output");

@@ -7,13 +7,14 @@
 namespace beamcam::scenes {
 
 std::string_view baselines_schema_text();  // beamcam-baselines.schema.json
-std::string_view default_scene_text();     // default.json
 
-// The scenes of the paper's figures, paper/*.json, by name.
+// The scenes that come with the program, by name: those of this folder, then those of the paper's figures.
 struct EmbeddedScene {
-    std::string_view name;  // "free-fall.json"
+    std::string_view name;  // "default", "paper/free-fall"
     std::string_view text;
+    bool is_of_paper() const { return name.starts_with("paper/"); }
+    std::string_view summary() const;  // its first comment
 };
-std::span<const EmbeddedScene> paper_scenes();
+std::span<const EmbeddedScene> embedded_scenes();
 
 }  // namespace beamcam::scenes

@@ -79,11 +79,13 @@ TEST(Film, EveryPixelIsOpaque) {
 }
 
 TEST(Film, FlatViewLoadsNoOpenGl) {
-    const bool before = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_NOLOAD) != nullptr;
+    const auto loaded = [](const char* library) { return dlopen(library, RTLD_NOW | RTLD_NOLOAD) != nullptr; };
+    const bool osmesa = loaded("libOSMesa.so.8"), egl = loaded("libEGL.so.1");
     const Variable nowhere("BEAMCAM_MODULE_DIR", "/nonexistent");
     Film film(small_film(Style::flat));
     drawn(film, 3);
-    EXPECT_EQ(dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_NOLOAD) != nullptr, before);
+    EXPECT_EQ(loaded("libOSMesa.so.8"), osmesa);
+    EXPECT_EQ(loaded("libEGL.so.1"), egl);
 }
 
 TEST(Film, MissingLitRendererNamesThePackageAndTheFlatView) {

@@ -428,7 +428,8 @@ TEST(Paper, IntegratesEachPhysicsOnce) {
     }
     EXPECT_EQ(files, 3 * 12 + 2);
     Studies studies;
-    for (const EmbeddedScene& embedded : paper_scenes()) {
+    for (const EmbeddedScene& embedded : embedded_scenes()) {
+        if (!embedded.is_of_paper()) continue;
         const Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true});
         for (const Output& output : reading.scene->outputs)
             recipe_named(std::get<FigureOutput>(output).figure)->prepare(*reading.scene, Lang::en, studies);
@@ -443,7 +444,8 @@ TEST(Paper, IntegratesEachPhysicsOnce) {
 
 TEST(Paper, ScenesAreFineAndListEveryFigureOnce) {
     std::vector<std::string> files;
-    for (const EmbeddedScene& embedded : paper_scenes()) {
+    for (const EmbeddedScene& embedded : embedded_scenes()) {
+        if (!embedded.is_of_paper()) continue;
         const Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true});
         ASSERT_TRUE(reading.scene) << reading.report();
         for (const Output& output : reading.scene->outputs) files.push_back(file_of(output).substr(0, 5));

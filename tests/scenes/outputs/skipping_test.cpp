@@ -78,7 +78,7 @@ TEST(Skipping, ATableLoadsNeitherFontsNorOpenGlNorTheEncoder) {
     EXPECT_EQ(count(run, "integrations"), 1);
     for (const char* what : {"font_sets", "gl_contexts", "encoder_modules", "encoders", "frames_drawn"})
         EXPECT_EQ(count(run, what), 0) << what;
-    for (const char* library : {"libOSMesa", "libavcodec", "libavformat", "libx264"})
+    for (const char* library : {"libOSMesa", "libEGL", "libavcodec", "libavformat", "libx264"})
         EXPECT_THAT(run.err, Not(HasSubstr(library)));
     EXPECT_THAT(run.err, HasSubstr("libc.so"));  // the linker did tell
 }

@@ -125,6 +125,29 @@ TEST(GlDoctor, NamesThePackageOfWhatIsMissing) {
     EXPECT_THAT(gl.out, HasSubstr("libosmesa6"));
 }
 
+// Both ways to OpenGL without a display come to the same driver. Of each kind of view one picture.
+TEST(GlWays, OsmesaAndEglDrawTheSamePixels) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    for (const char* way : {"osmesa", "egl"})
+        if (const Finished doctor = shell(folder, fmt::format("BEAMCAM_GL={} $BEAMCAM doctor", way)); doctor.code != 0)
+            GTEST_SKIP() << way << ": " << doctor.out;
+    for (const char* style : {"lit", "solid"}) {
+        for (const char* way : {"osmesa", "egl"})
+            ASSERT_EQ(shell(folder, fmt::format("BEAMCAM_GL={0} $BEAMCAM render s.json -o {0}.png --at 0.3 --size "
+                                                "320x180 --style {1} --force",
+                                                way, style))
+                          .code,
+                      0);
+        EXPECT_EQ(shell(folder, "$BEAMCAM diff osmesa.png egl.png").code, 0) << style;
+    }
+    const auto fingerprint = [&](const char* way) {
+        return shell(folder, fmt::format("BEAMCAM_GL={} $BEAMCAM doctor --json | grep -A9 fingerprint", way)).out;
+    };
+    EXPECT_EQ(fingerprint("osmesa"), fingerprint("egl"));
+    EXPECT_EQ(shell(folder, "BEAMCAM_GL=vulkan $BEAMCAM render s.json -o x.png --at 0 --style lit").code, 5);
+}
+
 // Drivers that this machine lacks, and switches that make Mesa crash.
 TEST(GlEnvironment, SettingsOfMesaAreIgnoredAndNamed) {
     const Folder folder;

@@ -1,0 +1,44 @@
+// OpenGL 3.3 core for the sources of the modules: a context without a display, shader programs, errors.
+#pragma once
+
+#define GL_GLEXT_PROTOTYPES  // OSMesa and libOpenGL export the modern entry points themselves
+#include <GL/glcorearb.h>
+
+#include <initializer_list>
+#include <memory>
+
+#include "render/draw/geometry.hpp"
+#include "render/gl/solid.hpp"
+
+namespace beamcam::render {
+
+inline constexpr const char* kRemedy = "choose the flat view: \"view\": {\"style\": \"flat\"}";
+
+// In software, without a surface to draw into. Each module brings one kind.
+class GlContext {
+  public:
+    GlContext() = default;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+    virtual ~GlContext() = default;
+    virtual void make_current() = 0;  // on this thread; throws GlError
+};
+// Throws GlError where the library offers no OpenGL 3.3 core.
+std::unique_ptr<GlContext> make_context();
+
+// Throws GlError with the driver's words.
+GLuint link_program(std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment);
+
+void set(GLuint program, const char* uniform, float value);
+void set(GLuint program, const char* uniform, Vec2 value);
+void set(GLuint program, const char* uniform, Vec3 value);
+
+// Of the bound vertex array and buffer: attributes 0, 1 … of so many floats each, side by side.
+void describe_vertices(std::initializer_list<GLint> floats);
+
+// A frame buffer of RGBA pixels, bound. Throws as the next two.
+GLuint make_target(int width, int height);
+void require_no_error();  // throws GlError, std::bad_alloc
+void require_target();    // the bound one can be drawn into
+
+}  // namespace beamcam::render

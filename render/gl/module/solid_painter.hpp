@@ -1,0 +1,25 @@
+// Draws solid bodies in perspective: four samples a pixel, soft shadows by a map of depths seen from the light.
+#pragma once
+
+#include "render/draw/image.hpp"
+#include "render/gl/module/opengl.hpp"
+
+namespace beamcam::render {
+
+class SolidPainter {
+  public:
+    SolidPainter(int width, int height);  // in the current context
+    void draw(const SolidScene& scene, Image& out);
+
+  private:
+    void make_shadow_target();
+    void draw_depths(const SolidScene& scene, GLsizei vertices);
+    void draw_bodies(const SolidScene& scene, GLsizei vertices);
+    void set_view(const Perspective& view);
+
+    int width_, height_;
+    GLuint bodies_ = 0, depths_ = 0;  // programs
+    GLuint vertices_ = 0, buffer_ = 0, target_ = 0, resolved_ = 0, shadow_target_ = 0;
+};
+
+}  // namespace beamcam::render

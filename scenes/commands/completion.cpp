@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/format/description.hpp"
+#include "scenes/format/embedded.hpp"
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct Arguments {
+    std::string shell;
+    const Grammar* grammar = nullptr;
+};
+
+// What may stand for a placeholder of the help.
+struct Completion {
+    Words words;
+    bool files = false;
+    bool in_list = false;  // several words with commas between them
+    bool open = false;     // more follows without a blank
+};
+
+Words channel_names() {
+    Words names;
+    for (const sim::Channel& channel : sim::all_channels({})) names.push_back(sim::name(channel));
+    return names;
+}
+
+Words key_names() {
+    Words names;
+    for (const KeyRow& row : key_rows()) {
+        const std::string name = row.path + "=";
+        if (row.path.find('[') == std::string::npos && std::ranges::find(names, name) == names.end())
+            names.push_back(name);
+    }
+    return names;
+}
+
+Completion completion_of(const Parameter& parameter) {
+    const std::string& what = parameter.value.empty() ? parameter.names : parameter.value;
+    Completion out;
+    out.words = parameter.choices;
+    if (what == "CHANNEL,...") {
+        out.words = channel_names();
+        out.in_list = true;
+    } else if (what == "KEY=VALUE") {
+        out.words = key_names();
+        out.open = true;
+    } else if (what == "FIGURE") {
+        for (const Recipe& recipe : recipes()) out.words.emplace_back(recipe.name);
+    } else if (what == "EXAMPLE") {
+        for (const EmbeddedScene& scene : embedded_scenes()) out.words.emplace_back(scene.name);
+    }
+    constexpr std::string_view kFiles[] = {"FILE", "DIR", "SCENE", "OTHERS", "BASELINES", "SEGMENT", "A", "B"};
+    out.files = out.words.empty() && std::ranges::find(kFiles, what) != std::end(kFiles);
+    return out;
+}
+
+bool is_option(const Parameter& parameter) { return parameter.names.starts_with('-'); }
+bool takes_value(const Parameter& parameter) { return is_option(parameter) && !parameter.value.empty(); }
+
+// "-o,--output" as two words.
+Words spellings(const Parameter& parameter) {
+    const std::size_t comma = parameter.names.find(',');
+    if (comma == std::string::npos) return {parameter.names};
+    return {parameter.names.substr(0, comma), parameter.names.substr(comma + 1)};
+}
+
+Words names_of(const std::deque<Command>& commands) {
+    Words names;
+    for (const Command& command : commands) names.push_back(command.name);
+    return names;
+}
+
+// ---- bash ------------------------------------------------------------------------------------------
+
+std::string bash_words(const Completion& c) {
+    if (c.files) return "_beamcam_files";
+    return fmt::format("{} '{}'",
+                       c.in_list ? "_beamcam_list"
+                       : c.open  ? "_beamcam_open"
+                                 : "_beamcam_words",
+                       fmt::join(c.words, " "));
+}
+
+std::string bash_command(const Command& command) {
+    Words options{"--help"};
+    std::string values, positional;
+    for (const Parameter& parameter : command.parameters) {
+        const Completion completion = completion_of(parameter);
+        if (!is_option(parameter)) {
+            // The last that has words is offered beside files: `figure SCENE FIGURE`.
+            if (completion.files || !completion.words.empty())
+                positional += fmt::format("            {}\n", bash_words(completion));
+            continue;
+        }
+        for (const std::string& spelling : spellings(parameter)) options.push_back(spelling);
+        if (takes_value(parameter))
+            values += fmt::format("                {}) {}; return ;;\n", fmt::join(spellings(parameter), "|"),
+                                  completion.files || !completion.words.empty() ? bash_words(completion) : ":");
+    }
+    if (!command.subcommands.empty())
+        positional += fmt::format("            _beamcam_words '{}'\n", fmt::join(names_of(command.subcommands), " "));
+    return fmt::format(
+        "        {})\n            case $before in\n{}            esac\n"
+        "            case $cur in -*) _beamcam_words '{}'; return ;; esac\n{}            ;;\n",
+        command.name, values, fmt::join(options, " "), positional);
+}
+
+std::string bash_script(const Grammar& grammar) {
+    std::string commands;
+    for (const Command& command : grammar.commands) commands += bash_command(command);
+    return fmt::format(R"(# bash completion of beamcam, made by `beamcam completion bash`
+_beamcam_words() {{ mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -W "$1" -- "$cur"); }}
+_beamcam_open() {{ compopt -o nospace 2>/dev/null; _beamcam_words "$1"; }}
+_beamcam_files() {{ compopt -o filenames 2>/dev/null; mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -f -- "$cur"); }}
+_beamcam_list() {{
+    compopt -o nospace 2>/dev/null
+    local last=${{cur##*,}}
+    mapfile -t COMPREPLY < <(compgen -P "${{cur%"$last"}}" -W "$1" -- "$last")
+}}
+_beamcam() {{
+    local cur=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
+    COMPREPLY=()
+    if [ "$COMP_CWORD" -eq 1 ]; then
+        _beamcam_words '{} --help --version'
+        return
+    fi
+    case ${{COMP_WORDS[1]}} in
+{}    esac
+}}
+complete -F _beamcam beamcam
+)",
+                       fmt::join(names_of(grammar.commands), " "), commands);
+}
+
+// ---- zsh -------------------------------------------------------------------------------------------
+
+std::string quoted_for_zsh(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '\'')
+            out += "'\\''";
+        else if (c == '[' || c == ']' || c == ':' || c == '\\')
+            out += fmt::format("\\{}", c);
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string zsh_values(const Completion& c) {
+    if (c.files) return "_files";
+    if (c.words.empty()) return " ";
+    if (c.in_list) return fmt::format("_values -s , word {}", fmt::join(c.words, " "));
+    if (c.open) return fmt::format("compadd -S \"\" -- {}", fmt::join(c.words, " "));
+    return fmt::format("({})", fmt::join(c.words, " "));
+}
+
+std::string zsh_command(const Command& command) {
+    std::string lines;
+    for (const Parameter& parameter : command.parameters) {
+        const std::string meaning = quoted_for_zsh(parameter.meaning), values = zsh_values(completion_of(parameter));
+        if (!is_option(parameter)) {
+            lines += fmt::format(" \\\n                '*:{}:{}'", parameter.names, values);
+            continue;
+        }
+        for (const std::string& spelling : spellings(parameter))
+            lines += fmt::format(" \\\n                '*{}[{}]{}'", spelling, meaning,
+                                 takes_value(parameter) ? fmt::format(":value:{}", values) : "");
+    }
+    if (!command.subcommands.empty())
+        lines += fmt::format(" \\\n                '1:what:({})'", fmt::join(names_of(command.subcommands), " "));
+    return fmt::format("        {})\n            _arguments{} ;;\n", command.name, lines);
+}
+
+std::string zsh_script(const Grammar& grammar) {
+    std::string commands, names;
+    for (const Command& command : grammar.commands) {
+        commands += zsh_command(command);
+        names += fmt::format("        '{}:{}'\n", command.name, quoted_for_zsh(command.summary));
+    }
+    return fmt::format(R"(#compdef beamcam
+# zsh completion of beamcam, made by `beamcam completion zsh`
+_beamcam() {{
+    local -a commands
+    commands=(
+{}    )
+    if (( CURRENT == 2 )); then
+        _describe command commands
+        return
+    fi
+    shift words
+    (( CURRENT-- ))
+    case $words[1] in
+{}    esac
+}}
+_beamcam "$@"
+)",
+                       names, commands);
+}
+
+// ---- fish ------------------------------------------------------------------------------------------
+
+std::string quoted_for_fish(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) {
+        if (c == '\'' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "'";
+}
+
+std::string fish_parameter(const Command& command, const Parameter& parameter) {
+    const Completion completion = completion_of(parameter);
+    std::string line = fmt::format("complete -c beamcam -n '__fish_seen_subcommand_from {}'", command.name);
+    if (is_option(parameter)) {
+        for (const std::string& spelling : spellings(parameter))
+            line += spelling.starts_with("--") ? fmt::format(" -l {}", spelling.substr(2))
+                                               : fmt::format(" -s {}", spelling.substr(1));
+        if (takes_value(parameter)) line += completion.files ? " -r -F" : " -x";
+        line += fmt::format(" -d {}", quoted_for_fish(parameter.meaning));
+    } else if (completion.files) {
+        line += " -F";
+    } else if (completion.words.empty()) {
+        return "";
+    }
+    if (!completion.words.empty()) line += fmt::format(" -a '{}'", fmt::join(completion.words, " "));
+    return line + "\n";
+}
+
+std::string fish_script(const Grammar& grammar) {
+    std::string text = "# fish completion of beamcam, made by `beamcam completion fish`\ncomplete -c beamcam -f\n";
+    for (const Command& command : grammar.commands) {
+        text += fmt::format("complete -c beamcam -n __fish_use_subcommand -a {} -d {}\n", command.name,
+                            quoted_for_fish(command.summary));
+        for (const Parameter& parameter : command.parameters) text += fish_parameter(command, parameter);
+        for (const Command& subcommand : command.subcommands)
+            text += fmt::format("complete -c beamcam -n '__fish_seen_subcommand_from {}' -a {} -d {}\n", command.name,
+                                subcommand.name, quoted_for_fish(subcommand.summary));
+    }
+    return text;
+}
+
+int act(const Arguments& args) {
+    print_data(args.shell == "bash"  ? bash_script(*args.grammar)
+               : args.shell == "zsh" ? zsh_script(*args.grammar)
+                                     : fish_script(*args.grammar));
+    return 0;
+}
+
+}  // namespace
+
+void add_completion(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    args->grammar = &grammar;
+    Command& app = grammar.command("completion", "Print the completion of a shell: bash, zsh or fish");
+    app.positional("SHELL", &args->shell, "Which").required().one_of({"bash", "zsh", "fish"});
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes

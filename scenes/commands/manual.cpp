@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/scene/version.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct Arguments {
+    const Grammar* grammar = nullptr;
+};
+
+// Text for troff: backslashes and hyphens as they are, no line that begins like a request.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '\\')
+            out += "\\e";
+        else if (c == '-')
+            out += "\\-";
+        else if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n'))
+            out += fmt::format("\\&{}", c);
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string parameter_entry(const Parameter& p) {
+    std::string head = p.names.starts_with('-') ? fmt::format("\\fB{}\\fR", escaped(p.names))
+                                                : fmt::format("\\fI{}\\fR", escaped(p.names));
+    if (!p.value.empty()) head += fmt::format(" \\fI{}\\fR", escaped(p.value));
+    std::string words;
+    for (const std::string& choice : p.choices) words += fmt::format("{}{}", words.empty() ? "" : ", ", choice);
+    if (!words.empty()) words = fmt::format("\n({})", escaped(words));
+    return fmt::format(".TP\n{}\n{}{}\n", head, escaped(p.meaning), words);
+}
+
+std::string command_section(const std::string& name, const Command& command) {
+    std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped(name), escaped(command.summary));
+    for (const Parameter& parameter : command.parameters) text += parameter_entry(parameter);
+    if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped(command.footer));
+    for (const Command& subcommand : command.subcommands)
+        text += command_section(fmt::format("{} {}", name, subcommand.name), subcommand);
+    return text;
+}
+
+constexpr const char* kEnvironment = R"(.TP
+\fBBEAMCAM_CACHE_DIR\fR, \fBBEAMCAM_CACHE_SIZE\fR
+Folder of the kept trajectories, and its limit in MiB (1024)
+.TP
+\fBBEAMCAM_GL\fR
+osmesa or egl: how lit and solid views get their OpenGL (default: the first that works)
+.TP
+\fBBEAMCAM_FONT_DIR\fR, \fBBEAMCAM_MODULE_DIR\fR
+Where fonts and modules are looked for instead of the places of the system
+)";
+
+constexpr const char* kExamples = R"(.nf
+beamcam init fall
+beamcam run fall.json \-o out
+beamcam render fall.json \-o still.png \-\-at impact:1
+beamcam figure fall.json energy \-o energy.pdf \-\-column aps
+beamcam simulate fall.json \-\-trajectory motion.csv \-\-summary \-
+.fi
+)";
+
+int act(const Arguments& args) {
+    std::string text = fmt::format(".TH BEAMCAM 1 \"\" \"beamcam {}\" \"User Commands\"\n", kVersion);
+    text += ".SH NAME\nbeamcam \\- films a flexible beam that falls on a turning cam\n";
+    text += ".SH SYNOPSIS\n\\fBbeamcam\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n";
+    text += fmt::format(".SH DESCRIPTION\n{}\nEvery key of a scene is explained by \\fBbeamcam keys\\fR.\n",
+                        escaped(Grammar::kSummary));
+    text += ".SH COMMANDS\n";
+    for (const Command& command : args.grammar->commands) text += command_section(command.name, command);
+    text += ".SH EXIT STATUS\n";
+    for (const auto& [code, meaning] : Grammar::kExitCodes) text += fmt::format(".TP\n{}\n{}\n", code, meaning);
+    text += fmt::format(".SH ENVIRONMENT\n{}.SH EXAMPLES\n{}", kEnvironment, kExamples);
+    print_data(text);
+    return 0;
+}
+
+}  // namespace
+
+void add_manual(Grammar& grammar) {
+    auto args = std::make_shared<Arguments>();
+    args->grammar = &grammar;
+    grammar.command("manual", "Print the manual page (for man -l -)").bind(args, act);
+}
+
+}  // namespace beamcam::scenes

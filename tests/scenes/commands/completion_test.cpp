@@ -1,0 +1,99 @@
+// What the program writes about itself: completion for shells, the manual; and the scenes that come with it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/format/embedded.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Finished;
+using testing::Folder;
+using testing::shell;
+
+// What bash offers after these words.
+std::string completed(const Folder& folder, const std::string& words) {
+    return shell(folder, "bash -c 'eval \"$(\"$BEAMCAM\" completion bash)\"; COMP_WORDS=(beamcam " + words +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _beamcam; printf \"%s\\n\" \"${COMPREPLY[@]}\"'")
+        .out;
+}
+
+TEST(Completion, BashOffersCommandsOptionsAndValues) {
+    const Folder folder;
+    folder.write("scene.json", "{}");
+    EXPECT_EQ(completed(folder, "sim"), "simulate\n");
+    EXPECT_EQ(completed(folder, "render --backg"), "--background\n");
+    EXPECT_EQ(completed(folder, "render s.json --theme d"), "dark\n");
+    EXPECT_EQ(completed(folder, "figure s.json ener"), "energy\n");
+    EXPECT_EQ(completed(folder, "simulate s.json --channels theta,contact_fo"), "theta,contact_force\n");
+    EXPECT_EQ(completed(folder, "run --set cam.ecc"), "cam.eccentricity=\n");
+    EXPECT_EQ(completed(folder, "init --from paper/mod"), "paper/models\n");
+    EXPECT_EQ(completed(folder, "cache cl"), "clear\n");
+    EXPECT_EQ(completed(folder, "check sce"), "scene.json\n");
+}
+
+TEST(Completion, EveryShellKnowsEveryCommandAndOption) {
+    const Folder folder;
+    Grammar grammar;
+    for (const auto add : kCommands) add(grammar);
+    for (const char* shell_name : {"bash", "zsh", "fish"}) {
+        const Finished script = shell(folder, std::string("$BEAMCAM completion ") + shell_name);
+        ASSERT_EQ(script.code, 0);
+        for (const Command& command : grammar.commands) {
+            EXPECT_THAT(script.out, HasSubstr(command.name)) << shell_name;
+            for (const Parameter& parameter : command.parameters)
+                if (const std::size_t dashes = parameter.names.find("--"); dashes != std::string::npos)
+                    EXPECT_THAT(script.out, HasSubstr(parameter.names.substr(dashes + 2))) << shell_name;
+        }
+        folder.write("script", script.out);
+        const std::string is_there = std::string("command -v ") + shell_name;
+        if (shell(folder, is_there).code == 0)
+            EXPECT_EQ(shell(folder, std::string(shell_name) + " -n script").code, 0) << shell_name;
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM completion tcsh").code, 2);
+}
+
+TEST(Manual, NamesEveryCommandOptionAndExitCode) {
+    const Folder folder;
+    const Finished manual = shell(folder, "$BEAMCAM manual");
+    ASSERT_EQ(manual.code, 0);
+    Grammar grammar;
+    for (const auto add : kCommands) add(grammar);
+    for (const Command& command : grammar.commands)
+        EXPECT_THAT(manual.out, HasSubstr(".SS beamcam " + command.name + "\n"));
+    for (const char* words : {"\\-\\-background", "interrupted", "BEAMCAM_GL"}) EXPECT_THAT(manual.out, HasSubstr(words));
+    if (shell(folder, "command -v groff").code == 0) {
+        const Finished checked = shell(folder, "$BEAMCAM manual | groff -man -ww -Tutf8 -z");
+        EXPECT_EQ(checked.err, "");
+    }
+}
+
+TEST(Examples, EachIsListedWithALineAndCopied) {
+    const Folder folder;
+    const Finished list = shell(folder, "$BEAMCAM examples");
+    ASSERT_EQ(list.code, 0);
+    ASSERT_GE(embedded_scenes().size(), 17U);
+    for (const EmbeddedScene& scene : embedded_scenes()) {
+        const std::string name(scene.name);
+        EXPECT_FALSE(scene.summary().empty()) << name;
+        EXPECT_THAT(list.out, HasSubstr(name + " "));
+        EXPECT_THAT(list.out, HasSubstr(std::string(scene.summary())));
+        ASSERT_EQ(shell(folder, "$BEAMCAM init mine --force -q --from " + name).code, 0);
+        const Finished check = shell(folder, "$BEAMCAM check mine.json");
+        EXPECT_EQ(check.code, 0) << name << check.err;
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM init --from fast-cam -q && grep -c fast-cam.mp4 fast-cam.json").out, "1\n");
+    EXPECT_EQ(shell(folder, "$BEAMCAM init quick --from fast-cam -q && grep -c quick.mp4 quick.json").out, "1\n");
+    const Finished unknown = shell(folder, "$BEAMCAM init --from fast-can");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("fast-cam"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
