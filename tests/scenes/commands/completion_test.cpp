@@ -11,16 +11,17 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::Finished;
 using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::shell;
 
 // What bash offers after these words.
 std::string completed(const Folder& folder, const std::string& words) {
-    return shell(folder, "bash -c 'eval \"$(\"$BEAMCAM\" completion bash)\"; COMP_WORDS=(beamcam " + words +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _beamcam; printf \"%s\\n\" \"${COMPREPLY[@]}\"'")
+    return shell(folder,
+                 "export BEAMCAM; bash -c 'eval \"$(\"$BEAMCAM\" completion bash)\"; COMP_WORDS=(beamcam " + words +
+                     "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _beamcam; printf \"%s\\n\" \"${COMPREPLY[@]}\"'")
         .out;
 }
 
@@ -67,9 +68,10 @@ TEST(Manual, NamesEveryCommandOptionAndExitCode) {
     for (const auto add : kCommands) add(grammar);
     for (const Command& command : grammar.commands)
         EXPECT_THAT(manual.out, HasSubstr(".SS beamcam " + command.name + "\n"));
-    for (const char* words : {"\\-\\-background", "interrupted", "BEAMCAM_GL"}) EXPECT_THAT(manual.out, HasSubstr(words));
+    for (const char* words : {"\\-\\-background", "interrupted", "BEAMCAM_GL"})
+        EXPECT_THAT(manual.out, HasSubstr(words));
     if (shell(folder, "command -v groff").code == 0) {
-        const Finished checked = shell(folder, "$BEAMCAM manual | groff -man -ww -Tutf8 -z");
+        const Finished checked = shell(folder, "$BEAMCAM manual | groff -k -man -ww -Tutf8 -z");
         EXPECT_EQ(checked.err, "");
     }
 }
