@@ -35,7 +35,7 @@ CamPose cam_pose(const Cam& cam, double t) {
 }
 
 double impact_depth(double exponent, double stiffness, double mass, double speed) {
-    BEAMCAM_ASSERT(exponent >= 1 && stiffness > 0 && mass > 0 && speed >= 0);
+    BEAMCAM_ASSERT(exponent >= 1 && stiffness > 0 && mass >= 0 && speed >= 0);
     return std::pow(0.5 * (exponent + 1) * mass * speed * speed / stiffness, 1 / (exponent + 1));
 }
 
