@@ -110,7 +110,7 @@ double Shapes::bound(int i) const {
 }
 
 void Shapes::evaluate(double x, double* y, double* y1, double* y2, double* y3) const {
-    BEAMCAM_ASSERT(x >= 0 && x <= length_ * (1 + 1e-12));
+    BEAMCAM_ASSERT(beta_.empty() || (x >= 0 && x <= length_ * (1 + 1e-12)));
     for (std::size_t i = 0; i < beta_.size(); ++i) {
         const Coefficients& k = coefficients_[i];
         const double beta = beta_[i], bx = beta * x;
