@@ -87,7 +87,6 @@ struct Chart::View {
 Chart::View Chart::whole() const { return {c_.time.low, c_.time.high, c_.time.high}; }
 Chart::View Chart::around(double t) const { return {t - (1 - kAhead) * *c_.window, t + kAhead * *c_.window, t}; }
 
-Vec2 Chart::to_pixels(double t, double v) const { return {whole().x(plot_, t), y(v)}; }
 Box Chart::past_box() const { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
 int Chart::cursor_column(const View& view, double t) const { return static_cast<int>(std::lround(view.x(plot_, t))); }
 // Half of the widest stroke or dot, and a column of its edge.

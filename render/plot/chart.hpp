@@ -92,7 +92,6 @@ class Chart {
   public:
     Chart(ChartContent content, Box box, Box plot, double unit);
 
-    Vec2 to_pixels(double t, double v) const;                        // of the whole film's axes
     void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
     // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
     // window.

@@ -1,0 +1,111 @@
+#include "render/film/lit_mechanism.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace beamcam::render {
+
+Box lit_box(const Box& shapes, const Box& within, double unit) {
+    const Box wide = shapes.inset(-26 * unit - 4);
+    const double x0 = std::clamp(std::floor(wide.x), within.x, within.right() - 1),
+                 y0 = std::clamp(std::floor(wide.y), within.y, within.bottom() - 1);
+    const double x1 = std::clamp(std::ceil(wide.right()), x0 + 1, within.right()),
+                 y1 = std::clamp(std::ceil(wide.bottom()), y0 + 1, within.bottom());
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
+namespace {
+
+LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const Palette& palette, Vec2 origin) {
+    LitScene scene;
+    scene.unit = look.unit;
+    scene.shadow = palette.shadow;
+    const double u = look.unit;
+    if (shape.disc) {
+        const DiscShape& d = *shape.disc;
+        scene.behind.push_back({d.centre - origin, d.radius, d.axis - origin, d.bore,
+                                std::min(4.5 * u, 0.06 * d.radius), palette.steel, Finish::turned, true});
+        scene.behind.push_back(
+            {d.mark - origin, d.mark_radius, {}, 0, 0, mix(palette.steel, rgb(0), 0.25), Finish::dimple, false});
+    }
+    for (std::size_t i = 0; i < shape.face.size(); ++i) {
+        scene.strip.face.push_back(shape.face[i] - origin);
+        scene.strip.back.push_back(shape.back[i] - origin);
+    }
+    scene.strip.colors = shape.colors;
+    scene.strip.chamfer = std::min(6 * u, 0.2 * norm(shape.back[0] - shape.face[0]));
+    scene.front.push_back(
+        {shape.hinge - origin, shape.hub, {}, 0, 4 * u, mix(palette.steel, rgb(0xFFFFFF), 0.15), Finish::turned, true});
+    scene.front.push_back({shape.hinge - origin, shape.pin, {}, 0, 0, palette.pin, Finish::dome, false});
+    return scene;
+}
+
+// Tiles that a round can touch in a picture of this height.
+void add_round(Tiles& tiles, int height, Vec2 centre, double radius) {
+    constexpr double kRow = Tiles::kHeight;
+    const double from = std::min<double>(height, std::max(0.0, centre.y - radius)),
+                 to = std::min<double>(height, centre.y + radius);
+    for (int row = static_cast<int>(std::floor(from / kRow)); row * kRow < to; ++row) {
+        const double y = row * kRow;
+        const double off = std::clamp(centre.y, y, y + kRow) - centre.y;
+        const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
+        tiles.add({centre.x - half, y, 2 * half, kRow - 1});
+    }
+}
+
+// What the scene, whose corner is at `origin`, can touch, shadows included: beyond it the lit picture is transparent.
+Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
+    Tiles tiles(width, height);
+    const double around = 26 * scene.unit + 4;
+    for (const auto* rounds : {&scene.behind, &scene.front})
+        for (const LitRound& r : *rounds) add_round(tiles, height, origin + r.centre, r.radius + around);
+    const LitStrip& strip = scene.strip;
+    for (std::size_t i = 0; i + 1 < strip.face.size(); ++i) {
+        Bounds piece;
+        for (Vec2 p : {strip.face[i], strip.face[i + 1], strip.back[i], strip.back[i + 1]})
+            piece.add(origin + p, around);
+        tiles.add({piece.x0, piece.y0, piece.x1 - piece.x0, piece.y1 - piece.y0});
+    }
+    return tiles;
+}
+
+}  // namespace
+
+void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const MechanismView& at, const Box& within) {
+    if (!renderer_) {
+        renderer_ = make_lit_renderer(static_cast<int>(within.w), static_cast<int>(within.h));
+        ++at.facts.counts->gl_contexts;
+    }
+    const LitScene scene = lit_scene(shape, at.look, at.palette, {within.x, within.y});
+    if (shape_ != shape) {
+        const int width = static_cast<int>(within.w), height = static_cast<int>(within.h);
+        const double before = renderer_->read_back;
+        Tiles now = lit_tiles(scene, {}, width, height), changed = now;
+        if (std::exchange(shape_, std::nullopt)) {
+            changed.add(tiles_);
+            renderer_->redraw(scene, changed, image_);
+        } else {
+            renderer_->draw(scene, image_);
+        }
+        tiles_ = std::move(now);
+        shape_ = shape;
+        at.facts.counts->read_back += renderer_->read_back - before;
+        ++at.facts.counts->mechanisms_lit;
+    }
+    canvas.image_tiles(image_, static_cast<int>(within.x), static_cast<int>(within.y),
+                       lit_tiles(scene, {within.x, within.y}, canvas.image().width, canvas.image().height));
+}
+
+void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>& rim) {
+    const int width = static_cast<int>(s.at.box.w), height = static_cast<int>(s.at.box.h);
+    if (!renderer_) renderer_ = make_lit_renderer(width, height);
+    Perspective inside = *s.view;
+    inside.centre = inside.centre - Vec2{s.at.box.x, s.at.box.y};
+    const SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.unit, rim);
+    renderer_->draw(scene, image_);
+    s.canvas.image_part(image_, static_cast<int>(s.at.box.x), static_cast<int>(s.at.box.y),
+                        {0, 0, s.at.box.w, s.at.box.h});
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,366 @@
+#include "render/film/mechanism_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPi = std::numbers::pi;
+constexpr double kReadable = 9;  // the least size of letters [px]
+
+// Markup of the lines that plain words fill, broken where they say so or grow too wide; six at most.
+std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const TextStyle& style) {
+    constexpr std::size_t kMost = 6;
+    TextStyle natural = style;
+    natural.max_width = 0;
+    std::vector<std::string> lines;
+    std::string line;
+    const auto markup = [&](const std::string& plain) { return escape(canvas.drawable(plain)); };
+    const auto end_line = [&] {
+        lines.push_back(markup(line));
+        line.clear();
+    };
+    for (std::size_t at = 0; at < words.size() && lines.size() < kMost;) {
+        const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
+        const std::string word = words.substr(at, end - at);
+        std::string longer = line;
+        if (!line.empty()) longer += ' ';
+        longer += word;
+        // The last line takes what is left; it is cut.
+        const bool fits = lines.size() + 1 == kMost || canvas.measure(markup(longer), natural).w <= style.max_width;
+        if (!fits && !line.empty()) end_line();
+        line += line.empty() ? word : " " + word;
+        if (end < words.size() && words[end] == '\n') end_line();
+        at = end + 1;
+    }
+    if (!line.empty() && lines.size() < kMost) end_line();
+    return lines;
+}
+
+}  // namespace
+
+double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * kPi); }
+
+std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
+    const double half_life = trace_half_life(at.facts.span);
+    std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (!(trace.rim()[i] > 0) || !(at.facts.force_scale > 0)) continue;
+        if (at.facts.setup->view.trace == TraceColor::force) {
+            out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.facts.force_scale)));
+        } else {
+            const double age = std::max(0.0, now - trace.rim_times()[i]);
+            out[i] = age_color(at.palette, age, half_life);
+        }
+    }
+    return out;
+}
+
+void draw_angle_arc(const MechanismScene& s, double room) {
+    if (s.at.small) return;
+    double radius = std::min(92 * s.at.marks, room);
+    if (s.at.problem().cam) {
+        const double free = norm(s.pose.cam_centre) - s.at.problem().cam->radius - s.at.problem().cam->eccentricity;
+        radius = std::min(radius, 0.86 * free * s.at.look.camera.scale);
+    }
+    const double letter = std::max(s.at.marks, kReadable / 21);  // [px] of a design pixel of θ
+    const double hub = hub_radius(s.at.problem(), s.at.look.camera, s.at.unit);
+    const double angle = drawn_angle(s.pose);
+    if (radius < hub + 22 * s.at.marks || std::abs(angle) < 0.02) return;
+    s.arc(s.at.px({0, 0}), radius, 0, angle);
+    s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
+    // The letter stands in the middle of what the section leaves free; where that is too little it gives way to
+    // beyond the horizontal.
+    const double out = radius - 17 * letter, need = 19 * letter / out;
+    double free = std::abs(angle);
+    const auto keep_off = [&](const auto& edge) {
+        const double far = out / s.at.look.camera.scale;
+        for (std::size_t i = 1; i < s.beam.line.size(); ++i) {
+            const Vec2 a = edge(i - 1), b = edge(i);
+            const double from = norm(a), to = norm(b);
+            if (to < far || from == to) continue;
+            const Vec2 p = a + (b - a) * std::clamp((far - from) / (to - from), 0.0, 1.0);
+            const double beyond = std::remainder(std::atan2(p.y, p.x) - angle, 2 * kPi);
+            free = std::min(free, std::abs(angle) + std::copysign(beyond, beyond * angle));
+            return;
+        }
+    };
+    keep_off([&](std::size_t i) { return s.beam.face(i); });
+    keep_off([&](std::size_t i) { return s.beam.back(i); });
+    const double at = std::min(free / 2, free - need);
+    if (radius > hub + 38 * letter)
+        s.canvas.text(
+            s.on(s.at.px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * letter}, math("θ"),
+            {.size = 21 * letter, .color = s.at.palette.muted, .align = HAlign::centre, .halo = s.at.palette.paper});
+}
+
+// Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
+void draw_cam_speed(const MechanismScene& s) {
+    if (!s.at.problem().cam || s.at.small) return;
+    const sim::Cam& cam = *s.at.problem().cam;
+    const Vec2 axis = s.at.px(s.pose.cam_centre);
+    const double swept = (cam.radius + cam.eccentricity) * s.at.look.camera.scale, radius = swept + 20 * s.at.unit;
+    const std::string label = math("ω") + "\u2009=\u2009" + quantity(cam.speed, "rad/s");
+    TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
+    if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
+    if (cam.speed != 0) {
+        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = -0.30 * kPi;
+        const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
+        const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
+        s.arc(axis, radius, from, to + back);
+        s.canvas.stroke({s.at.palette.muted, 2.6 * s.at.unit, {}, Cap::butt});
+        s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
+                       {s.at.palette.muted, 2.6 * s.at.unit}, {head});
+    }
+    const Box at = s.at.speed_box(axis, s.canvas.measure(label, style).w, s.view);
+    s.canvas.text({at.x, at.bottom()}, label, style);
+}
+
+// The straight line that deflection is drawn about.
+void draw_base_line(const MechanismScene& s) {
+    const bool led = sim::is_prescribed(s.at.problem().hub.drive);
+    const Vec2 base = sim::unit(s.at.look.factor == 1 && led ? s.pose.theta : s.beam.base_angle);
+    // True deflection is seen against the direction of a led hub, unless the horizontal is drawn there already.
+    if (s.at.look.factor == 1 && !(led && std::abs(base.y) > 0.01)) return;
+    const double clear = 4 * s.at.unit / s.at.look.camera.scale;
+    std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
+    for (Vec2 p : s.beam.line) {
+        const double below = -cross(base, p);  // the base line's offset from the centre line
+        const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
+        line.push_back(covered ? Vec2{kNan, kNan} : s.px(base * dot(base, p)));
+    }
+    s.canvas.clip(s.at.box, [&] {  // the straight line may be longer than what the camera was fitted to
+        s.canvas.polyline(line);
+        s.canvas.stroke({s.at.palette.faint, 1.5 * s.at.unit, {6 * s.at.unit, 7 * s.at.unit}, Cap::butt});
+    });
+}
+
+// B and C beyond the ends of the line between them, so that they keep off it at any angle, and within the disc.
+static void draw_disc_letters(const MechanismScene& s, Color ink) {
+    const DiscShape& d = *s.shape.disc;
+    const double size = 22 * s.at.marks;
+    if (size < kReadable || d.radius < 60 * s.at.marks) return;
+    const double apart = norm(d.centre - d.axis);
+    const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
+    const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
+    s.canvas.text(s.on(d.centre + along * (20 * s.at.marks)) + Vec2{0, 7 * s.at.marks}, math("B"), style);
+    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands
+    // beside.
+    const double off = d.bore + (s.view ? 24 : 16) * s.at.marks;
+    const Vec2 way = apart + off + 24 * s.at.marks <= d.radius ? along * -1 : Vec2{along.y, -along.x};
+    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * s.at.marks}, math("C"), style);
+}
+
+void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
+    if (!s.shape.disc) return;
+    const DiscShape& d = *s.shape.disc;
+    if (s.view) return draw_disc_letters(s, s.at.palette.ink);
+    const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
+    const auto place = [&](std::size_t i) {
+        const double at = d.angle + 2 * kPi * (static_cast<double>(i) + 0.5) / n, half = 2 * kPi * 1.7 / n;
+        s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
+        s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
+    };
+    const double width = std::min(7 * s.at.unit, 0.1 * d.radius);
+    if (s.at.facts.setup->view.trace == TraceColor::force) {
+        stroke_places(s.canvas, s.at.facts, trace.rim(), width, place);
+    } else {
+        const std::vector<Color> colors = rim_colors(s.at, trace, s.pose.t);
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            if (colors[i].a == 0) continue;
+            place(i);
+            s.canvas.stroke({colors[i], width, {}, Cap::butt});
+        }
+    }
+    if (d.radius < 26 * s.at.marks) return;
+    const Color ink = s.at.facts.setup->view.theme == Theme::dark && s.at.facts.setup->view.style == Style::flat
+                          ? s.at.palette.paper
+                      : s.at.facts.setup->view.theme == Theme::dark ? rgb(0x14171D)
+                                                                    : s.at.palette.steel_edge;
+    const double apart = norm(d.centre - d.axis), pen = std::max(s.at.marks, 0.45);
+    if (apart > d.bore + 2) {
+        s.canvas.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
+        s.canvas.line_to(d.centre);
+        s.canvas.stroke({ink, 1.8 * pen});
+    }
+    s.canvas.circle(d.centre, 4 * s.at.marks);
+    s.canvas.fill(ink);
+    for (Vec2 arm : {Vec2{1, 0}, Vec2{0, 1}}) {
+        s.canvas.move_to(d.axis - arm * (d.bore * 0.75));
+        s.canvas.line_to(d.axis + arm * (d.bore * 0.75));
+    }
+    s.canvas.stroke({s.at.palette.ink, 1.6 * pen, {}, Cap::butt});
+    draw_disc_letters(s, ink);
+}
+
+void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
+    const double n = static_cast<double>(trace.beam().size()), last = static_cast<double>(s.beam.line.size() - 1);
+    const double inset = 4.5 * s.at.unit;
+    const auto at = [&](double place) {
+        const double station = std::clamp(place / n * last, 0.0, last);
+        const auto i = std::min(static_cast<std::size_t>(station), s.beam.line.size() - 2);
+        const double part = station - static_cast<double>(i);
+        const Vec2 face = s.px(s.beam.face(i) * (1 - part) + s.beam.face(i + 1) * part),
+                   back = s.px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
+        return face + (back - face) * (inset / norm(back - face));
+    };
+    stroke_places(s.canvas, s.at.facts, trace.beam(), 5 * s.at.unit, [&](std::size_t i) {
+        s.canvas.move_to(at(static_cast<double>(i) - 1.2));
+        s.canvas.line_to(at(static_cast<double>(i) + 2.2));
+    });
+}
+
+void draw_force(const MechanismScene& s) {
+    if (!shows_force(s.pose, s.beam)) return;
+    const Vec2 flat = s.at.px(s.beam.contact->on_disc), foot = s.on(flat),
+               n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
+    s.canvas.circle(foot, 5 * s.at.marks);
+    s.canvas.fill(s.at.palette.contact);
+    // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
+    const double length = push_length(s.pose.nearest->force / s.at.facts.arrow_scale, s.at.small, s.at.marks);
+    const Vec2 tip = s.on(flat + n * length);
+    if (length > 7 * s.at.marks)
+        s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
+    if (s.at.small) return;
+    const TextStyle style{.size = 22 * s.at.unit,
+                          .color = s.at.palette.contact,
+                          .weight = Weight::medium,
+                          .align = HAlign::right,
+                          .halo = s.at.palette.paper};
+    const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
+    // Beside the tip and clear of the beam's back, however short the arrow.
+    const double clear = push_label(length, s.at.look.depth * s.at.look.camera.scale, s.at.unit);
+    Vec2 at = s.on(flat + n * clear) + Vec2{-14 * s.at.unit, 6 * s.at.unit};
+    const double w = s.canvas.measure(label, style).w;
+    at.x = std::max(at.x, s.at.box.x + w);
+    s.canvas.text(at, label, style);
+}
+
+// Words at the contact, on a plate beside it.
+void draw_callout(const MechanismScene& s, Vec2 tip) {
+    const Callout* last = nullptr;  // a later one takes the place of those before
+    for (const Callout& c : s.at.facts.setup->callouts)
+        if (s.frame >= c.first && s.frame <= c.last && (!last || c.first >= last->first)) last = &c;
+    if (last) {
+        const Callout& c = *last;
+        const TextStyle style{.size = 22 * s.at.unit,
+                              .color = s.at.palette.ink,
+                              .weight = Weight::medium,
+                              .max_width = 0.45 * s.at.box.w};
+        const std::vector<std::string> lines = wrapped(s.canvas, c.text, style);
+        const double line = 29 * s.at.unit;
+        double widest = 0;
+        for (const std::string& words : lines) widest = std::max(widest, s.canvas.measure(words, style).w);
+        const Vec2 foot = s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tip);
+        // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
+        const double swept = s.at.problem().cam ? (s.at.problem().cam->radius + s.at.problem().cam->eccentricity) *
+                                                      s.at.look.camera.scale
+                                                : 0;
+        const Vec2 from = s.at.problem().cam ? s.px(s.pose.cam_centre) : foot;
+        Box plate{from.x + swept + 60 * s.at.unit, from.y + 26 * s.at.unit, widest + 32 * s.at.unit,
+                  17 * s.at.unit + line * static_cast<double>(lines.size())};
+        const auto keep_inside = [&] {
+            plate.x = std::clamp(plate.x, s.at.box.x, std::max(s.at.box.x, s.at.box.right() - plate.w));
+            plate.y =
+                std::clamp(plate.y, s.at.box.y, std::max(s.at.box.y, s.at.box.bottom() - plate.h - 40 * s.at.unit));
+        };
+        keep_inside();
+        if (s.at.problem().cam && !s.at.small) {
+            const Box words = s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * s.at.unit, s.view);
+            if (plate.overlaps(words))
+                plate.y = words.bottom() + 12 * s.at.unit;  // below the cam's speed, else above it
+            keep_inside();
+            if (plate.overlaps(words)) plate.y = std::max(s.at.box.y, words.y - 12 * s.at.unit - plate.h);
+        }
+        s.canvas.move_to({plate.x + 10 * s.at.unit, plate.y + 10 * s.at.unit});
+        s.canvas.line_to(foot);
+        s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
+        s.canvas.rounded(plate, 8 * s.at.unit);
+        s.canvas.fill_keeping_path(s.at.palette.paper);
+        s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            s.canvas.text({plate.x + 16 * s.at.unit, plate.y + 31 * s.at.unit + line * static_cast<double>(i)},
+                          lines[i], style);
+    }
+}
+
+// ---- the motions that it is compared with ------------------------------------------------------
+
+namespace {
+struct Outline {
+    std::vector<Vec2> edge, foot;  // [px]
+};
+
+// Out along the face and back, from where the beam leaves the hub; `foot`: along the hub, which stays in front.
+Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
+    const auto outside = [&](const auto& point) {
+        std::vector<Vec2> line;
+        for (std::size_t i = 0; i < beam.line.size(); ++i) {
+            const Vec2 p = s.at.px(point(i));
+            if (norm(p - s.shape.hinge) < s.shape.hub) continue;
+            if (line.empty() && i > 0) {  // where it crosses the hub's edge
+                Vec2 in = s.at.px(point(i - 1)), out = p;
+                for (int pass = 0; pass < 40; ++pass) {
+                    const Vec2 middle = (in + out) * 0.5;
+                    (norm(middle - s.shape.hinge) < s.shape.hub ? in : out) = middle;
+                }
+                line.push_back(out);
+            }
+            line.push_back(p);
+        }
+        return line;
+    };
+    Outline all{outside([&](std::size_t i) { return beam.face(i); }), {}};
+    const std::vector<Vec2> back = outside([&](std::size_t i) { return beam.back(i); });
+    all.edge.insert(all.edge.end(), back.rbegin(), back.rend());
+    if (all.edge.empty()) return all;
+    const Vec2 from = all.edge.back() - s.shape.hinge, to = all.edge.front() - s.shape.hinge;
+    const double begin = std::atan2(from.y, from.x), radius = norm(from);
+    const double turn = std::remainder(std::atan2(to.y, to.x) - begin, 2 * kPi);
+    const int pieces = 1 + static_cast<int>(std::abs(turn) * std::sqrt(radius));  // within 1/8 px of the circle
+    for (int i = 1; i < pieces; ++i) {
+        const double a = begin + turn * i / pieces;
+        all.foot.push_back(s.shape.hinge + Vec2{std::cos(a), std::sin(a)} * radius);
+    }
+    for (std::vector<Vec2>* line : {&all.edge, &all.foot})
+        for (Vec2& p : *line) p = s.on(p);
+    return all;
+}
+
+}  // namespace
+
+// The other motions: outlines of their beams, and of their discs where those stand elsewhere.
+void draw_ghost_outlines(const MechanismScene& s) {
+    for (int m = 0; m < s.at.facts.members(); ++m) {
+        if (m == s.at.member) continue;
+        const DrawnBeam other = s.at.beam_of(m, s.frame);
+        const Color color = s.at.facts.member_color(m);
+        const sim::Pose& pose = s.at.facts.pose(m, s.frame);
+        const std::optional<sim::Cam>& cam = s.at.facts.motion(m).problem.cam;
+        if (cam && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
+            s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * kPi);
+            s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
+        }
+        s.canvas.polyline(ghost_outline(s, other).edge);
+        s.canvas.stroke({color, 2.2 * s.at.unit});
+    }
+}
+
+// Under the first motion's beam, whose colours mean something.
+void draw_ghost_bodies(const MechanismScene& s) {
+    for (int m = 0; m < s.at.facts.members(); ++m) {
+        if (m == s.at.member) continue;
+        const Outline outline = ghost_outline(s, s.at.beam_of(m, s.frame));
+        s.canvas.polyline(outline.edge);
+        for (const Vec2& p : outline.foot) s.canvas.line_to(p);
+        s.canvas.fill(s.at.facts.member_color(m).faded(0.16));
+    }
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,27 @@
+// What is written on a mechanism: angle, speed of the cam, traces, force, words; and the motions it is compared with.
+#pragma once
+
+#include <vector>
+
+#include "render/film/mechanism_view.hpp"
+#include "render/mechanism/trace.hpp"
+
+namespace beamcam::render {
+
+// As its arc shows it: in the sense in which the hub has turned, without whole turns [rad].
+double drawn_angle(const sim::Pose& pose);
+void draw_angle_arc(const MechanismScene& s, double room);  // of a radius of at most `room` [px]
+void draw_cam_speed(const MechanismScene& s);
+void draw_base_line(const MechanismScene& s);
+void draw_disc_marks(const MechanismScene& s, const Trace& trace);
+void draw_beam_trace(const MechanismScene& s, const Trace& trace);
+void draw_force(const MechanismScene& s);
+void draw_callout(const MechanismScene& s, Vec2 tip);  // `tip`: of the beam, flat [px]
+// A colour for each place around the disc, none where it was never touched.
+std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
+
+// The other motions: under the first one's beam, whose colours mean something, and over it.
+void draw_ghost_bodies(const MechanismScene& s);
+void draw_ghost_outlines(const MechanismScene& s);
+
+}  // namespace beamcam::render

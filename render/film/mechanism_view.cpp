@@ -1,0 +1,72 @@
+#include "render/film/mechanism_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::render {
+namespace {
+constexpr double kPi = std::numbers::pi;
+}
+
+MechanismView::MechanismView(const FilmFacts& all, const PanelSlot& slot)
+    : facts(all),
+      palette(*all.palette),
+      box(slot.box),
+      member(std::min(slot.spec.member, all.members() - 1)),
+      ghosts(all.members() > 1 && all.setup->comparison == Comparison::ghosts),
+      unit(all.unit),
+      small(is_small(slot.box, all.unit)) {
+    // Mechanisms beside each other share one camera's scale, so that they can be compared.
+    look.unit = unit;
+    look.factor = all.factor;
+    look.moment_scale = all.moment_scale;
+    place_camera();
+    wide = std::clamp(0.06 * problem().beam.length * look.camera.scale, 18 * unit, 80 * unit);
+}
+
+// The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
+void MechanismView::place_camera() {
+    // A beam thinner than a line gets the weight of one; it grows away from the cam.
+    const auto as_deep_as = [&](const Sight& sight) {
+        // Labels of mechanisms beside each other stand above them, all in one line.
+        const double label = facts.members() > 1 && !ghosts && box.h > 200 * unit ? 38 * unit : 0;
+        look.camera = sight.camera({box.x, box.y + label, box.w, box.h - label}, unit);
+        look.depth = std::max(problem().beam.depth, 7 * unit / look.camera.scale);
+    };
+    as_deep_as(facts.sight);
+    if (look.depth > problem().beam.depth) as_deep_as(sight_of(facts, look.depth));
+    marks = mark_unit(problem(), look.camera, unit);
+}
+
+Vec2 MechanismView::seen(Vec2 flat, const Perspective* view) const {
+    if (!view) return flat;
+    const Vec2 middle = box.centre();
+    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, 0.5 * wide});
+}
+
+DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
+    const sim::Problem& its = facts.motion(whose).problem;
+    const double factor = its.beam.model == sim::ModelKind::rigid ? 1 : look.factor;
+    return drawn_beam(its, pose, factor, look.depth, facts.with(whose));
+}
+
+Box MechanismView::speed_box(Vec2 axis, double w, const Perspective* view) const {
+    const sim::Cam& cam = *problem().cam;
+    const double radius = (cam.radius + cam.eccentricity) * look.camera.scale + 20 * unit;
+    Vec2 at = seen(axis + down(-0.26 * kPi) * (radius + 16 * unit), view) + Vec2{8 * unit, 12 * unit};
+    if (at.x + w > box.right())
+        at = {box.right() - w, seen(axis + down(-0.5 * kPi) * (radius + 26 * unit), view).y + 8 * unit};
+    at.y = std::min(at.y, box.bottom() - 34 * unit);
+    return {at.x, at.y - 22 * unit, w, 22 * unit};
+}
+
+void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {
+    if (!view) return canvas.arc(centre, radius, from, to);
+    constexpr int kPieces = 48;
+    std::vector<Vec2> points;
+    for (int i = 0; i <= kPieces; ++i) points.push_back(on(centre + down(from + (to - from) * i / kPieces) * radius));
+    canvas.polyline(points);
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,54 @@
+// Where and how large a mechanism is drawn in a film, and one frame of it as it is being drawn.
+#pragma once
+
+#include "render/film/panel.hpp"
+#include "render/gl/solid.hpp"
+#include "render/mechanism/mechanism.hpp"
+
+namespace beamcam::render {
+
+struct MechanismView {
+    MechanismView(const FilmFacts& facts, const PanelSlot& slot);
+
+    const FilmFacts& facts;
+    const Palette& palette;
+    Box box;
+    int member;
+    bool ghosts;  // the other motions are drawn here as outlines
+    double unit,
+        marks = 1;  // [px] of a design pixel: of lines and words; of what is drawn on the mechanism (mark_unit)
+    bool small;
+    MechanismLook look;
+    double wide;  // of the beam across the plane of motion, in the solid view [px]
+
+    const Motion& motion() const { return facts.motion(member); }
+    const sim::Problem& problem() const { return motion().problem; }
+    Vec2 px(Vec2 world) const { return look.camera.to_pixels(world); }
+    // Where a point of the plane of motion [px of the flat view] is seen; null: as it is.
+    Vec2 seen(Vec2 flat, const Perspective* view) const;
+    DrawnBeam drawn(int whose, const sim::Pose& pose) const;
+    DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, facts.pose(whose, frame)); }
+    // Room for the cam's speed, so wide: beside its arrow; where the panel ends there, below it. Its bottom is the
+    // baseline.
+    Box speed_box(Vec2 axis, double w, const Perspective* view) const;
+
+  private:
+    void place_camera();
+};
+
+// One frame as it is being drawn.
+struct MechanismScene {
+    Canvas& canvas;
+    int frame;
+    const sim::Pose& pose;
+    const DrawnBeam& beam;
+    const MechanismShape& shape;
+    const MechanismView& at;
+    const Perspective* view;  // of the solid view; null: as it is
+
+    Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
+    Vec2 px(Vec2 world) const { return on(at.px(world)); }
+    void arc(Vec2 flat_centre, double radius, double from, double to) const;
+};
+
+}  // namespace beamcam::render
