@@ -1,17 +1,12 @@
-// One panel on a sheet: its axes laid out in a box, then drawn with everything in them.
+// One panel on a sheet: axes, curves and legend in a box, and labels that keep clear of them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "render/plot/figure.hpp"
-#include "render/plot/placement.hpp"
+#include "render/plot/legend.hpp"
 
 namespace beamcam::render::figure {
-
-struct Margins {
-    double left = 0, right = 0, top = 0, bottom = 0;  // [pt]
-};
 
 class PanelDrawing {
   public:
@@ -27,13 +22,6 @@ class PanelDrawing {
     void draw();
 
   private:
-    struct Curve {
-        const Series* series = nullptr;
-        std::vector<Vec2> points;              // on the sheet
-        std::vector<std::vector<Vec2>> bands;  // outlines of where it swings too fast to be told apart; not in `line`
-        std::vector<Vec2> line;                // what is drawn as a line, for curves without values
-        std::vector<double> value;             // colour shares, for curves with values
-    };
     struct Writing {
         Vec2 at;
         std::string markup;
@@ -41,59 +29,37 @@ class PanelDrawing {
         std::optional<std::pair<Vec2, Vec2>> leader;
     };
 
-    Vec2 at(double x, double y, bool right = false) const;
-    Lettering words() const;
-    Lettering numbers() const;
-    void make_axes(double width, double height);
+    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
+    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    Vec2 at(double x, double y, bool right = false) const { return axes_.at(x, y, right); }
     void make_curves();
-    void lighten(Curve& curve) const;
-    static void thin_out_tones(Curve& curve, const std::vector<std::size_t>& kept);
     double place_boxes(bool legend_first);
     Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();
     void place_marks();
+    Writing best_at_mark(const Mark& mark);
     void place_rules();
     bool place_labels();
     bool place_direct();
-    bool place_legend();
-    Box legend_size();
-    double best_direct(const Curve& curve, Writing& out);
-    double crowding(const Box& box, const Curve& own) const;
+    double best_direct(const DrawnCurve& curve, Writing& out);
+    double crowding(const Box& box, const DrawnCurve& own) const;
 
     void draw_grounds();
-    void draw_curves();
-    void draw_curve(const Curve& curve);
-    void draw_bands(const Curve& curve, Pen pen);
-    void draw_marks();
-    void draw_frame();
-    void draw_ticks(const AxisMap& axis, char side, bool labelled);
-    void draw_titles();
-    void draw_color_bar();
     void draw_insets();
-    void draw_legend();
-    void legend_sample(const Series& s, Vec2 left, double width);
-    void marker(Marker shape, Vec2 p, double radius, Color color, bool hollow);
 
     const Panel& panel_;
     const Style& style_;
     Sheet& sheet_;
-    bool lowest_;
     std::string what_;
-    std::vector<AxisMap> x_, y_, right_, bar_;  // one or none
-    double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0;
+    PlotAxes axes_;
+    LegendBox legend_;
     Box plot_;
-    std::vector<Curve> curves_;
-    std::vector<OccupancyGrid> taken_;  // one
+    std::vector<DrawnCurve> curves_;
+    std::optional<OccupancyGrid> taken_;
     std::vector<Box> inset_outer_;
     std::vector<Writing> writings_;
-    bool legend_above_ = false, settled_ = true;
-    double legend_above_height_ = 0, legend_entry_ = 0;
-    int legend_columns_ = 1;
-    std::optional<Box> legend_box_;
+    bool settled_ = true;
 };
-
-Pen curve_pen(const Series& series, const Style& style);
-Color color_of(const Series& series);
 
 // A panel of shapes, without axes, within the box.
 void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box& box);

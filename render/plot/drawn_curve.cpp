@@ -1,0 +1,216 @@
+#include "render/plot/drawn_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "render/plot/reduce.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr int kFewMarkers = 8;         // along a line
+constexpr double kColumn = 4;          // grains: a pixel, in which swings are not told apart
+constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
+
+std::vector<double> dashes(const std::vector<double>& widths, double width) {
+    std::vector<double> out;
+    for (const double d : widths) out.push_back(d * width);
+    return out;
+}
+
+// Which markers later ones leave to be seen: of those within `apart` only the last.
+std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
+    std::vector<bool> seen(points.size(), false);
+    std::set<std::pair<long, long>> taken;
+    for (std::size_t i = points.size(); i-- > 0;)
+        if (std::isfinite(points[i].x + points[i].y))
+            seen[i] = taken.emplace(std::lround(points[i].x / apart), std::lround(points[i].y / apart)).second;
+    return seen;
+}
+
+// Those of the items with these indices, `broken` for kBreak.
+template <class Item>
+std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vector<Item>& from, Item broken) {
+    std::vector<Item> all;
+    all.reserve(indices.size());
+    for (const std::size_t i : indices) all.push_back(i == kBreak ? broken : from[i]);
+    return all;
+}
+
+}  // namespace
+
+Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
+
+Pen curve_pen(const Series& s, const Style& style) {
+    const double width = style.line * s.weight * (s.faded ? 0.7 : 1);
+    Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(look(s.look).dash, width), Cap::butt};
+    if (s.faded) pen.color = pale(pen.color);
+    return pen;
+}
+
+void draw_marker(Sheet& sheet, const Style& style, Marker shape, Vec2 p, double r, Color color, bool hollow) {
+    const auto polygon = [&](std::initializer_list<Vec2> corners) {
+        bool first = true;
+        for (const Vec2 c : corners) {
+            first ? sheet.move_to(p + c * r) : sheet.line_to(p + c * r);
+            first = false;
+        }
+        sheet.close();
+    };
+    switch (shape) {
+        case Marker::circle:
+            sheet.circle(p, r);
+            break;
+        case Marker::square:
+            polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
+            break;
+        case Marker::triangle:
+            polygon({{0, -1.2}, {1.1, 0.8}, {-1.1, 0.8}});
+            break;
+        case Marker::diamond:
+            polygon({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}});
+            break;
+        case Marker::down:
+            polygon({{0, 1.2}, {1.1, -0.8}, {-1.1, -0.8}});
+            break;
+        case Marker::cross:
+            sheet.move_to(p + Vec2{-r, -r});
+            sheet.line_to(p + Vec2{r, r});
+            sheet.move_to(p + Vec2{-r, r});
+            sheet.line_to(p + Vec2{r, -r});
+            return sheet.stroke({color, style.line, {}, Cap::butt});
+    }
+    if (!hollow) return sheet.fill(color);
+    sheet.fill_keeping_path(kWhite);
+    sheet.stroke({color, 0.8 * style.line, {}, Cap::butt});
+}
+
+DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : series_(&s) {
+    const Box& plot = axes.plot();
+    const std::size_t count = std::min(s.x.size(), s.y.size());
+    points_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec2 p = axes.at(s.x[i], s.y[i], s.right);
+        // Far beyond the plot is as good as just beyond it, and Cairo's numbers are finite.
+        p.x = std::clamp(p.x, plot.x - 20 * plot.w, plot.right() + 20 * plot.w);
+        p.y = std::clamp(p.y, plot.y - 20 * plot.h, plot.bottom() + 20 * plot.h);
+        points_.push_back(p);
+    }
+    for (std::size_t i = 0; i < std::min(count, s.value.size()); ++i) value_.push_back(axes.color_share(s.value[i]));
+    if (s.line && !s.every_point) lighten(grain);
+}
+
+// A million points draw and weigh as little as a few thousand.
+void DrawnCurve::lighten(double grain) {
+    const Vec2 broken{std::nan(""), std::nan("")};
+    const std::vector<Swing> fast = swings(points_, kColumn * grain);
+    const std::size_t count = points_.size();
+    if (!value_.empty()) {
+        if (!fast.empty()) thin_out_tones(without(fast, count, true));
+        return;
+    }
+    for (const Swing& swing : fast) bands_.push_back(outline(swing, points_));
+    line_ = reduce(taken(without(fast, count, false), points_, broken), grain);
+    points_ = fast.empty() ? line_ : reduce(taken(without(fast, count, true), points_, broken), grain);
+}
+
+// Keeps these points of a curve that is coloured by a value, and goes from one to the next in a few tones.
+void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
+    const std::vector<double> value = taken(kept, std::exchange(value_, {}), 0.0);
+    const std::vector<Vec2> points = taken(kept, std::exchange(points_, {}), Vec2{});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double rise = i > 0 ? value[i] - value[i - 1] : 0;
+        const int tones =
+            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
+        for (int k = 1; k < tones; ++k) {
+            const double share = double(k) / tones;
+            points_.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
+            value_.push_back(value[i - 1] + rise * share);
+        }
+        points_.push_back(points[i]);
+        value_.push_back(value[i]);
+    }
+}
+
+void DrawnCurve::draw(const Box& plot, const Style& style, Sheet& sheet) const {
+    if (!value_.empty()) return draw_tones(plot, style, sheet);
+    if (series_->line) draw_line(style, sheet);
+    draw_markers(plot, style, sheet);
+}
+
+void DrawnCurve::draw_tones(const Box& plot, const Style& style, Sheet& sheet) const {
+    const Series& s = *series_;
+    Pen pen = curve_pen(s, style);
+    // Strokes of one colour each, in 48 steps that the eye does not tell apart.
+    constexpr int kSteps = 48;
+    const auto step = [&](std::size_t i) {
+        const double v = value_[i];
+        return std::isfinite(v) ? static_cast<int>(std::lround(std::clamp(v, 0.0, 1.0) * kSteps)) : -1;
+    };
+    pen.dash.clear();
+    const double apart = 2 * sheet.grain();
+    for (std::size_t i = 0; s.line && i + 1 < points_.size();) {
+        const int tone = step(i);
+        std::vector<Vec2> piece{points_[i]};
+        std::size_t k = i + 1;
+        for (; k < points_.size(); ++k) {
+            const bool ends = step(k) != tone;
+            if (ends || !(norm(points_[k] - piece.back()) < apart)) piece.push_back(points_[k]);
+            if (ends) break;
+        }
+        if (tone >= 0) {
+            pen.color = map_color(static_cast<double>(tone) / kSteps);
+            pen.cap = Cap::round;
+            sheet.polyline(piece);
+            sheet.stroke(pen);
+        }
+        i = k;
+    }
+    const std::vector<bool> seen = s.every_point ? not_covered(points_, 0.15 * style.marker) : std::vector<bool>();
+    for (std::size_t i = 0; s.every_point && i < points_.size(); ++i)
+        if (seen[i] && step(i) >= 0 && inside(plot, points_[i], style.marker))
+            draw_marker(sheet, style, look(s.look).marker, points_[i], 0.8 * style.marker, map_color(value_[i]), false);
+}
+
+void DrawnCurve::draw_line(const Style& style, Sheet& sheet) const {
+    const Series& s = *series_;
+    Pen pen = curve_pen(s, style);
+    sheet.curve(s.every_point ? points_ : line_, pen);
+    pen.dash.clear();
+    for (const std::vector<Vec2>& band : bands_) {
+        sheet.polyline(band);
+        sheet.close();
+        sheet.fill_keeping_path(pen.color);
+        sheet.stroke(pen);
+    }
+    // A single point draws no line; show it all the same.
+    std::size_t finite = 0;
+    Vec2 only;
+    for (const Vec2 p : points_)
+        if (std::isfinite(p.x + p.y)) ++finite, only = p;
+    if (finite == 1 && !s.every_point)
+        draw_marker(sheet, style, look(s.look).marker, only, style.marker, pen.color, false);
+}
+
+void DrawnCurve::draw_markers(const Box& plot, const Style& style, Sheet& sheet) const {
+    const Series& s = *series_;
+    const Pen pen = curve_pen(s, style);
+    if (s.every_point)
+        for (const Vec2 p : points_)
+            if (std::isfinite(p.x + p.y) && inside(plot, p, style.marker))
+                draw_marker(sheet, style, look(s.look).marker, p, style.marker, pen.color, s.look % 2 == 1);
+    if (s.some_markers && points_.size() > 1) {
+        // Equally spaced across the plot, each curve a little further on, so that they do not pile up.
+        const double spacing = plot.w / kFewMarkers;
+        double next = plot.x + spacing * (0.3 + 0.17 * s.look);
+        for (const Vec2 p : points_) {
+            if (!std::isfinite(p.x + p.y) || p.x < next || !inside(plot, p)) continue;
+            draw_marker(sheet, style, look(s.look).marker, p, style.marker, pen.color, s.look % 2 == 1);
+            next = p.x + spacing;
+        }
+    }
+}
+
+}  // namespace beamcam::render::figure

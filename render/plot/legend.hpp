@@ -1,0 +1,41 @@
+// The box that explains curves and bands: in the plot where it has room, else above it.
+#pragma once
+
+#include <optional>
+
+#include "render/plot/drawn_curve.hpp"
+#include "render/plot/placement.hpp"
+
+namespace beamcam::render::figure {
+
+inline constexpr double kCovers = 1.5;  // cells that a label may touch before it counts as covering data
+
+class LegendBox {
+  public:
+    LegendBox(const Panel& panel, const Style& style, Sheet& sheet) : panel_(panel), style_(style), sheet_(sheet) {}
+
+    int entries() const;
+    bool place_inside(OccupancyGrid& taken);  // false: there is no room; it goes above from now on
+    bool place_above(double width);           // false: its height is new, so lay out again
+    void stand_at(Vec2 top_left) { box_->x = top_left.x, box_->y = top_left.y; }
+    void forget() { box_.reset(); }
+    void try_inside_again() { above_ = false; }
+    bool is_above() const { return above_; }
+    double height_above() const { return above_ ? height_ + style_.gap : 0; }
+    void draw() const;
+
+  private:
+    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
+    Box size(double width);
+    void draw_sample(const Series& s, Vec2 left, double width) const;
+
+    const Panel& panel_;
+    const Style& style_;
+    Sheet& sheet_;
+    bool above_ = false;
+    double height_ = 0, entry_ = 0;  // above the plot; width of an entry
+    int columns_ = 1;
+    std::optional<Box> box_;
+};
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,212 @@
+#include "render/plot/plot_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::render::figure {
+namespace {
+
+struct Extents {
+    Extent x, y, right, color;
+};
+Extents extents_of(const Panel& panel) {
+    Extents all;
+    for (const Series& s : panel.series) {
+        // A point counts where both numbers do.
+        std::vector<double> xs, ys;
+        const Scale vertical = s.right && panel.right ? panel.right->scale : panel.y.scale;
+        for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
+            const bool shows = std::isfinite(s.x[i]) && std::isfinite(s.y[i]) &&
+                               (panel.x.scale == Scale::linear || s.x[i] > 0) &&
+                               (vertical == Scale::linear || s.y[i] > 0);
+            if (!shows) continue;
+            xs.push_back(s.x[i]);
+            ys.push_back(s.y[i]);
+        }
+        all.x.add(xs, panel.x.scale);
+        (s.right ? all.right : all.y).add(ys, vertical);
+        all.color.add(s.value, panel.color_bar ? panel.color_bar->scale : Scale::linear);
+    }
+    for (const Band& b : panel.bands) {
+        all.x.add(b.x, panel.x.scale);
+        all.y.add(b.low, panel.y.scale);
+        all.y.add(b.high, panel.y.scale);
+    }
+    for (const Mark& m : panel.marks) {
+        all.x.add({&m.x, 1}, panel.x.scale);
+        (m.right ? all.right : all.y).add({&m.y, 1}, panel.y.scale);
+    }
+    return all;
+}
+
+}  // namespace
+
+void PlotAxes::fit(double width, double height) {
+    const auto [ex, ey, er, eb] = extents_of(panel_);
+    const int across = std::clamp(static_cast<int>(width / (4.2 * style_.numbers)), 3, 9);
+    const int up = std::clamp(static_cast<int>(height / (2.3 * style_.numbers)), 3, 8);
+    x_.emplace(panel_.x, ex, across, what_ + ", horizontal axis");
+    y_.emplace(panel_.y, ey, up, what_ + ", vertical axis");
+    right_.reset();
+    if (panel_.right) right_.emplace(*panel_.right, er, up, what_ + ", right axis");
+    bar_.reset();
+    if (panel_.color_bar)
+        bar_.emplace(Axis{.label = {},
+                          .scale = panel_.color_bar->scale,
+                          .from = panel_.color_bar->from,
+                          .to = panel_.color_bar->to,
+                          .tight = true},
+                     eb, up, what_ + ", colour bar");
+    widest_y_ = widest(y_);
+    widest_right_ = widest(right_);
+    widest_bar_ = widest(bar_);
+}
+
+double PlotAxes::widest(const std::optional<AxisMap>& axis) const {
+    double w = 0;
+    for (const Tick& t : axis ? axis->ticks() : std::vector<Tick>())
+        if (!t.label.empty()) w = std::max(w, sheet_.measure(t.label, numbers()).w);
+    return w;
+}
+
+Vec2 PlotAxes::at(double x, double y, bool right) const {
+    const AxisMap& vertical = right && right_ ? *right_ : *y_;
+    return {along_x(x), plot_.bottom() - plot_.h * vertical.place(y)};
+}
+
+Margins PlotAxes::margins() const {
+    const double number = sheet_.cap_height(style_.numbers), letter = style_.letters;
+    Margins m;
+    m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap);
+    m.bottom = number / 2;
+    if (lowest_) {
+        m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 : style_.gap;
+        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap;
+    }
+    m.top = number / 2 + 0.5;
+    if (!panel_.letter.empty() || !panel_.title.empty()) m.top = std::max(m.top, letter + style_.gap);
+    if (!y_->common().empty() || (right_ && !right_->common().empty())) m.top += style_.numbers + style_.gap;
+    m.right = 1.3 * style_.numbers;  // the last x number overhangs
+    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap;
+    if (bar_ && !panel_.color_bar->hidden)
+        m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
+    return m;
+}
+
+// Ticks point inwards; l, r, b, t: the side.
+void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
+    const Pen pen{kInk, style_.frame, {}, Cap::butt};
+    for (const Tick& t : axis.ticks()) {
+        const double length = t.major ? style_.tick : style_.minor_tick;
+        const bool across = side == 'b' || side == 't';
+        const double x = across ? plot_.x + t.at * plot_.w : side == 'l' ? plot_.x : plot_.right();
+        const double y = across ? (side == 'b' ? plot_.bottom() : plot_.y) : plot_.bottom() - t.at * plot_.h;
+        const Vec2 in = side == 'l'   ? Vec2{length, 0}
+                        : side == 'r' ? Vec2{-length, 0}
+                        : side == 'b' ? Vec2{0, -length}
+                                      : Vec2{0, length};
+        sheet_.move_to({x, y});
+        sheet_.line_to(Vec2{x, y} + in);
+        sheet_.stroke(pen);
+        if (!labelled || t.label.empty()) continue;
+        Lettering l = numbers();
+        if (across) {
+            l.align = HAlign::centre;
+            l.valign = VAlign::top;
+            sheet_.text({x, y + style_.gap}, t.label, l);
+        } else {
+            l.align = side == 'l' ? HAlign::right : HAlign::left;
+            l.valign = VAlign::middle;
+            sheet_.text({x + (side == 'l' ? -style_.gap : style_.gap), y}, t.label, l);
+        }
+    }
+}
+
+void PlotAxes::draw_frame() const {
+    draw_ticks(*x_, 'b', lowest_);
+    draw_ticks(*x_, 't', false);
+    draw_ticks(*y_, 'l', true);
+    if (!right_)
+        draw_ticks(*y_, 'r', false);
+    else
+        draw_ticks(*right_, 'r', true);
+    sheet_.rectangle(plot_);
+    sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
+}
+
+void PlotAxes::draw_labels() const {
+    const double number = sheet_.cap_height(style_.numbers);
+    Lettering l = words();
+    l.align = HAlign::centre;
+    if (lowest_ && !panel_.x.label.empty()) {
+        l.valign = VAlign::top;
+        const double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
+        sheet_.text({plot_.centre().x, y}, panel_.x.label, l);
+    }
+    if (lowest_ && !x_->common().empty()) {
+        Lettering common = numbers();
+        common.align = HAlign::right;
+        common.valign = VAlign::top;
+        sheet_.text({plot_.right(), plot_.bottom() + number + 2.4 * style_.gap}, x_->common(), common);
+    }
+    l.turned = std::numbers::pi / 2;
+    l.valign = VAlign::baseline;
+    if (!panel_.y.label.empty())
+        sheet_.text({plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap, plot_.centre().y}, panel_.y.label, l);
+    if (right_) {
+        l.valign = VAlign::top;
+        sheet_.text({plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap, plot_.centre().y},
+                    panel_.right->label, l);
+    }
+    double y = plot_.y - style_.gap;
+    Lettering common = numbers();
+    if (!y_->common().empty()) sheet_.text({plot_.x, y}, y_->common(), common);
+    if (right_ && !right_->common().empty()) {
+        common.align = HAlign::right;
+        sheet_.text({plot_.right(), y}, right_->common(), common);
+    }
+}
+
+void PlotAxes::draw_titles(double top, bool legend_above) const {
+    draw_labels();
+    const double y = plot_.y - style_.gap;
+    const bool alone = y_->common().empty() && !legend_above;
+    double x = plot_.x;
+    Lettering title = words();
+    if (!panel_.letter.empty()) {
+        title.bold = true;
+        x += sheet_.text({x, alone ? y : top}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
+        title.bold = false;
+    }
+    if (!panel_.title.empty()) sheet_.text({x, alone ? y : top}, panel_.title, title);
+}
+
+void PlotAxes::draw_color_bar() const {
+    if (!bar_ || panel_.color_bar->hidden) return;
+    const Box bar{plot_.right() + 2.2 * style_.gap, plot_.y, 0.9 * style_.letters, plot_.h};
+    std::vector<Color> colors;
+    for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
+    sheet_.gradient(bar, colors);
+    const Pen pen{kInk, style_.frame, {}, Cap::butt};
+    Lettering l = numbers();
+    l.valign = VAlign::middle;
+    for (const Tick& t : bar_->ticks()) {
+        const double y = bar.bottom() - t.at * bar.h;
+        sheet_.move_to({bar.right(), y});
+        sheet_.line_to({bar.right() - (t.major ? 0.6 : 0.35) * style_.tick, y});
+        sheet_.stroke(pen);
+        if (!t.label.empty()) sheet_.text({bar.right() + style_.gap, y}, t.label, l);
+    }
+    sheet_.rectangle(bar);
+    sheet_.stroke(pen);
+    l = words();
+    l.turned = std::numbers::pi / 2;
+    l.align = HAlign::centre;
+    l.valign = VAlign::top;
+    std::string label = panel_.color_bar->label;
+    if (!bar_->common().empty()) label += "  (" + bar_->common() + ")";
+    sheet_.text({bar.right() + 2.2 * style_.gap + widest_bar_, bar.centre().y}, label, l);
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,59 @@
+// The axes of a panel: from the data's numbers to places on the sheet; numbers, labels and colour bar around the plot.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/plot/figure.hpp"
+
+namespace beamcam::render::figure {
+
+struct Margins {
+    double left = 0, right = 0, top = 0, bottom = 0;  // [pt]
+};
+inline Box without(const Box& outer, const Margins& m) {
+    return {outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
+}
+
+inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
+
+class PlotAxes {
+  public:
+    // `lowest`: x numbers and label are written here.
+    PlotAxes(const Panel& panel, const Style& style, Sheet& sheet, bool lowest, std::string what)
+        : panel_(panel), style_(style), sheet_(sheet), lowest_(lowest), what_(std::move(what)) {}
+
+    void fit(double width, double height);  // as many ticks as a plot of about this size has room for
+    void place(const Box& plot) { plot_ = plot, fit(plot.w, plot.h); }
+
+    const Box& plot() const { return plot_; }
+    Vec2 at(double x, double y, bool right = false) const;
+    double along_x(double x) const { return plot_.x + plot_.w * x_->place(x); }
+    double along_y(double y) const { return plot_.bottom() - plot_.h * y_->place(y); }
+    double color_share(double value) const { return bar_ ? bar_->place(value) : 0; }
+
+    // Room that numbers, labels and colour bar need around the plot.
+    Margins margins() const;
+    void draw_frame() const;
+    // Letter and title stand so high, or on the plot when nothing else does.
+    void draw_titles(double top, bool legend_above) const;
+    void draw_color_bar() const;
+
+  private:
+    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
+    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
+    void draw_ticks(const AxisMap& axis, char side, bool labelled) const;
+    void draw_labels() const;
+
+    const Panel& panel_;
+    const Style& style_;
+    Sheet& sheet_;
+    bool lowest_;
+    std::string what_;
+    std::optional<AxisMap> x_, y_, right_, bar_;
+    double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0;
+    Box plot_;
+};
+
+}  // namespace beamcam::render::figure
