@@ -49,13 +49,15 @@ TEST(Completion, EveryShellKnowsEveryCommandAndOption) {
         for (const Command& command : grammar.commands) {
             EXPECT_THAT(script.out, HasSubstr(command.name)) << shell_name;
             for (const Parameter& parameter : command.parameters)
-                if (const std::size_t dashes = parameter.names.find("--"); dashes != std::string::npos)
+                if (const std::size_t dashes = parameter.names.find("--"); dashes != std::string::npos) {
                     EXPECT_THAT(script.out, HasSubstr(parameter.names.substr(dashes + 2))) << shell_name;
+                }
         }
         folder.write("script", script.out);
         const std::string is_there = std::string("command -v ") + shell_name;
-        if (shell(folder, is_there).code == 0)
+        if (shell(folder, is_there).code == 0) {
             EXPECT_EQ(shell(folder, std::string(shell_name) + " -n script").code, 0) << shell_name;
+        }
     }
     EXPECT_EQ(shell(folder, "$BEAMCAM completion tcsh").code, 2);
 }
