@@ -117,7 +117,7 @@ def check_private_libraries(root):
 def check_equations(root):
     model = root / "sim" / "MODEL.md"
     known = set(EQUATION.findall(model.read_text(encoding="utf-8"))) if model.exists() else set()
-    for path in sources(root / "sim"):
+    for path in sources(root / "sim") + sources(root / "scenes"):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             for cited in EQUATION.findall(line):
                 if cited not in known:

@@ -25,8 +25,10 @@ std::map<std::string, int> occurrences(const std::string& text, const std::regex
 
 std::map<std::string, int> cited() {
     std::string code;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder))
-        if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") code += contents(entry.path());
+    for (const char* folder : {"sim", "scenes"})  // figures show what the paper computes
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder.parent_path() / folder))
+            if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+                code += contents(entry.path());
     return occurrences(code, std::regex(R"(\((S[0-9]+a?)\))"));
 }
 
