@@ -9,14 +9,13 @@ namespace beamcam::scenes {
 namespace {
 
 // A record: the time, the numbers apart from the stations, then three of each station.
-constexpr std::size_t kAlone = 20;
+constexpr std::size_t kAlone = 19;
 
 std::array<double, kAlone> numbers_of(const sim::Pose& p) {
     const sim::Nearest n = p.nearest.value_or(sim::Nearest{});
     return {p.t,
             p.theta,
             p.theta_dot,
-            p.root_slope,
             p.cam_centre.x,
             p.cam_centre.y,
             p.disc_centre.x,
@@ -40,19 +39,18 @@ sim::Pose pose_of(std::span<const double> v) {
     p.t = v[0];
     p.theta = v[1];
     p.theta_dot = v[2];
-    p.root_slope = v[3];
-    p.cam_centre = {v[4], v[5]};
-    p.disc_centre = {v[6], v[7]};
-    p.cam_angle = v[8];
-    if (v[9] != 0)
-        p.nearest = sim::Nearest{.x = v[10],
-                                 .s = v[11],
-                                 .point = {v[12], v[13]},
-                                 .normal = {v[14], v[15]},
-                                 .gap = v[16],
-                                 .force = v[17],
-                                 .friction = v[18],
-                                 .touching = v[19] != 0};
+    p.cam_centre = {v[3], v[4]};
+    p.disc_centre = {v[5], v[6]};
+    p.cam_angle = v[7];
+    if (v[8] != 0)
+        p.nearest = sim::Nearest{.x = v[9],
+                                 .s = v[10],
+                                 .point = {v[11], v[12]},
+                                 .normal = {v[13], v[14]},
+                                 .gap = v[15],
+                                 .force = v[16],
+                                 .friction = v[17],
+                                 .touching = v[18] != 0};
     return p;
 }
 

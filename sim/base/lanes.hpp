@@ -46,7 +46,6 @@ BEAMCAM_INLINE Lanes operator-(Lanes a) {
     return a;
 }
 
-BEAMCAM_INLINE void spread(double value, Lanes& out) { out = Lanes{} + value; }
 BEAMCAM_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 BEAMCAM_INLINE double largest(const Lanes& a) {
     double m = 0;

@@ -120,7 +120,7 @@ class QuadratureModel : public Model {
         primitive_ = integral_.matrix(rule_);
         cx_.resize(nodes, size_);
         cy_.resize(nodes, size_);
-        for (Eigen::VectorXd* v : {&bias_x_, &bias_y_, &y_, &vx_, &vy_, &scratch_, &scratch2_}) v->resize(nodes);
+        for (Eigen::VectorXd* v : {&bias_x_, &bias_y_, &y_, &vx_, &vy_, &scratch_}) v->resize(nodes);
         weights_.resize(nodes);
         inertia_.resize(size_, size_);
     }
@@ -152,7 +152,7 @@ class QuadratureModel : public Model {
     bool angular_ = false;       // coordinates are angles
     Eigen::MatrixXd cx_, cy_;
     Eigen::VectorXd bias_x_, bias_y_;
-    mutable Eigen::VectorXd y_, vx_, vy_, scratch_, scratch2_, weights_;
+    mutable Eigen::VectorXd y_, vx_, vy_, scratch_, weights_;
     Small inertia_;
     Eigen::LDLT<Small> factor_;
     std::vector<double> frequencies_;  // [rad/s], ascending

@@ -161,10 +161,6 @@ class Exponential final : public Integrator {
         return s;
     }
 
-    const double* state() const override {
-        return falling_back_ ? fallback_->state() : method_->step.segment.end.data();
-    }
-
   private:
     ExponentialSegment& segment() { return method_->step.segment; }
 

@@ -94,7 +94,6 @@ class Integrator {
     // The last step again, ended at t1 inside it; y at its end is as accurate as a step's. It may end before t1, where
     // only a shorter step keeps to the tolerance.
     virtual const Segment& shorten(double t1) = 0;
-    virtual const double* state() const = 0;  // at the end of the last segment
 
     IntegratorCounters counters;
 

@@ -55,7 +55,6 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
         form->h.push_back(m.slope[i]);
         form->beta.push_back(model->shapes().beta(i));
         form->shape.push_back(model->shapes().bound(i));
-        form->highest = std::max(form->highest, o.omega);
     }
     form->groups = side_by_side(form->oscillators);
     if (n == 0) return form;

@@ -31,7 +31,6 @@ struct ModalForm {
     std::vector<double> shape;         // their largest values, at most
     std::vector<double> inertia_root;  // c with |B_ij| <= c_i c_j [√kg]
     std::vector<double> slope_norm;    // √∫φ′², if the beam shortens [1/√m]
-    double highest = 0;                // ω_N
 };
 
 }  // namespace beamcam::sim

@@ -252,7 +252,6 @@ class Rk8 final : public Integrator, private Segment {
         return *this;
     }
 
-    const double* state() const override { return end_.data(); }
 
     void value(double t, double* y) const override {
         if (t == t1) {

@@ -137,7 +137,6 @@ class SundialsSolver : public Integrator, protected Segment {
         return *this;
     }
 
-    const double* state() const final { return end_.data(); }
 
   protected:
     SundialsSolver(Ode& ode, double rtol, double atol)

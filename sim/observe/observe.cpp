@@ -249,7 +249,7 @@ Pose Eye::pose(int stations) {
     const Model& model = system_.model();
     Pose pose;
     pose.t = t_;
-    pose.theta = pose.root_slope = model.hub_angle();
+    pose.theta = model.hub_angle();
     pose.theta_dot = model.hub_rate();
     pose.centreline.reserve(static_cast<std::size_t>(stations));
     pose.moment.reserve(static_cast<std::size_t>(stations));

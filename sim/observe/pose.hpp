@@ -27,7 +27,6 @@ struct Pose {
     double theta_dot = 0;            // [rad/s]
     std::vector<Vec2> centreline;    // equally spaced in arc position, root first, tip last [m]
     std::vector<double> moment;      // bending moment EI κ at the same stations [N m]
-    double root_slope = 0;           // angle of the tangent at the root; equals theta [rad]
     Vec2 cam_centre;                 // C (axis) [m]; meaningless without a cam
     Vec2 disc_centre;                // B [m]
     double cam_angle = 0;            // ψ, unwrapped [rad]; the mark is the ray C→B

@@ -93,7 +93,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
         bend(turn);
     }
     const Vec2 first = pose.centreline[1] - pose.centreline[0];
-    pose.theta = pose.root_slope = std::atan2(first.y, first.x);
+    pose.theta = std::atan2(first.y, first.x);
     for (int i = 0; i < n; ++i) {
         const double s = double(i) / (n - 1);
         const double hold = pose.nearest && pose.nearest->force > 0

@@ -532,13 +532,13 @@ TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
     for (sim::Pose& pose : setup.poses) {
         const std::size_t n = pose.centreline.size();
         for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
-        pose.theta = pose.root_slope = angle;
+        pose.theta = angle;
     }
     // The first frame's beam points to the right, so that there is room.
     sim::Pose& other = setup.poses.front();
     for (std::size_t i = 0; i < other.centreline.size(); ++i)
         other.centreline[i] = sim::unit(0.1) * (double(i) / double(other.centreline.size() - 1));
-    other.theta = other.root_slope = 0.1;
+    other.theta = 0.1;
     setup.layout = leaf({.kind = PanelKind::mechanism});
     const Color muted = palette(setup.view.theme).muted;
     Film film(std::move(setup));

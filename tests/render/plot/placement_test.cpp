@@ -97,7 +97,7 @@ TEST(Placement, WordsGiveWay) {
     for (sim::Pose& pose : setup.poses) {
         for (std::size_t i = 0; i < pose.centreline.size(); ++i)
             pose.centreline[i] = {-0.3 * double(i) / 96, double(i) / 96};
-        pose.theta = pose.root_slope = std::atan2(1, -0.3);
+        pose.theta = std::atan2(1, -0.3);
         pose.nearest.reset();
     }
     setup.others.push_back(setup);

@@ -25,7 +25,6 @@ void expect_same(const sim::Pose& a, const sim::Pose& b) {
     EXPECT_EQ(a.t, b.t);
     EXPECT_EQ(a.theta, b.theta);
     EXPECT_EQ(a.theta_dot, b.theta_dot);
-    EXPECT_EQ(a.root_slope, b.root_slope);
     EXPECT_EQ(a.centreline, b.centreline);
     EXPECT_EQ(a.moment, b.moment);
     EXPECT_EQ(a.cam_angle, b.cam_angle);

@@ -35,7 +35,7 @@ struct Collector {
         (*this)(c.v_n_after), (*this)(c.restitution), (*this)(c.force_peak), (*this)(c.energy_lost);
     }
     void operator()(const Pose& p) {
-        (*this)(p.t), (*this)(p.theta), (*this)(p.theta_dot), (*this)(p.root_slope), (*this)(p.cam_angle);
+        (*this)(p.t), (*this)(p.theta), (*this)(p.theta_dot), (*this)(p.cam_angle);
         for (Vec2 r : p.centreline) (*this)(r);
         for (double m : p.moment) (*this)(m);
         if (p.nearest) (*this)(p.nearest->gap), (*this)(p.nearest->force), (*this)(p.nearest->x), (*this)(p.nearest->s);
