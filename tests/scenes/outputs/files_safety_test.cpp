@@ -91,6 +91,31 @@ TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
 }
 
 // A folder in the place of a file, no permission, a manifest that is none: never a bug of the program.
+TEST(FileSafety, AMissingSceneCostsNoOther) {
+    const Folder folder;
+    folder.write("a.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "summary", "file": "a-summary.json"}]})");
+    folder.write("b.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "summary", "file": "b-summary.json"}]})");
+    const Finished run = shell(folder, "$BEAMCAM run a.json nowhere.json b.json -q");
+    EXPECT_EQ(run.code, 6);
+    EXPECT_THAT(run.err, HasSubstr("nowhere.json: there is no such file"));
+    EXPECT_TRUE(fs::exists(folder / "a-summary.json"));
+    EXPECT_TRUE(fs::exists(folder / "b-summary.json"));
+}
+
+TEST(FileSafety, PicturesOfAGigabyteAreAnnounced) {
+    const Folder folder;
+    const auto still = [&](int pixels) {
+        folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [)" +
+                                   std::to_string(pixels) + ", " + std::to_string(pixels) +
+                                   R"(], "view": {"style": "flat"}}]})");
+        return shell(folder, "$BEAMCAM check s.json; $BEAMCAM plan s.json");
+    };
+    const Finished huge = still(16384), usual = still(1024);
+    EXPECT_THAT(huge.err, HasSubstr("GB of memory"));
+    EXPECT_THAT(huge.out, HasSubstr("GB of memory"));
+    EXPECT_THAT(usual.out + usual.err, ::testing::Not(HasSubstr("of memory")));
+}
+
 TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
     const std::pair<const char*, const char*> cases[] = {
         {"mkdir -p out/t.csv", "out/t.csv is a directory"},

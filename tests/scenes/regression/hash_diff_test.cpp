@@ -97,6 +97,14 @@ TEST(Diff, ComparesTablesOfBothFormats) {
     EXPECT_THAT(bad.err, HasSubstr("bad.csv:2:3"));
 }
 
+TEST(Diff, ATableWithAnEmptyTimeIsItself) {
+    const Folder folder;
+    folder.write("a.csv", "t,theta\n0,1\n,2\n0.1,3\n");
+    folder.write("b.csv", "t,theta\n0,1\n,2.5\n0.1,3\n");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv a.csv").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv").code, 7);
+}
+
 TEST(Diff, KeepsPicturesThatBeamcamDidNotMake) {
     const Folder folder;
     folder.write("s.json", "{}");
