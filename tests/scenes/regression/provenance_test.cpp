@@ -1,6 +1,7 @@
 // `beamcam info` and `beamcam doctor`.
 #include "scenes/regression/provenance.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
