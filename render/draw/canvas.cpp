@@ -23,7 +23,7 @@ std::string escape(std::string_view plain) {
 
 // STIX is a little smaller on the body than Inter; 112 % matches the x-heights.
 std::string math(std::string_view symbol) {
-    return fmt::format("<span face='STIXGeneral' style='italic' weight='normal' size='112%'>{}</span>", symbol);
+    return fmt::format("<span face='STIXGeneral,STIX Two Text' style='italic' weight='normal' size='112%'>{}</span>", symbol);
 }
 
 struct Canvas::Handles {
@@ -71,7 +71,7 @@ PangoWeight pango(Weight weight) {
 PangoLayout* laid_out(PangoContext* context, const std::string& markup, const TextStyle& style) {
     PangoLayout* layout = pango_layout_new(context);
     PangoFontDescription* font = pango_font_description_new();
-    pango_font_description_set_family_static(font, "Inter,STIXGeneral,Noto Sans CJK SC");
+    pango_font_description_set_family_static(font, "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC");
     pango_font_description_set_weight(font, pango(style.weight));
     pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
     pango_layout_set_font_description(layout, font);

@@ -24,13 +24,14 @@ namespace fs = std::filesystem;
 
 struct KnownFile {
     const char* name;
-    const char* package;  // Debian's
+    const char* package;              // Debian's
+    const char* successor = nullptr;  // what newer releases of the package have instead
 };
 
 constexpr std::array kFiles{KnownFile{"Inter-Regular.otf", "fonts-inter"}, KnownFile{"Inter-Medium.otf", "fonts-inter"},
                             KnownFile{"Inter-SemiBold.otf", "fonts-inter"},
-                            KnownFile{"STIXGeneral-Regular.otf", "fonts-stix"},
-                            KnownFile{"STIXGeneral-Italic.otf", "fonts-stix"}};
+                            KnownFile{"STIXGeneral-Regular.otf", "fonts-stix", "STIXTwoText-Regular.otf"},
+                            KnownFile{"STIXGeneral-Italic.otf", "fonts-stix", "STIXTwoText-Italic.otf"}};
 constexpr std::array kCjkFiles{KnownFile{"NotoSansCJK-Regular.ttc", "fonts-noto-cjk"},
                                KnownFile{"NotoSansCJK-Bold.ttc", "fonts-noto-cjk"}};
 
@@ -49,10 +50,11 @@ std::vector<fs::path> folders() {
 
 // Empty when it is nowhere.
 fs::path find(const KnownFile& file) {
-    for (const fs::path& folder : folders()) {
-        std::error_code unreadable;
-        if (fs::is_regular_file(folder / file.name, unreadable)) return folder / file.name;
-    }
+    for (const char* name : {file.name, file.successor})
+        for (const fs::path& folder : folders()) {
+            std::error_code unreadable;
+            if (name != nullptr && fs::is_regular_file(folder / name, unreadable)) return folder / name;
+        }
     return {};
 }
 

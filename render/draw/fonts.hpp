@@ -1,4 +1,5 @@
-// The typefaces of all pictures: Inter for words and figures, STIX for mathematical symbols.
+// The typefaces of all pictures: Inter for words and figures, STIX (General, or Two where Debian
+// has no other) for mathematical symbols.
 //
 // They are loaded by file into a fontconfig configuration of our own, so that neither the system's
 // nor the user's font settings influence a pixel; glyphs are neither hinted nor snapped, and are
