@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -19,8 +18,11 @@
 #include "output/film/video_library.hpp"
 #include "output/film/yuv.hpp"
 #include "render/base/memory.hpp"
+#include "sim/base/clock.hpp"
 
 namespace beamcam::output {
+
+enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
 
 namespace {
 
@@ -37,7 +39,6 @@ std::string presets_in_words() {
 
 // ---- what each kind of film asks of FFmpeg -------------------------------------------------------
 
-enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
 struct Recipe {
     const char* container;
     std::vector<std::string> encoders;
@@ -180,9 +181,6 @@ void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* t
                         to + y * stride + left * size);
     });
 }
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 

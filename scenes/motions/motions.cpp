@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "output/files/interrupt.hpp"
@@ -11,6 +10,7 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/motions/spooled.hpp"
+#include "sim/base/clock.hpp"
 #include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -181,14 +181,13 @@ sim::Result Motions::find(const sim::Problem& problem, const sim::Request& reque
 // ---- one motion ------------------------------------------------------------------------------------
 
 std::vector<sim::Result> Motions::run(const Job& job, const sim::Progress& progress) {
-    using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     auto results = read_back(job, progress);
     const bool was_kept = results.has_value();
     if (!results) results = integrate(job, progress);
     long steps = 0;
     for (const sim::Result& result : *results) steps = std::max(steps, result.counters.steps);
-    note(job, was_kept, std::chrono::duration<double>(Clock::now() - start).count(), steps);
+    note(job, was_kept, seconds_since(start), steps);
     return std::move(*results);
 }
 

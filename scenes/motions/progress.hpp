@@ -3,12 +3,13 @@
 // One at a time; several threads may report to it. It never speaks on standard output.
 #pragma once
 
-#include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
 
@@ -37,8 +38,6 @@ class Progress {
     void end();               // leaves the terminal on a clean line
 
   private:
-    using Clock = std::chrono::steady_clock;
-
     void show(double done, bool last);
     void show_bar(double done, double elapsed, bool last);
     void show_plain(double done, double elapsed);

@@ -1,7 +1,6 @@
 // What the scenes of one call of `run` share: options, the record of files, motions, counts and times.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,13 +11,9 @@
 #include "output/files/work.hpp"
 #include "scenes/motions/motions.hpp"
 #include "scenes/outputs/run.hpp"
+#include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
-
-using Clock = std::chrono::steady_clock;
-inline double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string counted(std::size_t n, std::string_view thing);  // "2 impacts"
 void stop_if_interrupted();                                  // throws Stopped

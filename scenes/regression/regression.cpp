@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -19,6 +18,7 @@
 #include "scenes/regression/motion_record.hpp"
 #include "scenes/regression/references.hpp"
 #include "scenes/scene/exit_code.hpp"
+#include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -365,14 +365,14 @@ class Regression {
     }
 
     RegressionResult go() {
-        const auto started = std::chrono::steady_clock::now();
+        const auto started = Clock::now();
         if (path_ == "-" && (!options_.update.empty() || options_.add_digest))
             throw UsageError("baselines from standard input cannot be changed; name the file");
         choose();
         for (Group& group : groups()) group.run(options_, result_);
         write_changes();
         report_files_.save();
-        result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        result_.seconds = seconds_since(started);
         return std::move(result_);
     }
 

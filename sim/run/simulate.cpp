@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "sim/base/clock.hpp"
 #include "sim/run/horizon.hpp"
 #include "sim/run/run.hpp"
 
@@ -71,9 +71,9 @@ void require_valid(const Problem& problem) {
 
 template <class Work>
 std::vector<Result> timed(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     std::vector<Result> results = work();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
     for (Result& result : results) result.wall_seconds = seconds;
     return results;
 }

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "sim/base/clock.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kInstants = 1000;  // at which motions are compared
 constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
@@ -20,8 +18,6 @@ constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
 constexpr double kSpare = 50;           // the reference may take this many times the longest run
 constexpr int kModelShapes = 6;         // models are compared with at least so many shapes
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // One simulation with the compared angle at the instants.
 struct Run {

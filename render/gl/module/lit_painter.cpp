@@ -1,11 +1,11 @@
 #include "render/gl/module/lit_painter.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <vector>
 
 #include "render/gl/module/shaders.hpp"
+#include "sim/base/clock.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -109,13 +109,13 @@ double LitPainter::draw(const LitScene& scene, const Tiles* where, Image& out) {
     glDisable(GL_SCISSOR_TEST);
     draw_shapes(scene);
     glFinish();
-    const auto drawn = std::chrono::steady_clock::now();
+    const auto drawn = Clock::now();
     glPixelStorei(GL_PACK_ROW_LENGTH, width_);
     for (const Band& b : changed)
         glReadPixels(b.left, b.top, b.right - b.left, b.bottom - b.top, GL_RGBA, GL_UNSIGNED_BYTE,
                      out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
     require_no_error();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - drawn).count();
+    return seconds_since(drawn);
 }
 
 void LitPainter::draw_shapes(const LitScene& scene) {

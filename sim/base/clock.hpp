@@ -1,0 +1,13 @@
+// Time that passes while the program works.
+#pragma once
+
+#include <chrono>
+
+namespace beamcam {
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace beamcam
