@@ -1,4 +1,4 @@
-// The modules beamcam_gl.so (OSMesa) and beamcam_egl.so (EGL): lit and solid views by one source. See lit.hpp.
+// What the modules beamcam_osmesa.so and beamcam_egl.so have in common: lit and solid views. See lit.hpp.
 #include <fmt/format.h>
 
 #include <memory>
