@@ -1,6 +1,7 @@
 #include "scenes/commands/cli.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -44,12 +45,10 @@ void refuse_unknown_command(int argc, const char* const* argv, const Grammar& gr
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
 }
 
-// "Exit codes: 0 done, 1 bug, …", in two lines.
 std::string exit_code_words() {
-    std::string text = "Exit codes: ";
-    for (const auto& [code, meaning] : Grammar::kExitCodes)
-        text += fmt::format("{} {}{}", code, meaning, code == kMissingPart ? ",\n" : code == kInterrupted ? "." : ", ");
-    return text;
+    std::vector<std::string> words;
+    for (const auto& [code, meaning] : kExitCodes) words.push_back(fmt::format("{} {}", int(code), meaning));
+    return fmt::format("Exit codes: {}.", fmt::join(words, ", "));
 }
 
 // A parsed command and its parser.

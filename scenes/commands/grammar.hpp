@@ -59,11 +59,6 @@ struct Command {
 struct Grammar {
     static constexpr const char* kSummary =
         "Films a mechanism: JSON scenes of a flexible beam and a turning cam in; films, stills and data out.";
-    // Code and meaning, in order.
-    static constexpr std::pair<int, const char*> kExitCodes[] = {
-        {0, "done"},         {1, "bug"},     {2, "usage"},
-        {3, "scene"},        {4, "solver"},  {5, "missing renderer, codec or font"},
-        {6, "input/output"}, {7, "differs"}, {130, "interrupted"}};
 
     std::deque<Command> commands;  // in the order of --help
 

@@ -8,12 +8,12 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct ManualArguments {
     const Grammar* grammar = nullptr;
 };
 
 // Text for troff: backslashes and hyphens as they are, no line that begins like a request.
-std::string escaped(const std::string& text) {
+std::string escaped_for_roff(const std::string& text) {
     std::string out;
     for (const char c : text) {
         if (c == '\\')
@@ -29,19 +29,19 @@ std::string escaped(const std::string& text) {
 }
 
 std::string parameter_entry(const Parameter& p) {
-    std::string head = p.names.starts_with('-') ? fmt::format("\\fB{}\\fR", escaped(p.names))
-                                                : fmt::format("\\fI{}\\fR", escaped(p.names));
-    if (!p.value.empty()) head += fmt::format(" \\fI{}\\fR", escaped(p.value));
+    std::string head = p.names.starts_with('-') ? fmt::format("\\fB{}\\fR", escaped_for_roff(p.names))
+                                                : fmt::format("\\fI{}\\fR", escaped_for_roff(p.names));
+    if (!p.value.empty()) head += fmt::format(" \\fI{}\\fR", escaped_for_roff(p.value));
     std::string words;
     for (const std::string& choice : p.choices) words += fmt::format("{}{}", words.empty() ? "" : ", ", choice);
-    if (!words.empty()) words = fmt::format("\n({})", escaped(words));
-    return fmt::format(".TP\n{}\n{}{}\n", head, escaped(p.meaning), words);
+    if (!words.empty()) words = fmt::format("\n({})", escaped_for_roff(words));
+    return fmt::format(".TP\n{}\n{}{}\n", head, escaped_for_roff(p.meaning), words);
 }
 
 std::string command_section(const std::string& name, const Command& command) {
-    std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped(name), escaped(command.summary));
+    std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(name), escaped_for_roff(command.summary));
     for (const Parameter& parameter : command.parameters) text += parameter_entry(parameter);
-    if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped(command.footer));
+    if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped_for_roff(command.footer));
     for (const Command& subcommand : command.subcommands)
         text += command_section(fmt::format("{} {}", name, subcommand.name), subcommand);
     return text;
@@ -67,16 +67,16 @@ beamcam simulate fall.json \-\-trajectory motion.csv \-\-summary \-
 .fi
 )";
 
-int act(const Arguments& args) {
+int act(const ManualArguments& args) {
     std::string text = fmt::format(".TH BEAMCAM 1 \"\" \"beamcam {}\" \"User Commands\"\n", kVersion);
     text += ".SH NAME\nbeamcam \\- films a flexible beam that falls on a turning cam\n";
     text += ".SH SYNOPSIS\n\\fBbeamcam\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n";
     text += fmt::format(".SH DESCRIPTION\n{}\nEvery key of a scene is explained by \\fBbeamcam keys\\fR.\n",
-                        escaped(Grammar::kSummary));
+                        escaped_for_roff(Grammar::kSummary));
     text += ".SH COMMANDS\n";
     for (const Command& command : args.grammar->commands) text += command_section(command.name, command);
     text += ".SH EXIT STATUS\n";
-    for (const auto& [code, meaning] : Grammar::kExitCodes) text += fmt::format(".TP\n{}\n{}\n", code, meaning);
+    for (const auto& [code, meaning] : kExitCodes) text += fmt::format(".TP\n{}\n{}\n", int(code), meaning);
     text += fmt::format(".SH ENVIRONMENT\n{}.SH EXAMPLES\n{}", kEnvironment, kExamples);
     print_data(text);
     return 0;
@@ -85,7 +85,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_manual(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<ManualArguments>();
     args->grammar = &grammar;
     grammar.command("manual", "Print the manual page (for man -l -)").bind(args, act);
 }

@@ -12,10 +12,26 @@ enum ExitCode {
     kUsage = 2,
     kBadScene = 3,
     kSolverFailed = 4,
-    kMissingPart = 5,  // renderer, codec or font
+    kMissingPart = 5,
     kInputOutput = 6,
     kDiffers = 7,
     kInterrupted = 130
+};
+// What each means, for people.
+struct ExitMeaning {
+    ExitCode code;
+    const char* meaning;
+};
+inline constexpr ExitMeaning kExitCodes[] = {
+    {kDone, "done"},
+    {kBug, "bug"},
+    {kUsage, "usage"},
+    {kBadScene, "scene"},
+    {kSolverFailed, "solver"},
+    {kMissingPart, "missing renderer, codec or font"},
+    {kInputOutput, "input/output"},
+    {kDiffers, "differs"},
+    {kInterrupted, "interrupted"},
 };
 
 // Exit code 2.
