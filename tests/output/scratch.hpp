@@ -56,6 +56,17 @@ inline render::Image flat_image(int width, int height, std::uint32_t pixel) {
     return image;
 }
 
+// Every pixel differs from its neighbours; transparent by as many shares unless `opaque`.
+inline render::Image pattern(int width, int height, bool opaque) {
+    render::Image image(width, height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const std::uint32_t alpha = opaque ? 255 : static_cast<std::uint32_t>(i * 37 % 256);
+        const auto channel = [&](std::size_t step) { return static_cast<std::uint32_t>(i * step % (alpha + 1)); };
+        image.pixels[i] = alpha << 24 | channel(13) << 16 | channel(7) << 8 | channel(3);
+    }
+    return image;
+}
+
 // What a shell command prints; fails the test when it exits with an error.
 inline std::string output_of(const std::string& command) {
     std::string text;
@@ -67,6 +78,11 @@ inline std::string output_of(const std::string& command) {
     const int status = pclose(pipe);
     EXPECT_EQ(status, 0) << command << "\n" << text;
     return text;
+}
+
+// What ffprobe says of the file.
+inline std::string probe(const std::filesystem::path& file, const std::string& what) {
+    return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
 }
 
 // Runs `body` in a child process and gives its exit code; 256 plus the signal that ended it.

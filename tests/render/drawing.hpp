@@ -13,6 +13,12 @@
 
 namespace beamcam::render {
 
+// Without those of Chinese.
+inline const Fonts& fonts() {
+    static const Fonts loaded(false);
+    return loaded;
+}
+
 inline Image drawn(Film& film, int frame) {
     Image image;
     film.draw(frame, image);

@@ -9,10 +9,10 @@ namespace beamcam::test {
 namespace {
 
 using sim::Vec2;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The hinged–free shape is close to a parabola less its rigid part; unit tip value.
-double shape(double s) { return (s * s - 0.75 * s) / 0.25 * 0.8 + 0.2 * std::sin(2 * kPi * s); }
+double shape(double s) { return (s * s - 0.75 * s) / 0.25 * 0.8 + 0.2 * std::sin(2 * pi * s); }
 
 // Where the bounces of a falling height end: flights of length T, 0.6 T, 0.36 T, …
 struct Flight {
@@ -42,7 +42,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
     const double phase = (t - flight.start) / flight.length;
     const double lift = std::max(0.0, 4 * flight.height * phase * (1 - phase));
     const double since = t < 0.3 ? 0 : t - 0.3,
-                 a = how.amplitude * l * std::exp(-0.8 * since) * std::sin(2 * kPi * 6.5 * since);
+                 a = how.amplitude * l * std::exp(-0.8 * since) * std::sin(2 * pi * 6.5 * since);
     double rest = 0;
     if (problem.cam) {
         pose.cam_centre = problem.cam->centre;
@@ -88,7 +88,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
         nearest.touching = lift < 0.004;
         if (nearest.touching) nearest.force = 6 + 240 * flight.height * (1 - lift / 0.004) * std::abs(std::sin(90 * t));
         const double s = std::atan2(nearest.normal.y, nearest.normal.x) - pose.cam_angle;
-        nearest.s = problem.cam->radius * (s - 2 * kPi * std::floor(s / (2 * kPi)));
+        nearest.s = problem.cam->radius * (s - 2 * pi * std::floor(s / (2 * pi)));
         pose.nearest = nearest;
         bend(turn);
     }
@@ -99,7 +99,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
         const double hold = pose.nearest && pose.nearest->force > 0
                                 ? -0.1 * pose.nearest->force * std::max(0.0, s < 0.23 ? s : 0.3 * (1 - s))
                                 : 0;
-        pose.moment.push_back(problem.beam.bending_stiffness() / (l * l) * a * 9 * std::pow(std::sin(kPi * s), 2) +
+        pose.moment.push_back(problem.beam.bending_stiffness() / (l * l) * a * 9 * std::pow(std::sin(pi * s), 2) +
                               hold);
     }
     return pose;

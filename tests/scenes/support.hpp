@@ -15,6 +15,8 @@
 
 namespace beamcam::scenes::testing {
 
+inline const std::filesystem::path kCorpus = BEAMCAM_TEST_DIR "/scenes/corpus";
+
 inline Reading read(const std::string& text, const std::vector<std::string>& overrides = {}) {
     return read_scene({"scene.json", text, true}, overrides);
 }

@@ -20,16 +20,6 @@
 namespace beamcam::output {
 namespace {
 
-render::Image pattern(int width, int height, bool opaque) {
-    render::Image image(width, height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const std::uint32_t alpha = opaque ? 255 : static_cast<std::uint32_t>(i * 37 % 256);
-        const auto channel = [&](std::size_t step) { return static_cast<std::uint32_t>(i * step % (alpha + 1)); };
-        image.pixels[i] = alpha << 24 | channel(13) << 16 | channel(7) << 8 | channel(3);
-    }
-    return image;
-}
-
 std::string in_shell(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
 // One digest a picture, as FFmpeg's own program takes them.

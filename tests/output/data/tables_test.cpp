@@ -13,14 +13,14 @@ namespace {
 using sim::ChannelKind;
 const double kNone = std::numeric_limits<double>::quiet_NaN();
 
-sim::Table small_table() {
+sim::Table table_with_gaps() {
     return {{{ChannelKind::t, 0}, {ChannelKind::q, 2}, {ChannelKind::gap, 0}},
             {{0, 0.1, 1e300}, {-1.5, 1.0 / 3, 5e-324}, {kNone, 2, kNone}}};
 }
 
 TEST(Csv, HasAHeaderSeventeenDigitsAndEmptyCells) {
     std::ostringstream out;
-    write_csv(out, small_table());
+    write_csv(out, table_with_gaps());
     EXPECT_EQ(out.str(),
               "t,q2,gap\n"
               "0,-1.5,\n"
@@ -45,20 +45,20 @@ TEST(Csv, EveryNumberReadsBackToTheSameBits) {
 TEST(Csv, AFileHoldsWhatTheStreamGets) {
     Scratch scratch;
     std::ostringstream out;
-    write_csv(out, small_table());
-    write_csv(scratch / "a.csv", small_table());
+    write_csv(out, table_with_gaps());
+    write_csv(scratch / "a.csv", table_with_gaps());
     EXPECT_EQ(read_file(scratch / "a.csv"), out.str());
 }
 
 TEST(Csv, AClosedOutputIsAnErrorInWords) {
     std::ostringstream out;
     out.setstate(std::ios::badbit);
-    EXPECT_THROW(write_csv(out, small_table()), IoError);
+    EXPECT_THROW(write_csv(out, table_with_gaps()), IoError);
 }
 
 TEST(Npz, NumpyReadsTheSameNumbers) {
     Scratch scratch;
-    write_npz(scratch / "a.npz", small_table());
+    write_npz(scratch / "a.npz", table_with_gaps());
     const std::string printed = output_of(
         "/usr/bin/python3 -c 'import numpy, sys\n"
         "z = numpy.load(sys.argv[1])\n"
@@ -72,7 +72,7 @@ TEST(Npz, NumpyReadsTheSameNumbers) {
 
 TEST(Npz, IsASoundZipArchiveWithAlignedData) {
     Scratch scratch;
-    write_npz(scratch / "a.npz", small_table());
+    write_npz(scratch / "a.npz", table_with_gaps());
     EXPECT_EQ(output_of("/usr/bin/python3 -c 'import zipfile, sys; print(zipfile.ZipFile(sys.argv[1]).testzip())' " +
                         (scratch / "a.npz").string()),
               "None\n");
@@ -97,11 +97,11 @@ TEST(Npz, RefusesMoreThanTheArchiveCanHold) {
 
 TEST(Tables, AreWrittenByTheirEnding) {
     Scratch scratch;
-    write_table(scratch / "a.csv", small_table());
-    write_table(scratch / "a.npz", small_table());
+    write_table(scratch / "a.csv", table_with_gaps());
+    write_table(scratch / "a.npz", table_with_gaps());
     EXPECT_EQ(read_file(scratch / "a.csv").substr(0, 2), "t,");
     EXPECT_EQ(read_file(scratch / "a.npz").substr(0, 2), "PK");
-    EXPECT_THROW(write_table(scratch / "a.txt", small_table()), UnsupportedOption);
+    EXPECT_THROW(write_table(scratch / "a.txt", table_with_gaps()), UnsupportedOption);
 }
 
 }  // namespace

@@ -10,24 +10,20 @@
 namespace beamcam::output {
 namespace {
 
-struct Kind {
+struct FormatCase {
     const char* ending;
     Codec codec;
     bool transparent;
     const char* decoded;  // ffprobe's codec
     int tolerance;        // of a flat colour after the way there and back
 };
-void PrintTo(const Kind& k, std::ostream* out) {
+void PrintTo(const FormatCase& k, std::ostream* out) {
     *out << name(k.codec) << k.ending << (k.transparent ? " transparent" : "");
 }
 
-class Formats : public testing::TestWithParam<Kind> {};
+class Formats : public testing::TestWithParam<FormatCase> {};
 
-std::string probe(const std::filesystem::path& file, const std::string& what) {
-    return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
-}
-
-VideoOptions options_of(const Kind& kind, int width, int height) {
+VideoOptions options_of(const FormatCase& kind, int width, int height) {
     VideoOptions options;
     options.width = width, options.height = height;
     options.fps = 25;
@@ -38,7 +34,7 @@ VideoOptions options_of(const Kind& kind, int width, int height) {
 }
 
 // Left half in one colour, right half in another, or empty where the film is transparent.
-render::Image halves(const Kind& kind, int width, int height) {
+render::Image halves(const FormatCase& kind, int width, int height) {
     render::Image image = flat_image(width, height, 0xffc0392b);
     for (int y = 0; y < height; ++y)
         for (int x = width / 2; x < width; ++x)
@@ -47,7 +43,7 @@ render::Image halves(const Kind& kind, int width, int height) {
 }
 
 TEST_P(Formats, KeepColoursTimesAndTransparency) {
-    const Kind kind = GetParam();
+    const FormatCase kind = GetParam();
     const int width = 96, height = 64;
     Scratch scratch;
     const auto file = scratch / (std::string("a") + kind.ending);
@@ -94,7 +90,7 @@ TEST_P(Formats, KeepColoursTimesAndTransparency) {
 }
 
 TEST_P(Formats, TheSamePicturesGiveTheSameBytes) {
-    const Kind kind = GetParam();
+    const FormatCase kind = GetParam();
     Scratch scratch;
     for (const char* each : {"a", "b"}) {
         VideoWriter film(scratch / (each + std::string(kind.ending)), options_of(kind, 96, 64));
@@ -107,13 +103,14 @@ TEST_P(Formats, TheSamePicturesGiveTheSameBytes) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Formats,
-    testing::Values(Kind{".mp4", Codec::h264, false, "h264", 3}, Kind{".mp4", Codec::av1, false, "av1", 4},
-                    Kind{".webm", Codec::vp9, false, "vp9", 3}, Kind{".webm", Codec::vp9, true, "vp9", 3},
-                    Kind{".webm", Codec::av1, false, "av1", 4}, Kind{".mov", Codec::prores, false, "prores", 3},
-                    Kind{".mov", Codec::prores, true, "prores", 3}, Kind{".mkv", Codec::ffv1, false, "ffv1", 0},
-                    Kind{".mkv", Codec::ffv1, true, "ffv1", 0}, Kind{".gif", Codec::gif, false, "gif", 0},
-                    Kind{".apng", Codec::apng, false, "apng", 0}, Kind{".apng", Codec::apng, true, "apng", 0},
-                    Kind{".webp", Codec::webp, false, "webp", 0}, Kind{".webp", Codec::webp, true, "webp", 0}));
+    testing::Values(
+        FormatCase{".mp4", Codec::h264, false, "h264", 3}, FormatCase{".mp4", Codec::av1, false, "av1", 4},
+        FormatCase{".webm", Codec::vp9, false, "vp9", 3}, FormatCase{".webm", Codec::vp9, true, "vp9", 3},
+        FormatCase{".webm", Codec::av1, false, "av1", 4}, FormatCase{".mov", Codec::prores, false, "prores", 3},
+        FormatCase{".mov", Codec::prores, true, "prores", 3}, FormatCase{".mkv", Codec::ffv1, false, "ffv1", 0},
+        FormatCase{".mkv", Codec::ffv1, true, "ffv1", 0}, FormatCase{".gif", Codec::gif, false, "gif", 0},
+        FormatCase{".apng", Codec::apng, false, "apng", 0}, FormatCase{".apng", Codec::apng, true, "apng", 0},
+        FormatCase{".webp", Codec::webp, false, "webp", 0}, FormatCase{".webp", Codec::webp, true, "webp", 0}));
 
 TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {
     EXPECT_NE(format_problem(".mp4", Codec::h264, true).find(".webm (vp9)"), std::string::npos);

@@ -36,10 +36,6 @@ void write_film(const std::filesystem::path& file, const VideoOptions& options, 
     film.finish();
 }
 
-std::string probe(const std::filesystem::path& file, const std::string& what) {
-    return output_of("/usr/bin/ffprobe -v error " + what + " -of default=nw=1 " + file.string());
-}
-
 // R, G, B of the top-left pixel of every frame, as FFmpeg shows them; after `filters`, each with a comma.
 std::string first_pixels(const std::filesystem::path& file, const std::string& filters = {}) {
     return output_of("/usr/bin/ffmpeg -v error -i " + file.string() + " -vf " + filters +
@@ -173,7 +169,7 @@ TEST(Film, OfVariableRateIsNotJoined) {
 }
 
 // The tiles in which two pictures differ, and no more.
-render::Tiles difference(const render::Image& a, const render::Image& b) {
+render::Tiles changed_tiles(const render::Image& a, const render::Image& b) {
     render::Tiles tiles(a.width, a.height);
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
@@ -208,7 +204,7 @@ TEST(Film, PicturesConvertedWhereTheyChangedGiveTheSameBytes) {
         render::Image before[] = {render::Image(160, 48), render::Image(160, 48)};
         for (int i = 0; i < 12; ++i) {
             const render::Image picture = moving_square(160, 48, i);
-            const render::Tiles changed = difference(before[i % 2], picture);
+            const render::Tiles changed = changed_tiles(before[i % 2], picture);
             inputs[i % 2].convert(picture, changed);
             inputs[i % 2].send();
             before[i % 2] = picture;

@@ -34,16 +34,6 @@ Decoded decoded(const std::string& file) {
 
 constexpr std::array kCompressions = {PngCompression::small, PngCompression::quick};
 
-render::Image pattern(int width, int height, bool opaque) {
-    render::Image image(width, height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const std::uint32_t alpha = opaque ? 255 : static_cast<std::uint32_t>(i * 37 % 256);
-        const auto channel = [&](std::size_t step) { return static_cast<std::uint32_t>(i * step % (alpha + 1)); };
-        image.pixels[i] = alpha << 24 | channel(13) << 16 | channel(7) << 8 | channel(3);
-    }
-    return image;
-}
-
 TEST(Png, DecodesToTheSamePixelsAtAnySize) {
     for (bool opaque : {true, false})
         for (auto [width, height] : {std::pair{1, 1}, {1, 7}, {7, 1}, {33, 5}, {257, 129}}) {

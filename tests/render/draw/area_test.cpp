@@ -12,7 +12,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr Color kBlack{0, 0, 0, 1}, kWhite{1, 1, 1, 1};
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Picture : Image {
     using Image::Image;
@@ -80,10 +80,10 @@ TEST(Area, SumsToTheAreaWhereverAndHoweverItLies) {
             const Vec2 centre{95 + angle, 70 - angle / 3};
             disc.add_circle(centre, 41.7);
             disc.cut_circle(centre + Vec2{9, 3}, 10.1);
-            EXPECT_NEAR(painted(disc).covered(), kPi * (41.7 * 41.7 - 10.1 * 10.1), 2) << angle;
+            EXPECT_NEAR(painted(disc).covered(), pi * (41.7 * 41.7 - 10.1 * 10.1), 2) << angle;
             ring.add_circle(centre, 50);
             ring.cut_circle(centre, 48);
-            EXPECT_NEAR(painted(ring).covered(), kPi * (50 * 50 - 48 * 48), 2) << angle;
+            EXPECT_NEAR(painted(ring).covered(), pi * (50 * 50 - 48 * 48), 2) << angle;
         }
 }
 

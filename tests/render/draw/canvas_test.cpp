@@ -5,14 +5,10 @@
 #include <stdexcept>
 
 #include "render/plot/sheet.hpp"
+#include "tests/render/drawing.hpp"
 
 namespace beamcam::render {
 namespace {
-
-const Fonts& fonts() {
-    static const Fonts loaded(false);
-    return loaded;
-}
 
 // Cairo accepts no negative dash; from then on the context draws nothing and says so only when it is asked.
 const Pen kImpossible{rgb(0x000000), 1, {-1}};

@@ -4,14 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "render/draw/canvas.hpp"
+#include "tests/render/drawing.hpp"
 
 namespace beamcam::render {
 namespace {
-
-const Fonts& fonts() {
-    static const Fonts loaded(false);
-    return loaded;
-}
 
 Image ground() {
     Image image(200, 150);

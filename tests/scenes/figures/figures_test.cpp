@@ -31,7 +31,7 @@ using ::testing::Not;
 using testing::shell;
 using ::testing::StartsWith;
 
-Scene scene(const std::string& text) {
+Scene scene_from(const std::string& text) {
     Reading reading = testing::read(text);
     EXPECT_TRUE(reading.scene) << reading.report();
     return *reading.scene;
@@ -48,7 +48,7 @@ render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = L
 }
 
 TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
-    const Plan p = plan(scene(R"({"outputs": [{"type": "figure", "figure": "schematic"},
+    const Plan p = plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "schematic"},
                                               {"type": "figure", "figure": "deflection"}]})"));
     EXPECT_FALSE(p.simulation);
     EXPECT_TRUE(p.variants.empty());
@@ -58,7 +58,7 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
 
 TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
     const Plan p =
-        plan(scene(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
+        plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
         {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
     ASSERT_TRUE(p.simulation);
     EXPECT_TRUE(p.variants.empty());
@@ -67,7 +67,7 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
 
 TEST(Figures, EqualPhysicsIsOneStudy) {
     Studies studies;
-    const Scene s = scene("{}");
+    const Scene s = scene_from("{}");
     recipe_named("speeds")->prepare(s, Lang::en, studies);  // 0, 1 and 5 rad/s; the scene's own is 1
     recipe_named("energy")->prepare(s, Lang::en, studies);
     recipe_named("contact-places")->prepare(s, Lang::zh, studies);
@@ -75,7 +75,7 @@ TEST(Figures, EqualPhysicsIsOneStudy) {
 }
 
 TEST(Figures, FreeFallShowsTheThreePublishedTimes) {
-    const auto figure = figure_of(scene(R"({"cam": null, "beam": {"basis": "cantilever"},
+    const auto figure = figure_of(scene_from(R"({"cam": null, "beam": {"basis": "cantilever"},
         "solver": {"rtol": 1e-11, "atol": 1e-14}, "time": {"end": 0.4}})"),
                                   "free-fall");
     ASSERT_EQ(figure.panels.size(), 1u);
@@ -90,7 +90,7 @@ TEST(Figures, FreeFallShowsTheThreePublishedTimes) {
 
 TEST(Figures, TrialMethodMeetsTheLocatedTouch) {
     const auto figure =
-        figure_of(scene(R"({"cam": {"eccentricity": 0, "speed": 0}, "time": {"end": 0.3}})"), "distance");
+        figure_of(scene_from(R"({"cam": {"eccentricity": 0, "speed": 0}, "time": {"end": 0.3}})"), "distance");
     const auto& inset = figure.panels[0].insets[0].panel[0];
     ASSERT_EQ(inset.marks.size(), 1u);
     const auto& refined = inset.series[0];
@@ -101,7 +101,7 @@ TEST(Figures, TrialMethodMeetsTheLocatedTouch) {
 }
 
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
-    const auto figure = figure_of(scene("{}"), "deflection");
+    const auto figure = figure_of(scene_from("{}"), "deflection");
     const auto& slope = figure.panels[1].series;
     const auto jump = [](const render::figure::Series& s) {
         double largest = 0;
@@ -118,7 +118,7 @@ TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
 }
 
 TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
-    const auto figure = figure_of(scene(R"({"time": {"end": 2.2}})"), "angle");
+    const auto figure = figure_of(scene_from(R"({"time": {"end": 2.2}})"), "angle");
     ASSERT_EQ(figure.panels[0].series.size(), 2u);
     EXPECT_TRUE(figure.panels[0].series[0].faded);
     EXPECT_THAT(figure.caption, HasSubstr("not reproducible"));
@@ -127,7 +127,7 @@ TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
 
 TEST(Figures, CaptionsStateTheAssumptionsInBothLanguages) {
     for (const Lang lang : {Lang::en, Lang::zh}) {
-        const auto figure = figure_of(scene("{}"), "schematic", lang);
+        const auto figure = figure_of(scene_from("{}"), "schematic", lang);
         const std::string caption = render::figure::to_plain(figure.caption);
         for (const char* value : {"e = 0.02 m", "K = 10⁸ N m", "0.7", "a = 0 m", "g = 9.81"})
             EXPECT_THAT(caption, HasSubstr(value));
@@ -137,7 +137,7 @@ TEST(Figures, CaptionsStateTheAssumptionsInBothLanguages) {
 }
 
 std::string caption_of(const std::string& text, const char* name, Lang lang = Lang::en) {
-    const auto figure = figure_of(scene(text), name, lang);
+    const auto figure = figure_of(scene_from(text), name, lang);
     return render::figure::to_plain(figure.caption + " " + figure.accuracy);
 }
 
@@ -241,7 +241,7 @@ TEST(Captions, HaveTheDigitsThatModesAndToleranceSupport) {
 }
 
 TEST(Figures, ModelsAreComparedInTheSameShapes) {
-    const auto figure = figure_of(scene(R"({"cam": {"speed": 0}, "time": {"end": 0.7}})"), "models");
+    const auto figure = figure_of(scene_from(R"({"cam": {"speed": 0}, "time": {"end": 0.7}})"), "models");
     ASSERT_EQ(figure.panels.size(), 3u);
     std::map<std::string, double> largest;
     for (std::size_t k : {1u, 2u})
@@ -276,10 +276,10 @@ TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
                               studies.of(without_cam(s.problem), s.end_time, "careless");
                               return {};
                           }};
-    const auto why = refusal_of(careless, scene(R"({"initial": {"shape": "resting"}})"));
+    const auto why = refusal_of(careless, scene_from(R"({"initial": {"shape": "resting"}})"));
     ASSERT_TRUE(why);
     EXPECT_THAT(*why, HasSubstr("initial.shape"));
-    EXPECT_FALSE(refusal_of(careless, scene("{}")));
+    EXPECT_FALSE(refusal_of(careless, scene_from("{}")));
 }
 
 TEST(Figures, WhatASceneHasNotIsToldInWords) {

@@ -11,7 +11,7 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::filesystem::path kCorpus = BEAMCAM_TEST_DIR "/scenes/corpus";
+using testing::kCorpus;
 const std::filesystem::path kSchema = BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json";
 
 struct Verdict {

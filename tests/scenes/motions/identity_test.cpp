@@ -16,16 +16,15 @@ namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-using Pointer = Json::json_pointer;
-
-const fs::path kCorpus = BEAMCAM_TEST_DIR "/scenes/corpus";
+using SortedJson = nlohmann::json;
+using Pointer = SortedJson::json_pointer;
+using testing::kCorpus;
 
 // The schema as a tree of leaves. A leaf is named by its path and the variants on the way:
 // "hub.drive{type=prescribed law=spin-up}.duration".
 class Schema {
   public:
-    Schema() : root_(Json::parse(testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"))) {
+    Schema() : root_(SortedJson::parse(testing::slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-scene.schema.json"))) {
         enumerate(root_, "", {});
     }
     const std::set<std::string>& leaves() const { return leaves_; }
@@ -36,7 +35,7 @@ class Schema {
         std::set<std::string> words;  // that the schema allows there
     };
     // Every leaf that a scene has.
-    std::vector<Leaf> leaves_of(const Json& scene) const {
+    std::vector<Leaf> leaves_of(const SortedJson& scene) const {
         std::vector<Leaf> found;
         walk(root_, "", {}, scene, Pointer(), found);
         return found;
@@ -45,17 +44,17 @@ class Schema {
   private:
     using Entered = std::map<std::string, std::string>;  // reference → the path at which it was first followed
 
-    static bool is_tag(const Json& schema) { return schema.contains("const"); }
+    static bool is_tag(const SortedJson& schema) { return schema.contains("const"); }
 
     // The variants that a schema offers, references followed. A reference that is followed already leads nowhere in
     // `enumerate`, and back to its first path in `walk`.
     struct Variant {
-        const Json* schema;
+        const SortedJson* schema;
         std::string path;
         Entered entered;
         bool again = false;
     };
-    void expand(const Json& schema, const std::string& path, Entered entered, bool again,
+    void expand(const SortedJson& schema, const std::string& path, Entered entered, bool again,
                 std::vector<Variant>& out) const {
         if (const auto reference = schema.find("$ref"); reference != schema.end()) {
             const auto& name = reference->get_ref<const std::string&>();
@@ -67,22 +66,22 @@ class Schema {
             return expand(all->front(), path, entered, again, out);
         for (const char* choice : {"anyOf", "oneOf"})
             if (const auto all = schema.find(choice); all != schema.end()) {
-                for (const Json& each : *all) expand(each, path, entered, again, out);
+                for (const SortedJson& each : *all) expand(each, path, entered, again, out);
                 return;
             }
         out.push_back({&schema, path, entered, again});
     }
-    std::vector<Variant> variants(const Json& schema, const std::string& path, const Entered& entered) const {
+    std::vector<Variant> variants(const SortedJson& schema, const std::string& path, const Entered& entered) const {
         std::vector<Variant> out;
         expand(schema, path, entered, false, out);
         return out;
     }
 
     // What tells a variant from its siblings: its tags, and the keys that it cannot do without.
-    static std::string label(const Json& object) {
+    static std::string label(const SortedJson& object) {
         std::string text;
-        for (const Json& key : object.value("required", Json::array())) {
-            const Json& property = object.at("properties").at(key.get<std::string>());
+        for (const SortedJson& key : object.value("required", SortedJson::array())) {
+            const SortedJson& property = object.at("properties").at(key.get<std::string>());
             if (!text.empty()) text += ' ';
             text += key.get<std::string>() + (is_tag(property) ? "=" + property["const"].get<std::string>() : "");
         }
@@ -93,11 +92,11 @@ class Schema {
         return path.empty() ? key : path + "." + key;
     }
 
-    void enumerate(const Json& schema, const std::string& path, const Entered& entered) {
+    void enumerate(const SortedJson& schema, const std::string& path, const Entered& entered) {
         if (is_tag(schema)) return;
         for (const Variant& variant : variants(schema, path, entered)) {
             if (variant.again) continue;
-            const Json& s = *variant.schema;
+            const SortedJson& s = *variant.schema;
             if (s.contains("properties")) {
                 for (const auto& [key, property] : s["properties"].items())
                     enumerate(property, below(variant, key), variant.entered);
@@ -109,9 +108,9 @@ class Schema {
         }
     }
 
-    static bool matches(const Json& object, const Json& value) {
+    static bool matches(const SortedJson& object, const SortedJson& value) {
         if (!object.contains("properties") || !value.is_object()) return false;
-        for (const Json& key : object.value("required", Json::array()))
+        for (const SortedJson& key : object.value("required", SortedJson::array()))
             if (!value.contains(key.get<std::string>())) return false;
         for (const auto& [key, given] : value.items()) {
             const auto property = object["properties"].find(key);
@@ -124,13 +123,13 @@ class Schema {
         return true;
     }
 
-    void walk(const Json& schema, const std::string& path, const Entered& entered, const Json& value,
+    void walk(const SortedJson& schema, const std::string& path, const Entered& entered, const SortedJson& value,
               const Pointer& place, std::vector<Leaf>& found) const {
         if (is_tag(schema)) return;
         const std::vector<Variant> all = variants(schema, path, entered);
         std::set<std::string> words;
         for (const Variant& variant : all) {
-            const Json& s = *variant.schema;
+            const SortedJson& s = *variant.schema;
             if (matches(s, value)) {
                 for (const auto& [key, given] : value.items())
                     walk(s["properties"][key], below(variant, key), variant.entered, given, place / key, found);
@@ -142,18 +141,19 @@ class Schema {
                 return;
             }
             if (s.contains("const")) words.insert(s["const"].get<std::string>());
-            for (const Json& word : s.value("enum", Json::array())) words.insert(word.get<std::string>());
+            for (const SortedJson& word : s.value("enum", SortedJson::array())) words.insert(word.get<std::string>());
         }
         found.push_back({all.front().path, place, words});
     }
 
-    Json root_;
+    SortedJson root_;
     std::set<std::string> leaves_;
 };
 
 // Other values that the leaf might have; not all of them are allowed there.
-std::vector<Json> alternatives(const Json& value, const std::set<std::string>& words, const fs::path& folder) {
-    std::vector<Json> others;
+std::vector<SortedJson> alternatives(const SortedJson& value, const std::set<std::string>& words,
+                                     const fs::path& folder) {
+    std::vector<SortedJson> others;
     if (value.is_boolean()) others.emplace_back(!value.get<bool>());
     if (value.is_number_integer())
         for (const long step : {1, -1, 2}) others.emplace_back(value.get<long>() + step);
@@ -162,7 +162,7 @@ std::vector<Json> alternatives(const Json& value, const std::set<std::string>& w
             others.emplace_back(other);
     if (value.is_object())
         for (const auto& [key, inner] : value.items())
-            for (const Json& other : alternatives(inner, {}, folder)) {
+            for (const SortedJson& other : alternatives(inner, {}, folder)) {
                 others.push_back(value);
                 others.back()[key] = other;
             }
@@ -250,15 +250,17 @@ TEST(Identity, ChangesExactlyWithTheLeavesThatMatter) {
     for (const char* folder : {"full", "whole"})
         for (const auto& entry : fs::directory_iterator(kCorpus / folder)) {
             const fs::path& file = entry.path();
-            const auto read = [&](const Json& scene) { return read_scene({file.string(), scene.dump(), true}).scene; };
-            const Json full = Json::parse(testing::slurp(file));
+            const auto read = [&](const SortedJson& scene) {
+                return read_scene({file.string(), scene.dump(), true}).scene;
+            };
+            const SortedJson full = SortedJson::parse(testing::slurp(file));
             const auto scene = read(full);
             ASSERT_TRUE(scene) << file;
             const Identities before = identities(*scene);
             for (const Schema::Leaf& leaf : schema.leaves_of(full)) {
-                for (const Json& value : alternatives(full[leaf.place], leaf.words, file.parent_path())) {
+                for (const SortedJson& value : alternatives(full[leaf.place], leaf.words, file.parent_path())) {
                     if (value == full[leaf.place]) continue;
-                    Json other = full;
+                    SortedJson other = full;
                     other[leaf.place] = value;
                     const auto reread = read(other);
                     if (!reread) continue;

@@ -13,13 +13,13 @@ using ::testing::HasSubstr;
 using testing::shell;
 using ::testing::StartsWith;
 
-constexpr const char* kScene =
+constexpr const char* kFramesAndTable =
     R"({"outputs": [{"type": "frames", "file": "f-##.png", "size": [192, 108], "fps": 20, "from": 0.1, "to": 0.3, "view": {"style": "flat"}},
                     {"type": "trajectory", "file": "t.csv", "rate": 50, "channels": ["theta"]}], "time": {"end": 0.3}})";
 
 TEST(Hash, PrintsOneDigestAPictureThatFFmpegPrintsToo) {
     const Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kFramesAndTable);
     ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
     const Finished all = shell(folder, "$BEAMCAM hash .");
     EXPECT_EQ(all.code, 0) << all.err;
@@ -46,7 +46,7 @@ TEST(Hash, RefusesWhatIsNoPictureWithSix) {
 
 TEST(Diff, EndsWithZeroForTheSameAndSevenForOthers) {
     const Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kFramesAndTable);
     ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json && $BEAMCAM run -q s.json -o b --set cam.phase=0.3").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff f-02.png f-02.png").code, 0);
     const Finished differs = shell(folder, "$BEAMCAM diff f-02.png f-03.png -o d.png");
@@ -77,7 +77,7 @@ TEST(Diff, SizeIsAVerdictOfItsOwn) {
 
 TEST(Diff, ComparesTablesOfBothFormats) {
     const Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kFramesAndTable);
     ASSERT_EQ(shell(folder,
                     "$BEAMCAM simulate -q s.json --channels theta --rate 50 --trajectory a.npz && "
                     "$BEAMCAM simulate -q s.json --channels theta --rate 50 --trajectory a.csv && "

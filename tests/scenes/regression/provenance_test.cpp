@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::shell;
 
-constexpr const char* kScene = R"({"title": "θ", "time": {"end": 0.3}, "outputs": [
+constexpr const char* kEveryOutput = R"({"title": "θ", "time": {"end": 0.3}, "outputs": [
     {"type": "still", "file": "a.png", "at": 0.2, "size": [192, 108], "view": {"style": "flat"}},
     {"type": "video", "file": "a.mp4", "fps": 20, "size": [192, 108], "view": {"style": "flat"}},
     {"type": "trajectory", "file": "a.npz", "rate": 50, "channels": ["theta"]},
@@ -25,7 +25,7 @@ constexpr const char* kScene = R"({"title": "θ", "time": {"end": 0.3}, "outputs
 
 TEST(Info, EveryOutputGivesBackASceneThatMakesItAgain) {
     const Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kEveryOutput);
     ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
     for (const char* file : {"a.png", "a.mp4", "a.npz", "a.csv", "a.json"}) {
         const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
@@ -82,7 +82,7 @@ TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
 
 TEST(Info, ForeignAndDamagedFilesAreToldApart) {
     const Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kEveryOutput);
     ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json && ffmpeg -v error -i a.png -map_metadata -1 f.png").code, 0);
     const Finished foreign = shell(folder, "$BEAMCAM info f.png");
     EXPECT_EQ(foreign.code, 0);

@@ -11,7 +11,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-struct Case {
+struct ModelCase {
     ModelKind model;
     Basis basis;
     int modes;
@@ -19,8 +19,8 @@ struct Case {
     double deflection;  // of the random states [m], [rad] for `exact`
 };
 
-std::string case_name(const ::testing::TestParamInfo<Case>& info) {
-    const Case& c = info.param;
+std::string case_name(const ::testing::TestParamInfo<ModelCase>& info) {
+    const ModelCase& c = info.param;
     return label(name(c.model)) + label(name(c.basis)) + std::to_string(c.modes) +
            (c.radius > 0   ? "Radius"
             : c.radius < 0 ? "NegativeRadius"
@@ -29,7 +29,7 @@ std::string case_name(const ::testing::TestParamInfo<Case>& info) {
 }
 
 // A soft beam, so that elastic, inertial and gravity terms are of one size.
-Problem soft_beam(const Case& c) {
+Problem soft_beam(const ModelCase& c) {
     Problem p;
     p.cam.reset();
     p.beam.length = 1.3;
@@ -42,7 +42,7 @@ Problem soft_beam(const Case& c) {
     return p;
 }
 
-class Ladder : public ::testing::TestWithParam<Case> {
+class Ladder : public ::testing::TestWithParam<ModelCase> {
   protected:
     void SetUp() override {
         problem = soft_beam(GetParam());
@@ -204,7 +204,7 @@ TEST_P(Ladder, CloneIsIndependent) {
     EXPECT_EQ(again, before);
 }
 
-const Case kConservative[] = {
+const ModelCase kConservative[] = {
     {ModelKind::rigid, Basis::automatic, 1, 0, 0, 0},
     {ModelKind::rigid, Basis::automatic, 1, -0.2, 0.3, 0},
     {ModelKind::zeroth_order, Basis::cantilever, 3, 0.2, 0.1, 0.05},
@@ -224,17 +224,18 @@ const Case kConservative[] = {
     {ModelKind::exact, Basis::automatic, 5, 0.3, 0.2, 0.8},
     {ModelKind::exact, Basis::automatic, 3, -0.4, 0, 0.8},
 };
-std::vector<Case> whose_frame_is_the_hub() {
-    std::vector<Case> cases;
+std::vector<ModelCase> whose_frame_is_the_hub() {
+    std::vector<ModelCase> cases;
     std::ranges::copy_if(kConservative, std::back_inserter(cases),
-                         [](const Case& c) { return c.basis != Basis::hub_beam; });
+                         [](const ModelCase& c) { return c.basis != Basis::hub_beam; });
     return cases;
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, ConservativeLadder, ::testing::ValuesIn(kConservative), case_name);
 INSTANTIATE_TEST_SUITE_P(Every, Ladder, ::testing::ValuesIn(kConservative), case_name);
 INSTANTIATE_TEST_SUITE_P(Every, HubFrameLadder, ::testing::ValuesIn(whose_frame_is_the_hub()), case_name);
-INSTANTIATE_TEST_SUITE_P(Paper, Ladder, ::testing::Values(Case{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0.05}),
+INSTANTIATE_TEST_SUITE_P(Paper, Ladder,
+                         ::testing::Values(ModelCase{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0.05}),
                          case_name);
 
 // ---- relations between rungs -------------------------------------------------------------------
@@ -266,7 +267,7 @@ TEST(LadderRelations, ZerothOrderDiffersFromFirstOrderLinearlyInTheDeflection) {
 
 TEST(LadderRelations, PaperIsFirstOrderWithoutGravityOfTheForeshorteningAtTheHorizontal) {
     // l = L cos θ is L at θ = 0, and u_f weighs nothing there: the two differ by ½ cos θ qᵀGq only.
-    const Case c{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0};
+    const ModelCase c{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0};
     Problem p = soft_beam(c);
     p.gravity = 0;
     const std::unique_ptr<Model> paper = make_model(p);
@@ -286,7 +287,7 @@ TEST(LadderRelations, PaperGainsEnergyByTheMissingStiffeningAndByNothingElse) {
     // Ė along its own motion is ξ̇·(f − f of Lagrange's equations). l = L cos θ for L is all that separates them, with
     // and without gravity; at θ = 0 nothing does. So the ledger of `paper` stays open by a number that no tolerance
     // closes.
-    const Case c{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0};
+    const ModelCase c{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0};
     Problem weightless = soft_beam(c);
     weightless.gravity = 0;
     const std::unique_ptr<Model> paper = make_model(soft_beam(c)), floating = make_model(weightless);

@@ -9,14 +9,14 @@
 namespace beamcam::sim::testing {
 namespace {
 
-struct Case {
+struct ContactCase {
     ModelKind model;
     Basis basis;
     double radius, offset;
     int friction;  // 0 none, 1 coulomb, 2 stick-slip, 3 stick-slip with dashpot
 };
 
-Problem contact_problem(const Case& c) {
+Problem contact_problem(const ContactCase& c) {
     Problem p;
     p.beam.model = c.model;
     p.beam.basis = c.basis;
@@ -35,8 +35,8 @@ Problem contact_problem(const Case& c) {
     return p;
 }
 
-std::string case_name(const ::testing::TestParamInfo<Case>& info) {
-    const Case& c = info.param;
+std::string contact_case_name(const ::testing::TestParamInfo<ContactCase>& info) {
+    const ContactCase& c = info.param;
     const char* friction[] = {"Frictionless", "Coulomb", "StickSlip", "DampedStickSlip"};
     return label(name(c.model)) + label(name(c.basis)) + (c.radius != 0 ? "Radius" : "") +
            (c.offset > 0 ? "Offset" : "") + friction[c.friction];
@@ -61,7 +61,7 @@ std::vector<double> pressed_state(System& system, Dice& dice, double depth, doub
     return y;
 }
 
-class Contact_ : public ::testing::TestWithParam<Case> {};
+class Contact_ : public ::testing::TestWithParam<ContactCase> {};
 
 TEST_P(Contact_, FootIsTheNearestPoint) {
     const Problem p = contact_problem(GetParam());
@@ -170,19 +170,19 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Contact_,
-                         ::testing::Values(Case{ModelKind::rigid, Basis::automatic, 0, 0, 0},
-                                           Case{ModelKind::rigid, Basis::automatic, -0.1, 0.02, 1},
-                                           Case{ModelKind::zeroth_order, Basis::hub_beam, 0, 0.02, 1},
-                                           Case{ModelKind::first_order, Basis::hub_beam, 0, 0, 0},
-                                           Case{ModelKind::first_order, Basis::hub_beam, 0.05, 0.0184, 1},
-                                           Case{ModelKind::first_order, Basis::cantilever, 0, 0.0184, 2},
-                                           Case{ModelKind::first_order, Basis::hub_beam, -0.1, 0.0184, 3},
-                                           Case{ModelKind::second_order, Basis::hub_beam, 0.05, 0.0184, 1},
-                                           Case{ModelKind::second_order, Basis::cantilever, -0.1, 0.01, 2},
-                                           Case{ModelKind::exact, Basis::automatic, 0, 0, 0},
-                                           Case{ModelKind::exact, Basis::automatic, 0.05, 0.0184, 1},
-                                           Case{ModelKind::exact, Basis::automatic, -0.05, 0.0184, 3}),
-                         case_name);
+                         ::testing::Values(ContactCase{ModelKind::rigid, Basis::automatic, 0, 0, 0},
+                                           ContactCase{ModelKind::rigid, Basis::automatic, -0.1, 0.02, 1},
+                                           ContactCase{ModelKind::zeroth_order, Basis::hub_beam, 0, 0.02, 1},
+                                           ContactCase{ModelKind::first_order, Basis::hub_beam, 0, 0, 0},
+                                           ContactCase{ModelKind::first_order, Basis::hub_beam, 0.05, 0.0184, 1},
+                                           ContactCase{ModelKind::first_order, Basis::cantilever, 0, 0.0184, 2},
+                                           ContactCase{ModelKind::first_order, Basis::hub_beam, -0.1, 0.0184, 3},
+                                           ContactCase{ModelKind::second_order, Basis::hub_beam, 0.05, 0.0184, 1},
+                                           ContactCase{ModelKind::second_order, Basis::cantilever, -0.1, 0.01, 2},
+                                           ContactCase{ModelKind::exact, Basis::automatic, 0, 0, 0},
+                                           ContactCase{ModelKind::exact, Basis::automatic, 0.05, 0.0184, 1},
+                                           ContactCase{ModelKind::exact, Basis::automatic, -0.05, 0.0184, 3}),
+                         contact_case_name);
 
 TEST(ContactGeometry, TouchesTheTipWhenTheDiscLiesBeyond) {
     Problem p = fixed_cam(ModelKind::rigid);

@@ -8,7 +8,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-Result solve(Problem p, Method method, double rtol, double end) {
+Result solve_long(Problem p, Method method, double rtol, double end) {
     p.solver = {method, rtol, 1e-3 * rtol, 3'000'000};
     return run(p, end);
 }
@@ -53,7 +53,7 @@ Problem brief_pulse() {
 
 TEST(ShortEvents, ASeparationOfNanosecondsIsSeenAtEveryTolerance) {
     for (const double rtol : {1e-8, 1e-10, 1e-12}) {
-        const Result r = solve(brief_separation(), Method::automatic, rtol, 0.36);
+        const Result r = solve_long(brief_separation(), Method::automatic, rtol, 0.36);
         ASSERT_EQ(r.impacts.size(), 6u) << rtol;
         EXPECT_NEAR(*r.impacts[1].t_end, 0.3444932998, 1e-9) << rtol;
         EXPECT_NEAR(r.impacts[2].t_start, 0.3444933474, 1e-9) << rtol;
@@ -63,7 +63,7 @@ TEST(ShortEvents, ASeparationOfNanosecondsIsSeenAtEveryTolerance) {
 
 TEST(ShortEvents, AForceThatComesBackForAMomentIsFelt) {
     for (const double rtol : {1e-6, 1e-8, 1e-10}) {
-        const Result r = solve(brief_pulse(), Method::automatic, rtol, 0.54);
+        const Result r = solve_long(brief_pulse(), Method::automatic, rtol, 0.54);
         ASSERT_EQ(r.impacts.size(), 2u) << rtol;
         EXPECT_NEAR(*r.impacts[0].restitution, 0.342594615, 1e3 * rtol * 1e-3 + 2e-7) << rtol;
         EXPECT_NEAR(r.impacts[1].t_start, 0.535082852, rtol + 1e-9) << rtol;
@@ -97,7 +97,8 @@ TEST(ShortEvents, AccuracyInContactIsNotLimitedByTheExpansionOfTheShapes) {
     for (const bool offset : {false, true}) {
         Problem p = sliding_impacts();
         if (offset) p.contact.offset.reset();
-        const Result fast = solve(p, Method::automatic, 1e-12, 0.36), tight = solve(p, Method::rk8, 1e-13, 0.36);
+        const Result fast = solve_long(p, Method::automatic, 1e-12, 0.36),
+                     tight = solve_long(p, Method::rk8, 1e-13, 0.36);
         ASSERT_EQ(fast.impacts.size(), 4u) << offset;
         ASSERT_EQ(tight.impacts.size(), 4u) << offset;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -127,8 +128,8 @@ TEST(ShortEvents, RandomContactsHaveTheImpactsOfRungeKutta) {
     std::size_t compared = 0;
     for (unsigned seed = 101; seed < 101 + count; ++seed) {
         const Problem p = random_contact(seed);
-        const Result tight = solve(p, Method::rk8, 1e-12, 0.4), slow = solve(p, Method::rk8, 1e-11, 0.4),
-                     fast = solve(p, Method::automatic, 1e-11, 0.4);
+        const Result tight = solve_long(p, Method::rk8, 1e-12, 0.4), slow = solve_long(p, Method::rk8, 1e-11, 0.4),
+                     fast = solve_long(p, Method::automatic, 1e-11, 0.4);
         // As far as Runge–Kutta agrees with itself.
         const std::size_t reproducible = same_impacts(slow, tight, 1e-9, 1e-6);
         EXPECT_GE(same_impacts(fast, tight, 1e-6, 1e-3), reproducible) << seed;
@@ -151,8 +152,8 @@ TEST(ShortEvents, ABeamThatIsLiftedOffStrikesNothing) {
             p.cam->speed = speed;
             p.contact.model = ContactModel::restitution;
             p.contact.restitution = 0.3;
-            const Result rk8 = solve(p, Method::rk8, 1e-11, 0.3);
-            const Result adams = solve(p, Method::cvode_adams, 1e-11, 0.3);
+            const Result rk8 = solve_long(p, Method::rk8, 1e-11, 0.3);
+            const Result adams = solve_long(p, Method::cvode_adams, 1e-11, 0.3);
             EXPECT_EQ(adams.impacts.size(), rk8.impacts.size()) << name(model) << " " << speed;
             for (const Impact& impact : adams.impacts) EXPECT_LE(impact.v_n_before, 0) << name(model) << " " << speed;
         }
@@ -181,7 +182,7 @@ Problem sticking_impacts() {
 
 TEST(ShortEvents, AStepThatIsCutAtAReleaseKeepsToTheTolerance) {
     // The step over the third release passes the test by chance: its error estimate is zero to four digits.
-    const Result r = solve(sticking_impacts(), Method::rk8, 1e-11, 0.2343);
+    const Result r = solve_long(sticking_impacts(), Method::rk8, 1e-11, 0.2343);
     ASSERT_EQ(r.impacts.size(), 3u);
     EXPECT_NEAR(*r.impacts[2].v_n_after, 0.62604299762, 2e-10);
     EXPECT_NEAR(r.impacts[2].impulse_n, 0.0727687468503, 2e-12);
@@ -190,7 +191,7 @@ TEST(ShortEvents, AStepThatIsCutAtAReleaseKeepsToTheTolerance) {
 TEST(ShortEvents, ABristleThatHasJustCaughtIsNotTornByRounding) {
     for (int k = 0; k < 24; ++k) {
         const double rtol = 1e-10 * std::pow(0.85, k);
-        const Result r = solve(sticking_impacts(), Method::automatic, rtol, 0.2343);
+        const Result r = solve_long(sticking_impacts(), Method::automatic, rtol, 0.2343);
         ASSERT_EQ(r.impacts.size(), 3u) << rtol;
         EXPECT_NEAR(r.impacts[2].impulse_t, 0.002271079016, 1e-10) << rtol;
         EXPECT_TRUE(r.warnings.empty()) << rtol;
@@ -208,7 +209,7 @@ TEST(ShortEvents, ABeamThatIsDrivenThroughTheCamIsReportedByEveryMethod) {
         p.contact.damping = DampingLaw::hunt_crossley;
         p.initial.angle = 0.9916759;
         for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf})
-            EXPECT_THROW(solve(p, method, 1e-8, 0.6), SolverError) << speed << " " << name(method);
+            EXPECT_THROW(solve_long(p, method, 1e-8, 0.6), SolverError) << speed << " " << name(method);
     }
 }
 

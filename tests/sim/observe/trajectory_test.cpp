@@ -101,14 +101,14 @@ Kept keep(const Problem& problem, double end) {
     return kept;
 }
 
-struct Case {
+struct StoredCase {
     const char* name;
     Problem problem;
     double end;
 };
 
-std::vector<Case> cases() {
-    std::vector<Case> all;
+std::vector<StoredCase> cases() {
+    std::vector<StoredCase> all;
     const auto add = [&](const char* name, double end, auto&& change) {
         Problem p;
         change(p);
@@ -173,7 +173,7 @@ std::vector<double> ends_for(const Kept& kept, double end) {
     return ends;
 }
 
-class Everything : public ::testing::TestWithParam<Case> {};
+class Everything : public ::testing::TestWithParam<StoredCase> {};
 
 TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
     const auto& [name, problem, end] = GetParam();
