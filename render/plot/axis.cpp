@@ -6,20 +6,16 @@
 #include <cmath>
 
 #include "render/base/error.hpp"
+#include "render/plot/text.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kAir = 0.04;                   // beyond the data, of the range
-constexpr double kSameRelative = 1e-12;         // a range smaller than this part of its numbers is rounding, not data
-constexpr double kLargest = 4, kSmallest = -2;  // powers of ten within which numbers need no common factor
-constexpr double kOffsetFrom = 2e-4;            // a range smaller than this part of its numbers gets a common offset
-
-// 10ⁿ for |n| <= 300.
-double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }
-
-std::string power(int n) { return fmt::format("10^{{{}{}}}", n < 0 ? "−" : "", std::abs(n)); }
+constexpr double kAir = 0.04;            // beyond the data, of the range
+constexpr double kSameRelative = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
+constexpr double kLargestPower = 4, kSmallestPower = -2;  // powers of ten within which numbers need no common factor
+constexpr double kOffsetFrom = 2e-4;  // a range smaller than this part of its numbers gets a common offset
 
 int whole_log10(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
@@ -90,7 +86,7 @@ void AxisMap::linear(const Axis& axis, int most) {
     // By logarithms: the number itself may be beyond the largest that exists.
     const double order = std::log10(std::max(std::abs(a - offset), std::abs(b - offset))) + size;
     int shift = 0;
-    if (order >= kLargest || order < kSmallest) shift = 3 * static_cast<int>(std::floor(order / 3));
+    if (order >= kLargestPower || order < kSmallestPower) shift = 3 * static_cast<int>(std::floor(order / 3));
     unit_ = unit;
     offset_ = offset;
     scale_ = ten_to(size - shift);
@@ -116,7 +112,7 @@ void AxisMap::linear(const Axis& axis, int most) {
     for (double k = first; k <= last && last - first < 400; ++k)
         if (std::abs(std::remainder(k * minor, marks.step)) > 0.3 * minor) ticks_.push_back({at(k * minor), "", false});
 
-    if (shift) common_ = "×" + power(shift);
+    if (shift) common_ = "×" + power_of_ten(shift);
     if (offset_ != 0) {
         const int digits = std::max(0, whole_log10(std::abs(offset)) - whole_log10(marks.step / scale_)) + 1;
         const std::string text = fmt::format("{:.{}g}", std::abs(offset) * unit, std::min(digits, 16));
@@ -137,7 +133,7 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
     const int stride = std::max(1, (last - first + most) / std::max(1, most));
     for (int n = first; n <= last; ++n) {
         const bool labelled = n % stride == 0;
-        ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? power(n) : "", labelled});
+        ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? power_of_ten(n) : "", labelled});
     }
     // Within less than two decades 2 and 5 have numbers as well; over many decades minor ticks would be a blur.
     const bool few = last - first < 1;
@@ -146,7 +142,7 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
             const double v = n + std::log10(digit);
             if (v < a || v > b) continue;
             const bool labelled = few && (digit == 2 || digit == 5 || last < first);
-            ticks_.push_back({at(v), labelled ? fmt::format("{}×{}", digit, power(n)) : "", labelled});
+            ticks_.push_back({at(v), labelled ? fmt::format("{}×{}", digit, power_of_ten(n)) : "", labelled});
         }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -216,6 +217,10 @@ std::string superscript(std::string_view text) {
 }
 
 }  // namespace
+
+std::string power_of_ten(int exponent) {
+    return fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
+}
 
 std::vector<Run> parse_markup(std::string_view markup) { return Parser(markup).all(); }
 

@@ -9,13 +9,13 @@
 namespace beamcam::render {
 namespace {
 
-// Powers of ten are exact up to 1e22; below 1 the quotient is the nearest double.
-double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }
 constexpr double kSlack = 1e-9;  // relative: forgives the rounding of computed bounds
 
 double times_ten_to(double mantissa, int n) { return n >= 0 ? mantissa * ten_to(n) : mantissa / ten_to(-n); }
 
 }  // namespace
+
+double ten_to(int n) { return n >= 0 ? std::pow(10.0, n) : 1 / std::pow(10.0, -n); }
 
 double round_down_125(double value) {
     const int n = static_cast<int>(std::floor(std::log10(value))) + 1;

@@ -6,6 +6,9 @@
 
 namespace beamcam::render {
 
+// 10ⁿ for |n| <= 300: exact for n = 0…22, and the nearest double for n = −22…−1.
+double ten_to(int n);
+
 // The largest of … 0.1, 0.2, 0.5, 1, 2, 5, 10 … that is <= value, or the smallest >= value. value > 0.
 double round_down_125(double value);
 double round_up_125(double value);

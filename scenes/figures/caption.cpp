@@ -7,20 +7,12 @@
 #include <array>
 #include <cmath>
 
+#include "render/plot/text.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {
 namespace {
-
-// 2e-9 as "2 × 10^{−9}", 1e-8 as "10^{−8}".
-std::string one_digit(double value) {
-    const std::string text = fmt::format("{:.0e}", value);
-    const std::string mantissa = text.substr(0, text.find('e'));
-    const int exponent = std::stoi(text.substr(text.find('e') + 1));
-    const std::string power = fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
-    return mantissa == "1" ? power : mantissa + " × " + power;
-}
 
 std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
 std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
@@ -154,9 +146,16 @@ std::string number(double value, int digits) {
     const std::size_t e = text.find('e');
     if (e == std::string::npos) return sign + text;
     const int exponent = std::stoi(text.substr(e + 1));
-    const std::string power = fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
+    const std::string power = render::figure::power_of_ten(exponent);
     const std::string mantissa = text.substr(0, e);
     return sign + (mantissa == "1" ? power : mantissa + "×" + power);
+}
+
+std::string one_digit(double value) {
+    const std::string text = fmt::format("{:.0e}", value);
+    const std::size_t e = text.find('e');
+    const std::string mantissa = text.substr(0, e), power = render::figure::power_of_ten(std::stoi(text.substr(e + 1)));
+    return mantissa == "1" ? power : mantissa + " × " + power;
 }
 
 std::string grouped(double value, int decimals) {
@@ -206,7 +205,6 @@ std::string facts(const sim::Problem& p, Lang lang, Varied varied) {
 
 // It does not print g; 9.81 m/s² reproduces its 0.37 s.
 bool is_of_the_paper(const sim::Problem& p) {
-    constexpr std::array kSpeeds{0.0, 1.0, 5.0};  // ω [rad/s]
     const sim::Beam& b = p.beam;
     const bool beam = b.length == 1 && as_printed(b.area, 7.2968e-5) && as_printed(b.second_moment, 8.2189e-9) &&
                       as_printed(b.density, 2766.7) && as_printed(b.youngs_modulus, 6.8952e10);
@@ -214,7 +212,7 @@ bool is_of_the_paper(const sim::Problem& p) {
                        p.initial.shape == sim::InitialShape::straight && as_printed(p.gravity, 9.81) &&
                        std::holds_alternative<sim::FreeDrive>(p.hub.drive);
     const bool cam = !p.cam || (p.cam->centre.x == 0.25 && p.cam->centre.y == 0 && as_printed(p.cam->radius, 0.1) &&
-                                std::ranges::count(kSpeeds, p.cam->speed) > 0);
+                                std::ranges::count(kPaperSpeeds, p.cam->speed) > 0);
     return beam && start && cam;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ std::string filled(const char* text, const Values&... values) {
     return fmt::format(fmt::runtime(text), values...);
 }
 std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
+std::string one_digit(double value);              // "10^{−8}", "2 × 10^{−9}"
 std::string grouped(double value, int decimals);  // "0.369 994": thin spaces between threes
 
 // ---- facts ----------------------------------------------------------------------------------------
@@ -42,6 +44,9 @@ struct Varied {
 std::string facts(const sim::Problem& problem, Lang lang, Varied varied = {});
 // Beam, hub, drive and start alone.
 std::string beam_facts(const sim::Problem& problem, Lang lang, Varied varied = {});
+
+// Speeds of the cam in the paper's figure 6 [rad/s].
+inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};
 
 // Whether every number that the paper prints has its printed value: only then is a comparison with the paper, or a
 // word about what it does not print, true of the problem. The number of modes and the model are the reader's choice.

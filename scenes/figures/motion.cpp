@@ -18,8 +18,7 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-constexpr int kCurve = 8001;
-constexpr std::array kSpeeds3{0.0, 1.0, 5.0};  // ω of the paper's figure 6 [rad/s]
+constexpr int kMotionPoints = 8001;
 
 // Within it θ is not reproducible [s].
 struct Interval {
@@ -106,7 +105,7 @@ std::string impacts_words(std::ptrdiff_t count, Lang lang) {
 FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "angle");
-    const std::size_t table = studies.table(study, {0, end, kCurve}, {ChannelKind::t, ChannelKind::theta});
+    const std::size_t table = studies.table(study, {0, end, kMotionPoints}, {ChannelKind::t, ChannelKind::theta});
     studies.horizon(study);
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
@@ -126,11 +125,11 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     std::vector<sim::Problem> problems;
     std::vector<std::size_t> where, tables;
-    for (const double speed : kSpeeds3) {
+    for (const double speed : kPaperSpeeds) {
         sim::Problem p = scene.problem;
         p.cam->speed = speed;
         where.push_back(studies.of(p, end, "speeds"));
-        tables.push_back(studies.table(where.back(), {0, end, kCurve}, {ChannelKind::t, ChannelKind::theta}));
+        tables.push_back(studies.table(where.back(), {0, end, kMotionPoints}, {ChannelKind::t, ChannelKind::theta}));
         studies.horizon(where.back());
         problems.push_back(std::move(p));
     }
@@ -146,7 +145,7 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
             const sim::Result& result = *results[where[k]];
             Panel panel = angle_panel(result, tables[k], end);
             panel.letter = std::string(1, static_cast<char>('a' + k));
-            panel.title = fmt::format("$ω$ = {} rad s^{{−1}}", number(kSpeeds3[k], 3));
+            panel.title = fmt::format("$ω$ = {} rad s^{{−1}}", number(kPaperSpeeds[k], 3));
             for (const Series& s : panel.series)
                 for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
             figure.panels.push_back(std::move(panel));
@@ -163,7 +162,7 @@ FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
         std::vector<std::string> panels;
         for (std::size_t k = 0; k < all.size(); ++k)
             panels.push_back(filled(en ? "({}) $ω$ = {} rad s^{{−1}}, {}" : "({}) $ω$ = {} rad s^{{−1}}，{}",
-                                    static_cast<char>('a' + k), number(kSpeeds3[k], 3),
+                                    static_cast<char>('a' + k), number(kPaperSpeeds[k], 3),
                                     impacts_words(impacts_until(problems[k], *all[k], end), lang)));
         figure.caption = filled(en ? "Hub angle $θ$ for three speeds of the cam, clockwise: {}. "
                                    : "三种凸轮转速（顺时针）下的转角 $θ$：{}。",

@@ -3,23 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
 #include <utility>
+
+#include "render/plot/text.hpp"
+#include "scenes/figures/caption.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-// One significant digit as people write it: 10⁻⁸, 2 × 10⁻⁹.
-std::string power_of_ten(double value) {
-    static constexpr std::string_view kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const std::string text = fmt::format("{:.0e}", value);  // "2e-09"
-    const std::string mantissa = text.substr(0, text.find('e'));
-    std::string out = mantissa == "1" ? "10" : mantissa + " × 10";
-    const int exponent = std::stoi(text.substr(text.find('e') + 1));
-    if (exponent < 0) out += "⁻";
-    for (const char digit : std::to_string(std::abs(exponent))) out += kDigits[digit - '0'];
-    return out;
-}
+// "10⁻⁸", "2 × 10⁻⁹".
+std::string plain_digit(double value) { return render::figure::to_plain(one_digit(value)); }
 
 std::string beyond_model(const sim::Problem& problem) {
     return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
@@ -69,9 +62,9 @@ void add_compared(const Pictures& p, std::vector<sim::Result>& results, const st
 }  // namespace
 
 std::string accuracy_note(const sim::Problem& problem, const sim::Result& result) {
-    std::string note = fmt::format("rtol {}", power_of_ten(problem.solver.rtol));
+    std::string note = fmt::format("rtol {}", plain_digit(problem.solver.rtol));
     if (result.energy_scale > 0 && result.energy_residual_max > 0)
-        note += fmt::format(" · energy closes to {}", power_of_ten(result.energy_residual_max / result.energy_scale));
+        note += fmt::format(" · energy closes to {}", plain_digit(result.energy_residual_max / result.energy_scale));
     if (result.beyond_model) note += beyond_model(problem);
     return note;
 }
