@@ -89,6 +89,7 @@ struct PanelType {
     Vec2 smallest;     // room that it can use [design px]
     std::unique_ptr<Panel> (*make)(const FilmFacts& facts, const PanelSlot& slot);
     std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
+    bool draws_curve = false;                     // the second of `channels` over the first
     bool takes_channels = false;                  // scenes name them
     bool takes_window = false;                    // of time
     bool takes_collisions = false;                // instead of a window

@@ -21,7 +21,8 @@ const std::vector<PanelType>& panel_types() {
          .name = "phase",
          .smallest = {240, 170},
          .make = make_phase_panel,
-         .channels = {theta, theta_dot}},
+         .channels = {theta, theta_dot},
+         .draws_curve = true},
         // The terms of the energy balance as stacked bands against time.
         {.kind = PanelKind::energy,
          .name = "energy",

@@ -45,11 +45,12 @@ sim::PoseRequest survey() {
     return request;
 }
 
-// What a phase panel draws of the chart's table.
+// What a panel draws of the chart's table as a curve.
 std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vector<render::PanelSpec>& panels) {
-    if (std::ranges::none_of(panels, [](const auto& panel) { return panel.kind == render::PanelKind::phase; }))
-        return std::nullopt;
-    return std::pair{sim::Channel{ChannelKind::theta, 0}, sim::Channel{ChannelKind::theta_dot, 0}};
+    for (const render::PanelSpec& panel : panels)
+        if (const render::PanelType& type = type_of(panel.kind); type.draws_curve)
+            return std::pair{sim::Channel{type.channels[0], 0}, sim::Channel{type.channels[1], 0}};
+    return std::nullopt;
 }
 
 // Films and sequences are what shards share.
