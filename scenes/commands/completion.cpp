@@ -14,29 +14,29 @@
 namespace beamcam::scenes {
 namespace {
 
-using Words = std::vector<std::string>;
+using Names = std::vector<std::string>;
 
-struct Arguments {
+struct CompletionArguments {
     std::string shell;
     const Grammar* grammar = nullptr;
 };
 
 // What may stand for a placeholder of the help.
 struct Completion {
-    Words words;
+    Names words;
     bool files = false;
     bool in_list = false;  // several words with commas between them
     bool open = false;     // more follows without a blank
 };
 
-Words channel_names() {
-    Words names;
+Names channel_names() {
+    Names names;
     for (const sim::Channel& channel : sim::all_channels({})) names.push_back(sim::name(channel));
     return names;
 }
 
-Words key_names() {
-    Words names;
+Names key_names() {
+    Names names;
     for (const KeyRow& row : key_rows()) {
         const std::string name = row.path + "=";
         if (row.path.find('[') == std::string::npos && std::ranges::find(names, name) == names.end())
@@ -56,7 +56,7 @@ Completion completion_of(const Parameter& parameter) {
         out.words = key_names();
         out.open = true;
     } else if (what == "FIGURE") {
-        for (const Recipe& recipe : recipes()) out.words.emplace_back(recipe.name);
+        out.words = recipe_names();
     } else if (what == "EXAMPLE") {
         for (const EmbeddedScene& scene : embedded_scenes()) out.words.emplace_back(scene.name);
     }
@@ -69,14 +69,14 @@ bool is_option(const Parameter& parameter) { return parameter.names.starts_with(
 bool takes_value(const Parameter& parameter) { return is_option(parameter) && !parameter.value.empty(); }
 
 // "-o,--output" as two words.
-Words spellings(const Parameter& parameter) {
+Names spellings(const Parameter& parameter) {
     const std::size_t comma = parameter.names.find(',');
     if (comma == std::string::npos) return {parameter.names};
     return {parameter.names.substr(0, comma), parameter.names.substr(comma + 1)};
 }
 
-Words names_of(const std::deque<Command>& commands) {
-    Words names;
+Names names_of(const std::deque<Command>& commands) {
+    Names names;
     for (const Command& command : commands) names.push_back(command.name);
     return names;
 }
@@ -93,12 +93,12 @@ std::string bash_words(const Completion& c) {
 }
 
 std::string bash_command(const Command& command) {
-    Words options{"--help"};
+    Names options{"--help"};
     std::string values, positional;
     for (const Parameter& parameter : command.parameters) {
         const Completion completion = completion_of(parameter);
         if (!is_option(parameter)) {
-            // The last that has words is offered beside files: `figure SCENE FIGURE`.
+            // Candidates of all arguments are offered together: after `figure`, files and names of figures.
             if (completion.files || !completion.words.empty())
                 positional += fmt::format("            {}\n", bash_words(completion));
             continue;
@@ -251,7 +251,7 @@ std::string fish_script(const Grammar& grammar) {
     return text;
 }
 
-int act(const Arguments& args) {
+int act(const CompletionArguments& args) {
     print_data(args.shell == "bash"  ? bash_script(*args.grammar)
                : args.shell == "zsh" ? zsh_script(*args.grammar)
                                      : fish_script(*args.grammar));
@@ -261,7 +261,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_completion(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<CompletionArguments>();
     args->grammar = &grammar;
     Command& app = grammar.command("completion", "Print the completion of a shell: bash, zsh or fish");
     app.positional("SHELL", &args->shell, "Which").required().one_of({"bash", "zsh", "fish"});

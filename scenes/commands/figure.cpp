@@ -14,7 +14,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct FigureArguments {
     Common common;
     std::string scene, figure, file, column = "elsevier", lang = "en";
     std::optional<std::string> width, data, caption;
@@ -32,7 +32,7 @@ std::string list(const Scene& scene, Lang lang) {
     return text;
 }
 
-FigureOutput wanted(const Arguments& args, const Recipe& recipe) {
+FigureOutput wanted(const FigureArguments& args, const Recipe& recipe) {
     if (args.file == "-") throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg or .png");
     need_ending("-o", args.file, {".pdf", ".svg", ".png"});
     FigureOutput figure;
@@ -62,7 +62,7 @@ FigureOutput wanted(const Arguments& args, const Recipe& recipe) {
     return figure;
 }
 
-int act(const Arguments& args) {
+int act(const FigureArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     if (args.figure.empty()) {
         if (!args.file.empty())
@@ -71,12 +71,9 @@ int act(const Arguments& args) {
         return 0;
     }
     const Recipe* recipe = recipe_named(args.figure);
-    if (!recipe) {
-        std::vector<std::string> known;
-        for (const Recipe& r : recipes()) known.emplace_back(r.name);
-        throw UsageError(
-            fmt::format("there is no figure {}{}", in_quotes(args.figure), suggestion_or_list(args.figure, known)));
-    }
+    if (!recipe)
+        throw UsageError(fmt::format("there is no figure {}{}", in_quotes(args.figure),
+                                     suggestion_or_list(args.figure, recipe_names())));
     if (args.file.empty())
         throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
     if (const auto refusal = refusal_of(*recipe, scene))
@@ -90,7 +87,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_figure(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<FigureArguments>();
     Command& app = grammar.command("figure", "Make a figure for print (.pdf, .svg, .png); no FIGURE: list them");
     add_scene(app, args->scene, args->common);
     app.positional("FIGURE", &args->figure, "Which figure; none: list those of the scene");

@@ -21,7 +21,7 @@ using sim::ChannelKind;
 // Rows over the scene: an impact lasts a few tenths of a millisecond.
 int fine(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 constexpr double kRounding = 1e-12;  // of the energy scale
-constexpr int kCurve = 8001;
+constexpr int kPlacesPoints = 8001;
 
 const sim::Collision* first_collision(const sim::Problem& problem, const sim::Result& result) {
     const auto it = std::ranges::find_if(result.collisions, [&](const auto& c) { return strikes(problem, c); });
@@ -149,7 +149,7 @@ FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "energy");
     const std::size_t table = studies.table(
-        study, {0, end, kCurve},
+        study, {0, end, kPlacesPoints},
         {ChannelKind::t, ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
          ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact,
          ChannelKind::loss_friction, ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});

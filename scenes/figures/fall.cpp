@@ -17,7 +17,7 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-constexpr int kCurve = 2001;  // points: a column of print has fewer dots
+constexpr int kFallPoints = 2001;  // points: a column of print has fewer dots
 constexpr int kVibration = 12001;
 constexpr double kAround = 12e-6;  // the enlarged stretch about the rigid crossing [s]
 
@@ -141,7 +141,7 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
         Fall fall;
         fall.study = studies.of(p, end, "free-fall");
         studies.turning_points(fall.study);
-        fall.table = studies.table(fall.study, {0, end, kCurve}, {ChannelKind::t, ChannelKind::theta});
+        fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
         if (enlarged)
             fall.close = studies.table(fall.study, {*exact - kAround, *exact + kAround, 241},
                                        {ChannelKind::t, ChannelKind::theta});
@@ -233,7 +233,7 @@ FigureMaker prepare_tip(const Scene& scene, Lang lang, Studies& studies) {
     };
 }
 
-std::optional<std::string> needs_flexible(const Scene& scene) {
+std::optional<std::string> needs_vibration(const Scene& scene) {
     if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
     return "a rigid beam does not vibrate; choose another beam.model";
 }
@@ -242,6 +242,6 @@ std::optional<std::string> needs_flexible(const Scene& scene) {
 
 const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
 const Recipe kTipVibration{
-    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_flexible, prepare_tip};
+    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

@@ -19,7 +19,7 @@ using sim::ChannelKind;
 using sim::ModelKind;
 
 constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
-constexpr int kCurve = 4001;
+constexpr int kModelsPoints = 4001;
 
 // The first apex after the first collision began.
 std::optional<double> rebound(const sim::Result& result) {
@@ -187,7 +187,8 @@ FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
         rung.study = studies.of(rung.problem, scene.end_time, "models");
         if (&rung != &all.front()) studies.may_fail(rung.study);  // what the others are compared with
         studies.turning_points(rung.study);
-        rung.table = studies.table(rung.study, {0, scene.end_time, kCurve}, {ChannelKind::t, ChannelKind::theta});
+        rung.table =
+            studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
@@ -247,7 +248,7 @@ std::optional<std::string> needs_free_cam(const Scene& scene) {
     if (auto no_cam = needs_cam(scene)) return no_cam;
     return needs_free_hub(scene);
 }
-std::optional<std::string> needs_flexible(const Scene& scene) {
+std::optional<std::string> needs_flexible_fall(const Scene& scene) {
     if (auto prescribed = needs_free_hub(scene)) return prescribed;
     if (scene.problem.beam.model != ModelKind::rigid) return std::nullopt;
     return "the ladder starts from a flexible beam; choose another beam.model than \"rigid\"";
@@ -259,6 +260,6 @@ const Recipe kApexModes{"apex-modes",
                         {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
                         needs_free_cam,
                         prepare_apex};
-const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible, prepare_models};
+const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
 
 }  // namespace beamcam::scenes

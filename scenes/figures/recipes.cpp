@@ -24,6 +24,12 @@ const std::vector<Recipe>& table() {
 
 std::span<const Recipe> recipes() { return table(); }
 
+std::vector<std::string> recipe_names() {
+    std::vector<std::string> names;
+    for (const Recipe& recipe : recipes()) names.emplace_back(recipe.name);
+    return names;
+}
+
 const Recipe* recipe_named(std::string_view name) {
     const auto it = std::find_if(table().begin(), table().end(), [&](const Recipe& r) { return name == r.name; });
     return it == table().end() ? nullptr : &*it;

@@ -30,6 +30,7 @@ struct Recipe {
 };
 
 std::span<const Recipe> recipes();
+std::vector<std::string> recipe_names();
 const Recipe* recipe_named(std::string_view name);  // nullptr: none
 
 // The recipe's own refusal, or that of a motion without which it has no figure: the problem is impossible.

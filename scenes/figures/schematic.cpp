@@ -200,7 +200,7 @@ class Drawing {
     std::vector<Shape> out_;
 };
 
-std::string caption(const sim::Problem& p, Lang lang) {
+std::string schematic_caption(const sim::Problem& p, Lang lang) {
     const bool en = lang == Lang::en;
     const bool flexible = p.beam.model != sim::ModelKind::rigid;
     std::string text = en ? "The system with its symbols, to scale" : "系统示意图，按比例绘制";
@@ -218,7 +218,7 @@ std::string caption(const sim::Problem& p, Lang lang) {
     return text + facts(p, lang);
 }
 
-FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
+FigureMaker prepare_schematic(const Scene& scene, Lang lang, Studies&) {
     return [problem = scene.problem, lang](const Results&) {
         Figure figure;
         figure.name = "schematic";
@@ -227,7 +227,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
         panel.shapes = Drawing(problem).shapes();
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.98;
-        figure.caption = caption(problem, lang);
+        figure.caption = schematic_caption(problem, lang);
         figure.accuracy = accuracy({}, lang);
         return figure;
     };
@@ -235,6 +235,6 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
 
 }  // namespace
 
-const Recipe kSchematic{"schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare};
+const Recipe kSchematic{"schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare_schematic};
 
 }  // namespace beamcam::scenes

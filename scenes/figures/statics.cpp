@@ -49,13 +49,13 @@ constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿�
                              Curves{Printing::printed, {"as printed", "原文公式"}, 1}};
 
 // Deflection [mm] and slope [10⁻³] over both spans; the slope's jump at the support.
-struct Shape {
+struct DeflectionCurves {
     Series w, slope;
     double jump = 0;
 };
-Shape shape_of(const sim::Problem& problem, double angle, double support, Printing printing) {
+DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, Printing printing) {
     const double reach = problem.beam.length * std::cos(angle);
-    Shape out;
+    DeflectionCurves out;
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {
@@ -71,7 +71,7 @@ Shape shape_of(const sim::Problem& problem, double angle, double support, Printi
     return out;
 }
 
-std::string caption(const sim::Problem& problem, const Inclination& at, double jump, Lang lang) {
+std::string deflection_caption(const sim::Problem& problem, const Inclination& at, double jump, Lang lang) {
     const bool en = lang == Lang::en;
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = filled(
@@ -92,7 +92,7 @@ std::string caption(const sim::Problem& problem, const Inclination& at, double j
     return text + beam_facts(problem, lang);
 }
 
-FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
+FigureMaker prepare_deflection(const Scene& scene, Lang lang, Studies&) {
     return [problem = scene.problem, lang](const Results&) {
         const bool en = lang == Lang::en;
         const Inclination at = inclination(problem);
@@ -114,7 +114,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
             const double support = kSupports[i] * reach;
             const render::Color color = render::figure::look(static_cast<int>(i)).color;
             for (const Curves& c : curves) {
-                Shape s = shape_of(problem, at.angle, support, c.printing);
+                DeflectionCurves s = shape_of(problem, at.angle, support, c.printing);
                 const bool first = c.printing == Printing::corrected;
                 if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
                 for (Series* series : {&s.w, &s.slope}) {
@@ -144,13 +144,13 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies&) {
         figure.panels = {shape, slope};
         figure.share_x = true;
         figure.aspect = 1.15;
-        figure.caption = caption(problem, at, largest_jump, lang);
+        figure.caption = deflection_caption(problem, at, largest_jump, lang);
         figure.accuracy = accuracy({}, lang);
         return figure;
     };
 }
 
-std::optional<std::string> refusal(const Scene& scene) {
+std::optional<std::string> needs_static_bending(const Scene& scene) {
     const sim::Problem& p = scene.problem;
     if (p.beam.model == sim::ModelKind::rigid) return "a rigid beam does not bend; choose another beam.model";
     if (p.gravity == 0) return "without gravity nothing bends the beam; set gravity";
@@ -166,7 +166,9 @@ std::optional<std::string> refusal(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kDeflection{
-    "deflection", {"Static deflection for several contact points", "不同接触点的静挠度"}, refusal, prepare};
+const Recipe kDeflection{"deflection",
+                         {"Static deflection for several contact points", "不同接触点的静挠度"},
+                         needs_static_bending,
+                         prepare_deflection};
 
 }  // namespace beamcam::scenes

@@ -19,7 +19,7 @@ using render::figure::Panel;
 using render::figure::Series;
 
 // Instants of the fall: a quarter of a millisecond apart, or nearer in a short scene.
-int rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
+int fall_rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
 constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
 constexpr int kRefined = 8;       // intervals between two trial points in the second round
 constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
@@ -36,7 +36,7 @@ std::vector<double> trial_points(const sim::Problem& p) {
     return points;
 }
 
-struct Fall {
+struct DistanceHistory {
     std::vector<double> t, x;                   // instants, arc positions
     std::vector<std::vector<double>> distance;  // [m], by position, then instant
 };
@@ -79,9 +79,9 @@ std::string located(const sim::Problem& problem, const sim::Result& result, cons
            digits_stated(problem, lang);
 }
 
-FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_distance(const Scene& scene, Lang lang, Studies& studies) {
     const sim::Problem falling = without_cam(scene.problem);
-    const Instants all{0, scene.end_time, rows(scene.end_time)};
+    const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time, "distance");
     const std::vector<double> trial = trial_points(scene.problem);
     // The refined points lie between the trial points; asked for together, the fall is integrated once.
@@ -102,7 +102,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const sim::Cam& cam = *problem.cam;
         const double offset = contact_offset(problem);
-        Fall f;
+        DistanceHistory f;
         f.t = instants(all);
         f.x = fine;
         for (const std::size_t w : where) {
@@ -195,7 +195,7 @@ FigureMaker prepare(const Scene& scene, Lang lang, Studies& studies) {
     };
 }
 
-std::optional<std::string> refusal(const Scene& scene) {
+std::optional<std::string> needs_tangent(const Scene& scene) {
     if (auto no_cam = needs_cam(scene)) return no_cam;
     if (auto resting = needs_start_off_the_cam(scene)) return resting;
     const sim::Cam& cam = *scene.problem.cam;
@@ -206,7 +206,9 @@ std::optional<std::string> refusal(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kDistance{
-    "distance", {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"}, refusal, prepare};
+const Recipe kDistance{"distance",
+                       {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
+                       needs_tangent,
+                       prepare_distance};
 
 }  // namespace beamcam::scenes

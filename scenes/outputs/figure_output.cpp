@@ -13,14 +13,9 @@ namespace dim = sim::dimension;
 using sim::between, sim::required;
 
 void FigureOutput::visit(SceneVisitor& v) {
-    static const std::vector<std::string> kFigures = [] {
-        std::vector<std::string> all;
-        for (const Recipe& recipe : recipes()) all.emplace_back(recipe.name);
-        return all;
-    }();
     v.form("file", file_form(file, {".pdf", ".svg", ".png"}),
            "Name of the file; the figure's name with .pdf when left out.");
-    v.choice(required("figure", "\"free-fall\""), figure, kFigures, "Its name.");
+    v.choice(required("figure", "\"free-fall\""), figure, recipe_names(), "Its name.");
     v.choice("column", column, render::figure::column_names(),
              "The journal's column that it fits: width and size of letters.");
     v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400), "Dots per inch of a .png.");
