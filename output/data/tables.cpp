@@ -57,14 +57,14 @@ std::string npy_header(std::size_t rows) {
     return header + text;
 }
 
-struct Entry {
+struct ArchiveMember {
     std::string name;
     std::uint32_t crc = 0;
     std::uint64_t size = 0, offset = 0;
 };
 
 // What the local and the central record of an entry have in common.
-std::string common_record(const Entry& entry) {
+std::string common_record(const ArchiveMember& entry) {
     std::string record;
     put(record, 20, 2), put(record, 0, 2), put(record, 0, 2);  // needs zip 2.0, no flags, stored
     put(record, 0, 2), put(record, 1 << 5 | 1, 2);             // midnight, 1 January 1980: no clock in the bytes
@@ -73,9 +73,9 @@ std::string common_record(const Entry& entry) {
     return record;
 }
 
-std::string local_record(const Entry& entry) { return "PK\x03\x04" + common_record(entry) + entry.name; }
+std::string local_record(const ArchiveMember& entry) { return "PK\x03\x04" + common_record(entry) + entry.name; }
 
-std::string central_record(const Entry& entry) {
+std::string central_record(const ArchiveMember& entry) {
     std::string record = "PK\x01\x02";
     put(record, 20, 2);  // made by zip 2.0
     record += common_record(entry);
@@ -127,7 +127,7 @@ void write_npz(const Target& file, const sim::Table& table) {
     for (std::size_t c = 0; c < table.channels.size(); ++c) {
         const std::string_view data(reinterpret_cast<const char*>(table.values[c].data()),
                                     table.rows() * sizeof(double));
-        Entry entry{sim::name(table.channels[c]) + ".npy", 0, header.size() + data.size(), offset};
+        ArchiveMember entry{sim::name(table.channels[c]) + ".npy", 0, header.size() + data.size(), offset};
         entry.crc = libdeflate_crc32(0, header.data(), header.size());
         if (!data.empty()) entry.crc = libdeflate_crc32(entry.crc, data.data(), data.size());
         const std::string record = local_record(entry);

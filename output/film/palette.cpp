@@ -13,20 +13,20 @@ namespace {
 constexpr int kBits = 5, kSide = 1 << kBits, kFineBits = 6, kFineSide = 1 << kFineBits;
 constexpr std::size_t kColors = 256, kExact = 24;  // of them kept for the commonest colours as they are
 
-struct Rgb {
+struct PaletteColor {
     int r, g, b;
 };
 // Over white: premultiplied colour and the rest of the alpha.
-Rgb over_white(std::uint32_t p) {
+PaletteColor over_white(std::uint32_t p) {
     const int rest = 255 - static_cast<int>(p >> 24);
     return {static_cast<int>(p >> 16 & 255) + rest, static_cast<int>(p >> 8 & 255) + rest,
             static_cast<int>(p & 255) + rest};
 }
-std::uint32_t packed(Rgb c) {
+std::uint32_t packed(PaletteColor c) {
     return 0xff000000U | static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 |
            static_cast<std::uint32_t>(c.b);
 }
-std::size_t cell_of(Rgb c, int bits) {
+std::size_t cell_of(PaletteColor c, int bits) {
     const int drop = 8 - bits;
     return static_cast<std::size_t>(((c.r >> drop) << 2 * bits) | ((c.g >> drop) << bits) | (c.b >> drop));
 }
@@ -38,12 +38,12 @@ PaletteMaker::PaletteMaker() : cells_(static_cast<std::size_t>(kSide) * kSide * 
 void PaletteMaker::add(const render::Image& image) {
     std::unordered_map<std::uint32_t, std::uint64_t> counts;
     for (std::uint32_t p : image.pixels) {
-        const Rgb c = over_white(p);
+        const PaletteColor c = over_white(p);
         ++counts[packed(c)];
     }
     for (const auto& [color, count] : counts) {
-        const Rgb c{static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255),
-                    static_cast<int>(color & 255)};
+        const PaletteColor c{static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255),
+                             static_cast<int>(color & 255)};
         Cell& cell = cells_[cell_of(c, kBits)];
         // Rare colours matter more than their area: edges and thin curves are what the eye follows.
         const double weight = std::max(1.0, 8.0 * static_cast<double>(count) / (8.0 + static_cast<double>(count) / 64));

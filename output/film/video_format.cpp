@@ -8,22 +8,22 @@
 namespace beamcam::output {
 namespace {
 
-struct Entry {
+struct CodecRow {
     Codec codec;
     const char *name, *title;
     bool alpha, even;
     int usual, worst;  // of crf; worst 0: none
 };
-constexpr std::array kEntries{Entry{Codec::h264, "h264", "H.264", false, true, 18, 51},
-                              Entry{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
-                              Entry{Codec::av1, "av1", "AV1", false, true, 26, 63},
-                              Entry{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
-                              Entry{Codec::ffv1, "ffv1", "FFV1", true, false, 0, 0},
-                              Entry{Codec::gif, "gif", "GIF", false, false, 0, 0},
-                              Entry{Codec::apng, "apng", "APNG", true, false, 0, 0},
-                              Entry{Codec::webp, "webp", "WebP", true, false, 0, 0}};
+constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", false, true, 18, 51},
+                              CodecRow{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
+                              CodecRow{Codec::av1, "av1", "AV1", false, true, 26, 63},
+                              CodecRow{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
+                              CodecRow{Codec::ffv1, "ffv1", "FFV1", true, false, 0, 0},
+                              CodecRow{Codec::gif, "gif", "GIF", false, false, 0, 0},
+                              CodecRow{Codec::apng, "apng", "APNG", true, false, 0, 0},
+                              CodecRow{Codec::webp, "webp", "WebP", true, false, 0, 0}};
 
-const Entry& entry(Codec codec) { return *std::ranges::find(kEntries, codec, &Entry::codec); }
+const CodecRow& entry(Codec codec) { return *std::ranges::find(kEntries, codec, &CodecRow::codec); }
 
 struct Home {
     std::string_view ending;
@@ -42,7 +42,7 @@ const Home* home(std::string_view ending) {
     return at == kHomes.end() ? nullptr : &*at;
 }
 
-constexpr int kSmallestSide = 16, kLargestSide = 16384;                // x264's
+constexpr int kSmallestVideoSide = 16, kLargestVideoSide = 16384;      // x264's
 constexpr int kSmallestAv1Side = 64;                                   // SVT-AV1's
 constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
@@ -60,7 +60,7 @@ std::string plain(double value) {
 const char* name(Codec codec) { return entry(codec).name; }
 const char* title(Codec codec) { return entry(codec).title; }
 std::optional<Codec> codec_named(std::string_view wanted) {
-    const auto at = std::ranges::find(kEntries, wanted, [](const Entry& e) { return std::string_view(e.name); });
+    const auto at = std::ranges::find(kEntries, wanted, [](const CodecRow& e) { return std::string_view(e.name); });
     return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
 }
 std::optional<Codec> default_codec(std::string_view ending) {
@@ -75,7 +75,7 @@ bool goes_into(Codec codec, std::string_view ending) {
 bool has_alpha(Codec codec) { return entry(codec).alpha; }
 bool needs_even_sides(Codec codec) { return entry(codec).even; }
 std::optional<QualityScale> quality_scale(Codec codec) {
-    const Entry& e = entry(codec);
+    const CodecRow& e = entry(codec);
     if (e.worst == 0) return std::nullopt;
     return QualityScale{e.usual, e.worst};
 }
@@ -106,9 +106,9 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
 
 std::string size_problem(Codec codec, int width, int height) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (std::min(width, height) < kSmallestSide || std::max(width, height) > kLargestSide)
-        return "a film of " + size + " pixels is not possible; both sides must be " + std::to_string(kSmallestSide) +
-               " to " + std::to_string(kLargestSide);
+    if (std::min(width, height) < kSmallestVideoSide || std::max(width, height) > kLargestVideoSide)
+        return "a film of " + size + " pixels is not possible; both sides must be " +
+               std::to_string(kSmallestVideoSide) + " to " + std::to_string(kLargestVideoSide);
     if (codec == Codec::av1 && std::min(width, height) < kSmallestAv1Side)
         return "an AV1 film of " + size + " pixels is not possible; both sides must be at least " +
                std::to_string(kSmallestAv1Side) + ", or choose another codec";

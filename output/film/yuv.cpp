@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/draw/color.hpp"
+
 // The loops below are plain C++ that compilers vectorize; on x86-64 a wider version is chosen when the program
 // starts. Sanitizers cannot instrument that choice, and integers give the same bytes in every version.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
@@ -16,19 +18,21 @@ namespace beamcam::output {
 
 namespace {
 
+using render::kLumaBlue;
+using render::kLumaRed;
+
 // Coefficients of the formula in the header, times 255 levels, with 16 fractional bits.
-constexpr double kRed = 0.2126, kBlue = 0.0722;
 constexpr double kOne = 65536.0 / 255;
 constexpr int rounded(double value) { return static_cast<int>(value < 0 ? value - 0.5 : value + 0.5); }
 
-constexpr int kYR = rounded(219 * kOne * kRed);
-constexpr int kYB = rounded(219 * kOne * kBlue);
+constexpr int kYR = rounded(219 * kOne * kLumaRed);
+constexpr int kYB = rounded(219 * kOne * kLumaBlue);
 constexpr int kYG = rounded(219 * kOne) - kYR - kYB;  // white is exactly 235
-constexpr int kCbR = rounded(224 * kOne * -kRed / (2 * (1 - kBlue)));
+constexpr int kCbR = rounded(224 * kOne * -kLumaRed / (2 * (1 - kLumaBlue)));
 constexpr int kCbB = rounded(224 * kOne * 0.5);
 constexpr int kCbG = -kCbR - kCbB;  // greys are exactly 128
 constexpr int kCrR = rounded(224 * kOne * 0.5);
-constexpr int kCrB = rounded(224 * kOne * -kBlue / (2 * (1 - kRed)));
+constexpr int kCrB = rounded(224 * kOne * -kLumaBlue / (2 * (1 - kLumaRed)));
 constexpr int kCrG = -kCrR - kCrB;
 
 }  // namespace
@@ -56,6 +60,9 @@ BEAMCAM_WIDEST void convert_two_rows(const std::uint32_t* __restrict above, cons
 }
 
 namespace {
+
+using render::kLumaBlue;
+using render::kLumaRed;
 
 void require_even(const render::Image& image, const char* what) {
     if (image.width % 2 != 0 || image.height % 2 != 0)
@@ -86,6 +93,9 @@ void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const re
 void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) { convert_to_yuv420(image, to, whole(image)); }
 
 namespace {
+
+using render::kLumaBlue;
+using render::kLumaRed;
 
 struct Straight {
     int r = 0, g = 0, b = 0, a = 0;

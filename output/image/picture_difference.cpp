@@ -7,15 +7,15 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "render/draw/color.hpp"
+
 namespace beamcam::output {
 
 namespace {
 
-constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;  // BT.709
-
 // Brightness of a pixel over white paper, 0…255.
 double brightness(const std::uint8_t* p) {
-    const double y = kRed * p[0] + kGreen * p[1] + kBlue * p[2];
+    const double y = render::kLumaRed * p[0] + render::kLumaGreen * p[1] + render::kLumaBlue * p[2];
     return p[3] == 255 ? y : 255 + (y - 255) * p[3] / 255;
 }
 

@@ -28,9 +28,9 @@ std::uint32_t big_endian(const char* p) {
 
 // libpng reports errors by longjmp: between setjmp and the last call of the library nothing with a destructor lives in
 // the functions that it may leave.
-class Decoder {
+class PngDecoder {
   public:
-    Decoder(const fs::path& file, std::string bytes) : file_(file), bytes_(std::move(bytes)) {
+    PngDecoder(const fs::path& file, std::string bytes) : file_(file), bytes_(std::move(bytes)) {
         refuse_what_is_no_picture();
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
@@ -42,12 +42,12 @@ class Decoder {
         png_set_user_limits(png_, kLargestSide, kLargestSide);
         png_set_chunk_malloc_max(png_, kLongestText);
     }
-    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
+    ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngDecoder(const PngDecoder&) = delete;
+    PngDecoder& operator=(const PngDecoder&) = delete;
 
     PngFacts facts() {
-        if (!guarded(&Decoder::read_header)) fail();
+        if (!guarded(&PngDecoder::read_header)) fail();
         png_textp text = nullptr;
         const int count = png_get_text(png_, info_, &text, nullptr);
         PngFacts found{static_cast<int>(png_get_image_width(png_, info_)),
@@ -58,13 +58,13 @@ class Decoder {
     }
 
     Raster pixels() {
-        if (!guarded(&Decoder::read_header)) fail();
+        if (!guarded(&PngDecoder::read_header)) fail();
         raster_.resize(static_cast<int>(png_get_image_width(png_, info_)),
                        static_cast<int>(png_get_image_height(png_, info_)));
         rows_.resize(static_cast<std::size_t>(raster_.height));
         for (std::size_t y = 0; y < rows_.size(); ++y)
             rows_[y] = raster_.rgba.data() + y * 4 * static_cast<std::size_t>(raster_.width);
-        if (!guarded(&Decoder::read_pixels)) fail();
+        if (!guarded(&PngDecoder::read_pixels)) fail();
         return std::move(raster_);
     }
 
@@ -89,7 +89,7 @@ class Decoder {
                    std::to_string(kLargestSide) + "x" + std::to_string(kLargestSide) + " that beamcam handles");
     }
 
-    bool guarded(void (Decoder::*step)()) {
+    bool guarded(void (PngDecoder::*step)()) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         (this->*step)();
         return true;
@@ -111,13 +111,13 @@ class Decoder {
     }
 
     static void on_error(png_structp png, png_const_charp what) {
-        Decoder& self = *static_cast<Decoder*>(png_get_error_ptr(png));
+        PngDecoder& self = *static_cast<PngDecoder*>(png_get_error_ptr(png));
         std::strncpy(self.reason_.data(), what, self.reason_.size() - 1);
         png_longjmp(png, 1);
     }
     static void on_warning(png_structp, png_const_charp) {}
     static void on_read(png_structp png, png_bytep to, std::size_t count) {
-        Decoder& self = *static_cast<Decoder*>(png_get_io_ptr(png));
+        PngDecoder& self = *static_cast<PngDecoder*>(png_get_io_ptr(png));
         if (count > self.bytes_.size() - self.at_) png_error(png, "the file ends too early");
         std::memcpy(to, self.bytes_.data() + self.at_, count);
         self.at_ += count;
@@ -145,8 +145,8 @@ PngKind png_kind(const fs::path& file) {
     return got.size() == head.size() && got.back() == 16 ? PngKind::of_16_bits : PngKind::up_to_8_bits;
 }
 
-Raster read_png(const fs::path& file) { return Decoder(file, read_file(file)).pixels(); }
+Raster read_png(const fs::path& file) { return PngDecoder(file, read_file(file)).pixels(); }
 
-PngFacts read_png_facts(const fs::path& file) { return Decoder(file, read_file(file)).facts(); }
+PngFacts read_png_facts(const fs::path& file) { return PngDecoder(file, read_file(file)).facts(); }
 
 }  // namespace beamcam::output

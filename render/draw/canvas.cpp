@@ -23,7 +23,8 @@ std::string escape(std::string_view plain) {
 
 // STIX is a little smaller on the body than Inter; 112 % matches the x-heights.
 std::string math(std::string_view symbol) {
-    return fmt::format("<span face='STIXGeneral,STIX Two Text' style='italic' weight='normal' size='112%'>{}</span>", symbol);
+    return fmt::format("<span face='STIXGeneral,STIX Two Text' style='italic' weight='normal' size='112%'>{}</span>",
+                       symbol);
 }
 
 struct Canvas::Handles {

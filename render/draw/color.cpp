@@ -79,7 +79,7 @@ namespace {
 // Relative luminance and contrast of sRGB colours (WCAG 2.1).
 double luminance(const Color& c) {
     const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+    return kLumaRed * linear(c.r) + kLumaGreen * linear(c.g) + kLumaBlue * linear(c.b);
 }
 double contrast(const Color& a, const Color& b) {
     const double x = luminance(a), y = luminance(b);

@@ -22,6 +22,9 @@ constexpr Color mix(Color a, Color b, double share_of_b) {
     return {a.r * k + b.r * s, a.g * k + b.g * s, a.b * k + b.b * s, a.a * k + b.a * s};
 }
 
+// Shares of red, green and blue in the luminance: ITU-R BT.709.
+inline constexpr double kLumaRed = 0.2126, kLumaGreen = 0.7152, kLumaBlue = 0.0722;
+
 enum class Theme { light, dark, print };
 
 struct Palette {

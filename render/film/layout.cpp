@@ -6,7 +6,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSmallest = 0.5;  // 16 design pixels of text are 8 px: the least that reads
+constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px: the least that reads
 
 Box whole(const Box& b) {
     const double x = std::round(b.x), y = std::round(b.y);
@@ -35,7 +35,7 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     }
 }
 
-constexpr double kColumn = 540;  // width of panels beside the mechanism [design px]
+constexpr double kPanelColumn = 540;  // width of panels beside the mechanism [design px]
 bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
 // How much wider the column may become where the mechanism does not need the room [px].
 double widening(double w, double u) { return std::clamp(w - 1600 * u, 0.0, 200 * u); }
@@ -53,7 +53,7 @@ Frame frame(int width, int height, bool beside) {
     Layout& out = f.out;
     f.wide = width >= 1.4 * height;
     out.unit =
-        std::max(kSmallest, f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
+        std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
     const double u = out.unit, w = width, h = height;
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
@@ -65,7 +65,7 @@ Frame frame(int width, int height, bool beside) {
         f.top += 54 * u;
     }
     if (has_parameters) {
-        const double column = beside && f.wide && has_column(w, h, u) ? kColumn * u + widening(w, u) + 40 * u : 0;
+        const double column = beside && f.wide && has_column(w, h, u) ? kPanelColumn * u + widening(w, u) + 40 * u : 0;
         out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
         f.top += 36 * u;
     }
@@ -138,28 +138,28 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
 // ---- the standard arrangement ------------------------------------------------------------------
 
 // Equal cells for mechanisms beside and above each other.
-struct Cells {
+struct CellGrid {
     int columns = 1, rows = 1;
     double w = 0, h = 0;                               // whole pixels
     static constexpr double kAcross = 30, kDown = 14;  // between them [design px]
 };
 
-Cells cells(const Box& box, int count, int columns, double u) {
-    Cells out{columns, (count + columns - 1) / columns};
-    out.w = std::floor((box.w - Cells::kAcross * u * (out.columns - 1)) / out.columns);
-    out.h = std::floor((box.h - Cells::kDown * u * (out.rows - 1)) / out.rows);
+CellGrid cells(const Box& box, int count, int columns, double u) {
+    CellGrid out{columns, (count + columns - 1) / columns};
+    out.w = std::floor((box.w - CellGrid::kAcross * u * (out.columns - 1)) / out.columns);
+    out.h = std::floor((box.h - CellGrid::kDown * u * (out.rows - 1)) / out.rows);
     return out;
 }
 
-double scale_in(const Cells& c, const Sight& sight, double u) { return sight.camera({0, 0, c.w, c.h}, u).scale; }
+double scale_in(const CellGrid& c, const Sight& sight, double u) { return sight.camera({0, 0, c.w, c.h}, u).scale; }
 
 // As many as have room, in the rows and columns that give them the largest scale.
-Cells best_cells(const Box& box, int& count, const Sight& sight, double u) {
+CellGrid best_cells(const Box& box, int& count, const Sight& sight, double u) {
     const Vec2 least = type_of(PanelKind::mechanism).smallest * u;
     for (; count > 1; --count) {
-        std::optional<Cells> best;
+        std::optional<CellGrid> best;
         for (int columns = count; columns >= 1; --columns) {
-            const Cells one = cells(box, count, columns, u);
+            const CellGrid one = cells(box, count, columns, u);
             if (one.w < least.x || one.h < least.y) continue;
             if (!best || scale_in(one, sight, u) > scale_in(*best, sight, u)) best = one;
         }
@@ -174,11 +174,11 @@ void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sig
         out.panels.insert(out.panels.begin(), {{.kind = PanelKind::mechanism}, whole(box)});
         return;
     }
-    const Cells c = best_cells(box, members, sight, u);
+    const CellGrid c = best_cells(box, members, sight, u);
     std::vector<PanelSlot> slots;
     for (int i = 0; i < members; ++i) {
-        const double x = box.x + (c.w + Cells::kAcross * u) * (i % c.columns),
-                     y = box.y + (c.h + Cells::kDown * u) * std::floor(static_cast<double>(i) / c.columns);
+        const double x = box.x + (c.w + CellGrid::kAcross * u) * (i % c.columns),
+                     y = box.y + (c.h + CellGrid::kDown * u) * std::floor(static_cast<double>(i) / c.columns);
         slots.push_back({{.kind = PanelKind::mechanism, .member = i},
                          {std::round(x), std::round(y), std::max(1.0, c.w), std::max(1.0, c.h)}});
     }
@@ -187,7 +187,7 @@ void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sig
 
 // What the mechanisms leave of their box at the scale that it gives them [px].
 Vec2 spare(const Box& box, int members, const Sight& sight, double u) {
-    const Cells c = best_cells(box, members, sight, u);
+    const CellGrid c = best_cells(box, members, sight, u);
     const Vec2 used = sight.room({0, 0, c.w, c.h}, u);
     return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
 }
@@ -225,8 +225,8 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
         case Arrangement::column: {
             if (!has_column(w, h, u)) return {};
             Box left = room;
-            left.w -= kColumn * u + 40 * u;
-            const double column = kColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
+            left.w -= kPanelColumn * u + 40 * u;
+            const double column = kPanelColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
             // Beside the title, too, where height is what lacks.
             const double top = f.wide && beside ? f.margin * 0.8 : f.top;
             stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);

@@ -10,8 +10,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
 
 // Markup of the lines that plain words fill, broken where they say so or grow too wide; six at most.
@@ -45,7 +44,7 @@ std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const
 
 }  // namespace
 
-double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * kPi); }
+double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
     const double half_life = trace_half_life(at.facts.span);
@@ -86,7 +85,7 @@ void draw_angle_arc(const MechanismScene& s, double room) {
             const double from = norm(a), to = norm(b);
             if (to < far || from == to) continue;
             const Vec2 p = a + (b - a) * std::clamp((far - from) / (to - from), 0.0, 1.0);
-            const double beyond = std::remainder(std::atan2(p.y, p.x) - angle, 2 * kPi);
+            const double beyond = std::remainder(std::atan2(p.y, p.x) - angle, 2 * pi);
             free = std::min(free, std::abs(angle) + std::copysign(beyond, beyond * angle));
             return;
         }
@@ -110,7 +109,7 @@ void draw_cam_speed(const MechanismScene& s) {
     TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
     if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
     if (cam.speed != 0) {
-        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = -0.30 * kPi;
+        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = -0.30 * pi;
         const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
         const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
         s.arc(axis, radius, from, to + back);
@@ -129,11 +128,12 @@ void draw_base_line(const MechanismScene& s) {
     // True deflection is seen against the direction of a led hub, unless the horizontal is drawn there already.
     if (s.at.look.factor == 1 && !(led && std::abs(base.y) > 0.01)) return;
     const double clear = 4 * s.at.unit / s.at.look.camera.scale;
+    constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // breaks the line
     std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
     for (Vec2 p : s.beam.line) {
         const double below = -cross(base, p);  // the base line's offset from the centre line
         const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
-        line.push_back(covered ? Vec2{kNan, kNan} : s.px(base * dot(base, p)));
+        line.push_back(covered ? Vec2{kGap, kGap} : s.px(base * dot(base, p)));
     }
     s.canvas.clip(s.at.box, [&] {  // the straight line may be longer than what the camera was fitted to
         s.canvas.polyline(line);
@@ -163,7 +163,7 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     if (s.view) return draw_disc_letters(s, s.at.palette.ink);
     const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
     const auto place = [&](std::size_t i) {
-        const double at = d.angle + 2 * kPi * (static_cast<double>(i) + 0.5) / n, half = 2 * kPi * 1.7 / n;
+        const double at = d.angle + 2 * pi * (static_cast<double>(i) + 0.5) / n, half = 2 * pi * 1.7 / n;
         s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
         s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
     };
@@ -322,7 +322,7 @@ Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
     if (all.edge.empty()) return all;
     const Vec2 from = all.edge.back() - s.shape.hinge, to = all.edge.front() - s.shape.hinge;
     const double begin = std::atan2(from.y, from.x), radius = norm(from);
-    const double turn = std::remainder(std::atan2(to.y, to.x) - begin, 2 * kPi);
+    const double turn = std::remainder(std::atan2(to.y, to.x) - begin, 2 * pi);
     const int pieces = 1 + static_cast<int>(std::abs(turn) * std::sqrt(radius));  // within 1/8 px of the circle
     for (int i = 1; i < pieces; ++i) {
         const double a = begin + turn * i / pieces;
@@ -344,7 +344,7 @@ void draw_ghost_outlines(const MechanismScene& s) {
         const sim::Pose& pose = s.at.facts.pose(m, s.frame);
         const std::optional<sim::Cam>& cam = s.at.facts.motion(m).problem.cam;
         if (cam && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
-            s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * kPi);
+            s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * pi);
             s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
         }
         s.canvas.polyline(ghost_outline(s, other).edge);

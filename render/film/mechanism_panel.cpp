@@ -15,7 +15,7 @@ namespace {
 
 using sim::Pose;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kFlash = 0.4;  // an impact's ring fades within so much of the film [s]
 constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
 constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
@@ -32,7 +32,7 @@ struct MechanismPanel::Threads final : Panel::State {
         const sim::Problem& problem = facts.motion(member).problem;
         const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
         const auto places = [](double px) { return static_cast<std::size_t>(std::clamp(px, 1.0, 65536.0)); };
-        trace = Trace(facts.samples[static_cast<std::size_t>(member)], 2 * kPi * r, places(2 * kPi * r * scale), l,
+        trace = Trace(facts.samples[static_cast<std::size_t>(member)], 2 * pi * r, places(2 * pi * r * scale), l,
                       places(l * scale));
     }
     GrowingLayer path;
@@ -273,7 +273,7 @@ void MechanismPanel::label(Canvas& canvas) const {
 // Far enough for a mild perspective, and a little smaller than the flat view, so that what comes nearer stays within.
 Perspective MechanismPanel::view_of(int frame) const {
     const Orbit& orbit = at_.facts.setup->view.orbit;
-    const double turn = 2 * kPi * frame / std::max(1, at_.facts.frames());
+    const double turn = 2 * pi * frame / std::max(1, at_.facts.frames());
     return Perspective::looking(at_.box.centre(), 2.4 * std::max(at_.box.w, at_.box.h), 0.9,
                                 orbit.yaw + orbit.swing * std::sin(turn), orbit.pitch);
 }

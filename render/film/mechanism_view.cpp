@@ -6,7 +6,7 @@
 
 namespace beamcam::render {
 namespace {
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 }
 
 MechanismView::MechanismView(const FilmFacts& all, const PanelSlot& slot)
@@ -54,9 +54,9 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
 Box MechanismView::speed_box(Vec2 axis, double w, const Perspective* view) const {
     const sim::Cam& cam = *problem().cam;
     const double radius = (cam.radius + cam.eccentricity) * look.camera.scale + 20 * unit;
-    Vec2 at = seen(axis + down(-0.26 * kPi) * (radius + 16 * unit), view) + Vec2{8 * unit, 12 * unit};
+    Vec2 at = seen(axis + down(-0.26 * pi) * (radius + 16 * unit), view) + Vec2{8 * unit, 12 * unit};
     if (at.x + w > box.right())
-        at = {box.right() - w, seen(axis + down(-0.5 * kPi) * (radius + 26 * unit), view).y + 8 * unit};
+        at = {box.right() - w, seen(axis + down(-0.5 * pi) * (radius + 26 * unit), view).y + 8 * unit};
     at.y = std::min(at.y, box.bottom() - 34 * unit);
     return {at.x, at.y - 22 * unit, w, 22 * unit};
 }

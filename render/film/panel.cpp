@@ -17,7 +17,6 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Contact is an impulse, and nothing is pressed after it: the force is zero but for instants.
 bool has_force(const Motion& motion) {

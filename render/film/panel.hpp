@@ -5,6 +5,7 @@
 // context, a layer that grows) is its State, which may save time but never changes a pixel.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -52,6 +53,8 @@ struct FilmFacts {
     void check() const;
     void choose_scales();
 };
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // no value
 
 // The time after which a trace coloured by its age is half as strong [s].
 inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }

@@ -16,7 +16,6 @@ namespace {
 
 using sim::Channel;
 using sim::ChannelKind;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Name {
     const char *words, *symbol;  // markup is made by `math`, subscripts apart

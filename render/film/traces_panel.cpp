@@ -10,13 +10,13 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t kSpokes = 720, kPlaces = 400;
 
 struct Spokes final : Panel::State {
     Spokes(const FilmFacts& facts, int member)
         : trace(facts.samples[static_cast<std::size_t>(member)],
-                2 * kPi * (facts.motion(member).problem.cam ? facts.motion(member).problem.cam->radius : 1), kSpokes,
+                2 * pi * (facts.motion(member).problem.cam ? facts.motion(member).problem.cam->radius : 1), kSpokes,
                 facts.motion(member).problem.beam.length, kPlaces) {}
     Trace trace;
 };
@@ -58,9 +58,9 @@ class TracesPanel final : public Panel {
         Trace& trace = static_cast<Spokes*>(state)->trace;
         trace.show_until(pose.t);
         const auto share = [&](float force) { return std::sqrt(std::min(1.0, double(force) / facts_.force_scale)); };
-        const double width = std::max(1.2, 2 * kPi * radius_ / kSpokes * 1.3);
+        const double width = std::max(1.2, 2 * pi * radius_ / kSpokes * 1.3);
         stroke_places(canvas, facts_, trace.rim(), width, [&](std::size_t i) {
-            const Vec2 way = down(2 * kPi * (static_cast<double>(i) + 0.5) / kSpokes);
+            const Vec2 way = down(2 * pi * (static_cast<double>(i) + 0.5) / kSpokes);
             canvas.move_to(centre_ + way * radius_);
             canvas.line_to(centre_ + way * (radius_ * (1 + 0.06 + 0.32 * share(trace.rim()[i]))));
         });

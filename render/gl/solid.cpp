@@ -8,7 +8,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kRound = 160;  // sides of a disc; at a radius of 300 px the corners are 0.06 px off
 
 Vec3 operator*(Vec3 a, double k) { return {a.x * k, a.y * k, a.z * k}; }
@@ -41,7 +41,7 @@ class Mesh {
               double bore = 0, const std::vector<Color>& rim = {}, double mark = 0) {
         const double inner = radius - chamfer;
         for (int i = 0; i < kRound; ++i) {
-            const double a = 2 * kPi * i / kRound, b = 2 * kPi * (i + 1) / kRound;
+            const double a = 2 * pi * i / kRound, b = 2 * pi * (i + 1) / kRound;
             const Vec2 u{std::cos(a), std::sin(a)}, v{std::cos(b), std::sin(b)};
             const auto at = [&](Vec2 way, double r, double z) {
                 return Vec3{middle.x + way.x * r, middle.y + way.y * r, z};
@@ -49,7 +49,7 @@ class Mesh {
             const auto out = [](Vec2 way, double z) { return normalized({way.x, way.y, z}); };
             Color side = color;
             if (!rim.empty()) {
-                const double turns = ((a + b) / 2 - mark) / (2 * kPi);
+                const double turns = ((a + b) / 2 - mark) / (2 * pi);
                 const auto place =
                     static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(rim.size()));
                 const Color& touched = rim[std::min(place, rim.size() - 1)];

@@ -11,7 +11,7 @@ namespace beamcam::render::figure {
 namespace {
 
 constexpr int kFewMarkers = 8;         // along a line
-constexpr double kColumn = 4;          // grains: a pixel, in which swings are not told apart
+constexpr double kGrainsPerPixel = 4;  // grains: a pixel, in which swings are not told apart
 constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
 
 std::vector<double> dashes(const std::vector<double>& widths, double width) {
@@ -105,7 +105,7 @@ DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : se
 // A million points draw and weigh as little as a few thousand.
 void DrawnCurve::lighten(double grain) {
     const Vec2 broken{std::nan(""), std::nan("")};
-    const std::vector<Swing> fast = swings(points_, kColumn * grain);
+    const std::vector<Swing> fast = swings(points_, kGrainsPerPixel * grain);
     const std::size_t count = points_.size();
     if (!value_.empty()) {
         if (!fast.empty()) thin_out_tones(without(fast, count, true));

@@ -87,14 +87,14 @@ std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
 }
 
 // One column of a curve that may be broken.
-struct Column {
+struct PixelColumn {
     double place = 0;  // in columns
     std::size_t first = 0, last = 0, least = 0, most = 0;
     double way = 0;  // up and down, breaks left out
 };
 
-Column column_at(std::span<const Vec2> p, std::size_t first, double width) {
-    Column c{std::floor(p[first].x / width), first, first, first, first};
+PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) {
+    PixelColumn c{std::floor(p[first].x / width), first, first, first, first};
     for (std::size_t i = first + 1; i < p.size(); ++i) {
         if (broken(p[i])) continue;
         if (std::floor(p[i].x / width) != c.place) break;
@@ -124,7 +124,7 @@ std::vector<Swing> swings(std::span<const Vec2> points, double column) {
             ++i;
             continue;
         }
-        const Column c = column_at(points, i, column);
+        const PixelColumn c = column_at(points, i, column);
         i = c.last + 1;
         if (!now.least.empty() && c.place != before + 1) close();
         if (c.way > kTurns * (points[c.most].y - points[c.least].y)) {

@@ -12,7 +12,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr int kWidth = 1800, kColumns = 3;
+constexpr int kWidth = 1800, kPlatesAcross = 3;
 constexpr double kMargin = 48, kHead = 118, kField = 400, kGap = 34;  // [px]
 constexpr double kTitle = 60, kFoot = 62;                             // of a field: above and below its cells
 
@@ -51,11 +51,11 @@ const char* meaning(sim::Outcome outcome) {
 constexpr sim::Outcome kOutcomes[] = {sim::Outcome::closed, sim::Outcome::open, sim::Outcome::refused,
                                       sim::Outcome::stopped, sim::Outcome::failed};
 
-using Cells = std::map<std::pair<std::size_t, std::size_t>, std::vector<sim::Outcome>>;
+using OutcomesByCell = std::map<std::pair<std::size_t, std::size_t>, std::vector<sim::Outcome>>;
 
 class Field {
   public:
-    Field(Canvas& canvas, const sim::Plate& plate, const Cells& cells, const Box& box)
+    Field(Canvas& canvas, const sim::Plate& plate, const OutcomesByCell& cells, const Box& box)
         : canvas_(canvas), plate_(plate), cells_(cells), box_(box) {
         for (const std::string& row : plate.rows) labels_ = std::max(labels_, canvas.measure(escape(row), small_).w);
         labels_ = std::min(labels_, 0.32 * box.w);
@@ -121,7 +121,7 @@ class Field {
 
     Canvas& canvas_;
     const sim::Plate& plate_;
-    const Cells& cells_;
+    const OutcomesByCell& cells_;
     Box box_, inner_;
     double labels_ = 0;
     Color ink_ = rgb(0x1c2530);
@@ -150,12 +150,12 @@ void legend(Canvas& canvas, const std::vector<sim::StressResult>& results) {
 }  // namespace
 
 Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    std::vector<Cells> cells(campaign.plates.size());
+    std::vector<OutcomesByCell> cells(campaign.plates.size());
     for (std::size_t i = 0; i < campaign.cases.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
         cells[one.plate][{one.row, one.column}].push_back(results[i].outcome);
     }
-    const std::size_t lines = (campaign.plates.size() + kColumns - 1) / kColumns;
+    const std::size_t lines = (campaign.plates.size() + kPlatesAcross - 1) / kPlatesAcross;
     const double line = kTitle + kField + kFoot + kGap;
     Image image(kWidth, static_cast<int>(kHead + static_cast<double>(lines) * line + kMargin / 2));
     const Fonts fonts;
@@ -164,11 +164,11 @@ Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressR
     canvas.text({kMargin, 48}, fmt::format("Survival at the extremes: {} cases", campaign.cases.size()),
                 {.size = 28, .color = rgb(0x1c2530), .weight = Weight::semibold});
     legend(canvas, results);
-    const double width = (kWidth - 2 * kMargin - (kColumns - 1) * kGap * 1.4) / kColumns;
+    const double width = (kWidth - 2 * kMargin - (kPlatesAcross - 1) * kGap * 1.4) / kPlatesAcross;
     for (std::size_t i = 0; i < campaign.plates.size(); ++i) {
         // The last plate takes what is left of its line.
         const bool last = i + 1 == campaign.plates.size();
-        const std::size_t column = i % kColumns, row = i / kColumns;
+        const std::size_t column = i % kPlatesAcross, row = i / kPlatesAcross;
         const double x = kMargin + static_cast<double>(column) * (width + 1.4 * kGap);
         const Box box{x, kHead + static_cast<double>(row) * line + 10, last ? kWidth - kMargin - x : width,
                       kTitle + kField + kFoot};
