@@ -10,12 +10,12 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // βL of the i-th clamped–free mode, i = 1, 2, …: cos b + 1/cosh b = 0 (S1).
 double clamped_eigenvalue(int i) {
     const auto f = [](double b) { return std::cos(b) + 1 / std::cosh(b); };
-    return find_root(f, (i - 1) * kPi + (i == 1 ? 1.0 : 0.2), i * kPi - 0.2);
+    return find_root(f, (i - 1) * pi + (i == 1 ? 1.0 : 0.2), i * pi - 0.2);
 }
 
 // Rows: moment and shear at the tip, displacement and moment at the root, of the four terms

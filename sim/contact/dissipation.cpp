@@ -33,11 +33,11 @@ double zhang_sharf_factor(double c) {
     return f(top) < 0 ? find_root(f, 0.0, top) : top;
 }
 
-struct Row {
+struct LawRow {
     Named<DampingLaw> law;
     double (*factor)(double c);
 };
-constexpr Row kLaws[] = {
+constexpr LawRow kLaws[] = {
     {{DampingLaw::none, "none"}, [](double) { return 0.0; }},
     {{DampingLaw::hunt_crossley, "hunt-crossley"}, [](double c) { return 1.5 * (1 - c); }},
     {{DampingLaw::lankarani_nikravesh, "lankarani-nikravesh"}, [](double c) { return 0.75 * (1 - c * c); }},
@@ -55,7 +55,7 @@ constexpr Row kLaws[] = {
 std::span<const Named<DampingLaw>> names(DampingLaw) {
     static constexpr auto kNames = [] {
         std::array<Named<DampingLaw>, std::size(kLaws)> all{};
-        std::ranges::transform(kLaws, all.begin(), &Row::law);
+        std::ranges::transform(kLaws, all.begin(), &LawRow::law);
         return all;
     }();
     return kNames;
@@ -63,7 +63,7 @@ std::span<const Named<DampingLaw>> names(DampingLaw) {
 
 double damping_factor(DampingLaw law, double c) {
     BEAMCAM_ASSERT(c >= 0 && c <= 1);
-    return std::ranges::find(kLaws, law, [](const Row& row) { return row.law.value; })->factor(c);
+    return std::ranges::find(kLaws, law, [](const LawRow& row) { return row.law.value; })->factor(c);
 }
 
 double effective_restitution(double d) {

@@ -11,12 +11,12 @@ namespace beamcam::sim {
 namespace {
 
 // One straight piece of the impact: dP_t = slope dP_n, until `length` of P_n.
-struct Piece {
+struct ImpulsePiece {
     double slope, length;
 };
 
 // Sliding until the slip stops, then sticking, or sliding on the other way when friction cannot hold (S43).
-std::array<Piece, 2> course(const Compliance& c, double v_t, double mu) {
+std::array<ImpulsePiece, 2> course(const Compliance& c, double v_t, double mu) {
     constexpr double kForever = std::numeric_limits<double>::infinity();
     const double hold = -c.nt / c.tt;  // slope that keeps v_t = 0
     const double way = c.nt > 0 ? 1 : -1;
@@ -36,14 +36,14 @@ ImpactResult resolve_impact(const Compliance& c, double v_n, double v_t, double 
     BEAMCAM_ASSERT(restitution >= 0 && restitution <= 1);
     ImpactResult r{0, 0, v_n, v_t};
     if (!(v_n < 0)) return r;
-    const std::array<Piece, 2> pieces = course(c, v_t, friction);
+    const std::array<ImpulsePiece, 2> pieces = course(c, v_t, friction);
 
     // Walk along the pieces; v_n is linear in P_n on each. Compression ends where it passes zero.
     double compression_work = 0, restitution_work = 0;  // ∫v_n dP_n, < 0 and > 0
     double target_impulse = std::numeric_limits<double>::infinity();
     bool compressing = true;
     for (std::size_t k = 0; k < pieces.size();) {
-        const Piece& piece = pieces[k];
+        const ImpulsePiece& piece = pieces[k];
         const double rate = c.nn + c.nt * piece.slope;  // dv_n/dP_n; may be < 0 while it jams
         double step = k == 0 ? piece.length - r.impulse_n : std::numeric_limits<double>::infinity();
         if (k == 0 && piece.length == std::numeric_limits<double>::infinity()) step = piece.length;

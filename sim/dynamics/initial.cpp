@@ -114,7 +114,7 @@ bool hold(System& system, double angle, Eigen::VectorXd& xi) {
     return found;
 }
 
-constexpr double kRounding = 1e-10;  // of a gap, relative to the beam's length, that Newton's method leaves
+constexpr double kNewtonGap = 1e-10;  // of a gap, relative to the beam's length, that Newton's method leaves
 
 // A motion along which the beam lies on the cam, seen at one instant.
 struct Ride {
@@ -160,7 +160,7 @@ bool rest(System& system, double t, Ride& ride) {
     ride.xi = x.head(n);
     if (!found || rigid_contact) return found && x[n] >= 0;
     std::copy_n(x.data(), n, y.begin());
-    return system.contact(t, y.data(), true).gap <= kRounding * problem.beam.length;
+    return system.contact(t, y.data(), true).gap <= kNewtonGap * problem.beam.length;
 }
 
 // The beam lying on the cam at its start, moving with the cam if it turns. The equilibria at neighbouring angles

@@ -19,17 +19,17 @@ namespace {
 // k[0] is f(t0), k[11] the twelfth stage, k[12] = f(t1), k[13…15] the extra stages.
 constexpr int kStages = 12, kAll = 16;
 
-struct Entry {
+struct TableauEntry {
     int stage;
     double a;
 };
-struct Row {
+struct TableauRow {
     double c;
     int count;
-    std::array<Entry, 10> entries;
+    std::array<TableauEntry, 10> entries;
 };
 
-constexpr std::array<Row, kAll> kRows{{
+constexpr std::array<TableauRow, kAll> kRows{{
     {0, 0, {}},
     {0.526001519587677318785587544488e-01, 1, {{{0, 5.26001519587677318785587544488e-2}}}},
     {0.789002279381515978178381316732e-01,
@@ -168,8 +168,8 @@ constexpr double kD[4][12] = {
 constexpr std::size_t kDenseRows = 7;
 
 // The continuous extension at the share s of the step: y out of its start and seven rows, each of n numbers.
-template <class Row>
-void extend(double s, std::size_t n, const double* start, const Row* rows, double* y) {
+template <class TableauRow>
+void extend(double s, std::size_t n, const double* start, const TableauRow* rows, double* y) {
     const double r = 1 - s;
     for (std::size_t i = 0; i < n; ++i) {
         double v = rows[6][i] * s;
@@ -252,7 +252,6 @@ class Rk8 final : public Integrator, private Segment {
         return *this;
     }
 
-
     void value(double t, double* y) const override {
         if (t == t1) {
             std::copy(end_.begin(), end_.end(), y);
@@ -308,10 +307,10 @@ class Rk8 final : public Integrator, private Segment {
     }
 
     void stage(int index, double h) {
-        const Row& row = kRows[static_cast<std::size_t>(index)];
+        const TableauRow& row = kRows[static_cast<std::size_t>(index)];
         work_ = y_;
         for (int e = 0; e < row.count; ++e) {
-            const Entry& entry = row.entries[static_cast<std::size_t>(e)];
+            const TableauEntry& entry = row.entries[static_cast<std::size_t>(e)];
             const double a = h * entry.a;
             const double* k = k_[static_cast<std::size_t>(entry.stage)].data();
             for (std::size_t i = 0; i < n_; ++i) work_[i] += a * k[i];

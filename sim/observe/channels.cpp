@@ -7,40 +7,40 @@
 namespace beamcam::sim {
 namespace {
 
-struct Entry {
+struct ChannelRow {
     ChannelKind kind;
     const char* name;
     const char* unit;
 };
 constexpr std::array kEntries{
-    Entry{ChannelKind::t, "t", "s"},
-    Entry{ChannelKind::theta, "theta", "rad"},
-    Entry{ChannelKind::theta_dot, "theta_dot", "rad/s"},
-    Entry{ChannelKind::tip_deflection, "tip_deflection", "m"},
-    Entry{ChannelKind::tip_rate, "tip_rate", "m/s"},
-    Entry{ChannelKind::contact_force, "contact_force", "N"},
-    Entry{ChannelKind::friction_force, "friction_force", "N"},
-    Entry{ChannelKind::gap, "gap", "m"},
-    Entry{ChannelKind::contact_x, "contact_x", "m"},
-    Entry{ChannelKind::contact_s, "contact_s", "m"},
-    Entry{ChannelKind::cam_angle, "cam_angle", "rad"},
-    Entry{ChannelKind::q, "q", "m"},
-    Entry{ChannelKind::energy_kinetic, "energy_kinetic", "J"},
-    Entry{ChannelKind::energy_potential, "energy_potential", "J"},
-    Entry{ChannelKind::energy_elastic, "energy_elastic", "J"},
-    Entry{ChannelKind::energy_contact, "energy_contact", "J"},
-    Entry{ChannelKind::loss_structural, "loss_structural", "J"},
-    Entry{ChannelKind::loss_contact, "loss_contact", "J"},
-    Entry{ChannelKind::loss_friction, "loss_friction", "J"},
-    Entry{ChannelKind::work_cam, "work_cam", "J"},
-    Entry{ChannelKind::work_drive, "work_drive", "J"},
-    Entry{ChannelKind::energy_residual, "energy_residual", "J"},
-    Entry{ChannelKind::separation, "separation", "m/s^2"},
-    Entry{ChannelKind::separation_paper, "separation_paper", "m/s^2"},
+    ChannelRow{ChannelKind::t, "t", "s"},
+    ChannelRow{ChannelKind::theta, "theta", "rad"},
+    ChannelRow{ChannelKind::theta_dot, "theta_dot", "rad/s"},
+    ChannelRow{ChannelKind::tip_deflection, "tip_deflection", "m"},
+    ChannelRow{ChannelKind::tip_rate, "tip_rate", "m/s"},
+    ChannelRow{ChannelKind::contact_force, "contact_force", "N"},
+    ChannelRow{ChannelKind::friction_force, "friction_force", "N"},
+    ChannelRow{ChannelKind::gap, "gap", "m"},
+    ChannelRow{ChannelKind::contact_x, "contact_x", "m"},
+    ChannelRow{ChannelKind::contact_s, "contact_s", "m"},
+    ChannelRow{ChannelKind::cam_angle, "cam_angle", "rad"},
+    ChannelRow{ChannelKind::q, "q", "m"},
+    ChannelRow{ChannelKind::energy_kinetic, "energy_kinetic", "J"},
+    ChannelRow{ChannelKind::energy_potential, "energy_potential", "J"},
+    ChannelRow{ChannelKind::energy_elastic, "energy_elastic", "J"},
+    ChannelRow{ChannelKind::energy_contact, "energy_contact", "J"},
+    ChannelRow{ChannelKind::loss_structural, "loss_structural", "J"},
+    ChannelRow{ChannelKind::loss_contact, "loss_contact", "J"},
+    ChannelRow{ChannelKind::loss_friction, "loss_friction", "J"},
+    ChannelRow{ChannelKind::work_cam, "work_cam", "J"},
+    ChannelRow{ChannelKind::work_drive, "work_drive", "J"},
+    ChannelRow{ChannelKind::energy_residual, "energy_residual", "J"},
+    ChannelRow{ChannelKind::separation, "separation", "m/s^2"},
+    ChannelRow{ChannelKind::separation_paper, "separation_paper", "m/s^2"},
 };
 
-const Entry& entry(ChannelKind kind) {
-    for (const Entry& e : kEntries)
+const ChannelRow& entry(ChannelKind kind) {
+    for (const ChannelRow& e : kEntries)
         if (e.kind == kind) return e;
     return kEntries.front();
 }
@@ -59,7 +59,7 @@ const char* unit(Channel channel, const Problem& problem) {
 }
 
 std::optional<Channel> channel_named(std::string_view text) {
-    for (const Entry& e : kEntries)
+    for (const ChannelRow& e : kEntries)
         if (e.kind != ChannelKind::q && text == e.name) return Channel{e.kind, 0};
     if (text.size() > 1 && text.front() == 'q' && text[1] != '0') {
         int index = 0;
@@ -73,7 +73,7 @@ std::optional<Channel> channel_named(std::string_view text) {
 std::vector<Channel> all_channels(const Problem& problem) {
     const int modes = problem.beam.model == ModelKind::rigid ? 0 : problem.beam.modes;
     std::vector<Channel> channels;
-    for (const Entry& e : kEntries) {
+    for (const ChannelRow& e : kEntries) {
         if (e.kind != ChannelKind::q) channels.push_back({e.kind, 0});
         for (int i = 1; e.kind == ChannelKind::q && i <= modes; ++i) channels.push_back({e.kind, i});
     }

@@ -14,10 +14,10 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxPieces = 24;       // looks at most, at a step that resolves the vibration
-constexpr double kMostPieces = 1e5;  // and at one that spans many periods
+constexpr int kMaxLooks = 24;       // looks at most, at a step that resolves the vibration
+constexpr double kMostLooks = 1e5;  // and at one that spans many periods
 // At such a step, for extremes: a faster vibration is met at all its phases, if not in every period.
-constexpr int kExtremePieces = 100;
+constexpr int kExtremeLooks = 100;
 constexpr std::size_t kMostPeaks = 4;
 constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
 constexpr double kNoHigher = 1e-9;  // … by this share
@@ -333,7 +333,7 @@ void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
 int Recorder::pieces(const Stretch& s) {
     // Steps of high order span a good part of the fastest period: look a few times a radian.
     const double radians = (s.to - s.from) * eye_.system().highest_frequency();
-    const double most = s.segment->bounds() ? kMostPieces : kMaxPieces;
+    const double most = s.segment->bounds() ? kMostLooks : kMaxLooks;
     return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, most));
 }
 
@@ -485,7 +485,7 @@ int Recorder::quiet_pieces(const Turn& hub, const Stretch& s, double piece) {
     const double rate = 0.5 * std::fabs(hub.frame_rate) - b->ripple_rate, angle = std::fabs(hub.frame) - b->ripple;
     if (!(rate > 0 && angle > 0)) return 0;
     const double quiet = std::min(rate / b->spin_acceleration, angle / b->spin) / piece;
-    return static_cast<int>(std::min(quiet, kMostPieces));
+    return static_cast<int>(std::min(quiet, kMostLooks));
 }
 
 Recorder::Turn Recorder::turn(const Stretch& s, double t) {
@@ -563,7 +563,7 @@ void Recorder::contact_peaks(const Stretch& s) {
 
 void Recorder::extrema(const Stretch& s) {
     if (request_.extrema.empty()) return;
-    const int count = std::min(pieces(s), kExtremePieces);
+    const int count = std::min(pieces(s), kExtremeLooks);
     bool complete = count == pieces(s);
     const std::size_t channels = request_.extrema.size();
     std::vector<std::vector<double>> values(channels, std::vector<double>(static_cast<std::size_t>(count) + 1));

@@ -141,7 +141,7 @@ ContactState contact_of(Numbers& n) {
     return c;
 }
 
-struct Piece {
+struct StoredRecord {
     Record kind;
     Numbers numbers;
 };
@@ -153,7 +153,7 @@ class Feed {
     bool over() const { return left() == 0; }
 
     // The numbers of a record last until the next.
-    Piece next() {
+    StoredRecord next() {
         if (left() < 2) throw std::invalid_argument("the trajectory ends within a record");
         const std::span<const double> head = first(2);
         const double kind = head[0], length = head[1];
@@ -161,7 +161,7 @@ class Feed {
             !(length >= 2 && length <= static_cast<double>(left())))
             throw std::invalid_argument("a record of the trajectory is damaged");
         const auto count = static_cast<std::size_t>(length);
-        const Piece piece{static_cast<Record>(static_cast<int>(kind)), Numbers(first(count).subspan(2))};
+        const StoredRecord piece{static_cast<Record>(static_cast<int>(kind)), Numbers(first(count).subspan(2))};
         used_ += count;
         return piece;
     }
@@ -282,13 +282,13 @@ Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSourc
     const std::size_t size = static_cast<std::size_t>(System(problem).size);
     constexpr std::size_t kPhase = 5;
     Feed head(*numbers_);
-    Piece begin = head.next();
+    StoredRecord begin = head.next();
     const std::size_t begins = kPhase + size;
     if (begin.kind != kBegin || begin.numbers.rest().size() != begins)
         throw std::invalid_argument("this is no trajectory of this problem");
     if (numbers_->size() < 2 + begins + kLast) throw std::invalid_argument("the trajectory has no end");
     Feed tail(*numbers_, numbers_->size() - kLast);
-    Piece end = tail.next();
+    StoredRecord end = tail.next();
     if (end.kind != kEnd) throw std::invalid_argument("the trajectory has no end");
     end_ = end.numbers.next();
 }

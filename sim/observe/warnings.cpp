@@ -7,9 +7,9 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kRounding = 1e-12;    // of the energy scale
-constexpr double kToldGap = 1e-10;     // of the length, left at an event: a thousand times what rounding leaves
-constexpr double kLargestSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+constexpr double kEnergyRounding = 1e-12;     // of the energy scale
+constexpr double kToldGap = 1e-10;            // of the length, left at an event: a thousand times what rounding leaves
+constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
     if (tally.chatters == 0) return;
@@ -52,7 +52,7 @@ void tell_gains(const Problem& problem, const Result& result, std::vector<std::s
     double gained = 0;
     long count = 0;
     for (const Impact& impact : result.impacts)
-        if (impact.v_n_before < 0 && impact.energy_lost < -kRounding * result.energy_scale)
+        if (impact.v_n_before < 0 && impact.energy_lost < -kEnergyRounding * result.energy_scale)
             ++count, gained -= impact.energy_lost;
     if (count > 0)
         out.push_back(fmt::format(
@@ -112,7 +112,7 @@ void tell_fallbacks(const Problem& problem, const Result& result, const Tally& t
 bool bends_beyond(const Problem& problem, double largest_elastic) {
     const ModelKind model = problem.beam.model;
     return model != ModelKind::exact && model != ModelKind::rigid &&
-           slope_bound(problem, largest_elastic) > kLargestSlope;
+           slope_bound(problem, largest_elastic) > kForeshorteningSlope;
 }
 
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,

@@ -16,13 +16,13 @@ int SegmentProbe::pieces(const Segment& segment) const {
 // more than Lebesgue's constant of the points, <= 1 + (2/π) ln 12, times half of their range.
 SegmentProbe::Range SegmentProbe::range(const Segment& segment) {
     constexpr int kDegree = Segment::kDegree;
-    constexpr double kLebesgue = 2.6, kPi = std::numbers::pi;
+    constexpr double kLebesgue = 2.6;
     const auto n = static_cast<std::size_t>(system.coordinates());
     std::array<double, kMaxSize> low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (int k = 0; k <= kDegree; ++k) {
-        const double share = 0.5 * (1 - std::cos(kPi * k / kDegree));
+        const double share = 0.5 * (1 - std::cos(std::numbers::pi * k / kDegree));
         segment.value(k == kDegree ? segment.t1 : segment.t0 + share * (segment.t1 - segment.t0), y_.data());
         for (std::size_t i = 0; i < n; ++i) {
             low[i] = std::min(low[i], y_[i]);

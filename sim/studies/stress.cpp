@@ -12,8 +12,8 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kPatience = 120;  // [s] of a processor that one case may take; beyond, it hangs
-constexpr int kLooks = 7;          // instants at which every channel is looked at
+constexpr double kCaseLimit = 120;  // [s] of a processor that one case may take; beyond, it hangs
+constexpr int kLooks = 7;           // instants at which every channel is looked at
 
 bool passive(const Problem& p) {
     return std::holds_alternative<FreeDrive>(p.hub.drive) && (!p.cam || p.cam->speed == 0) &&
@@ -115,7 +115,7 @@ StressResult survive(const StressCase& one) {
     if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return of_contact(c.kind); });
     request.tables.push_back(table);
     request.extrema = {{ChannelKind::theta, 0}, {ChannelKind::tip_deflection, 0}};
-    const Progress watch = [start = processor_seconds()](double) { return processor_seconds() - start < kPatience; };
+    const Progress watch = [start = processor_seconds()](double) { return processor_seconds() - start < kCaseLimit; };
     try {
         for (const Finding& finding : validate(one.problem))
             if (finding.fatal) {
@@ -140,7 +140,7 @@ StressResult survive(const StressCase& one) {
         const double reached = error.partials.empty() ? 0 : error.partials.at(0).end_time;
         out.outcome = reached == error.last_time ? Outcome::stopped : Outcome::failed;
     } catch (const Interrupted&) {
-        out.words = fmt::format("still running after {:g} s", kPatience);
+        out.words = fmt::format("still running after {:g} s", kCaseLimit);
     } catch (const std::exception& error) {
         out.words = fmt::format("an exception that is no failure of the solver: {}", error.what());
     }

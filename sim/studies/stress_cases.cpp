@@ -13,8 +13,8 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kEnd = 0.06;            // [s] of a usual case: fall, strike, bounce
+using std::numbers::pi;
+constexpr double kUsualEnd = 0.06;       // [s] of a usual case: fall, strike, bounce
 constexpr double kFirstBending = 816.9;  // [rad/s] of the free default beam
 
 // The default system, the beam 0.03 rad above the cam and coming down.
@@ -57,7 +57,7 @@ class Builder {
     }
     // Adds a case; its row and column appear on the plate in the order of their first use.
     void add(const std::string& row, const std::string& column, const std::string& variant, const Problem& problem,
-             double end = kEnd) {
+             double end = kUsualEnd) {
         Plate& plate = campaign_.plates.back();
         StressCase one;
         one.plate = campaign_.plates.size() - 1;
@@ -255,7 +255,7 @@ void size_and_softness(Builder& out) {
             p.contact.stiffness.reset();  // Hertz
             p.solver.atol = 1e-11 * length;
             approach(p, 0.03, -2 / std::sqrt(length));
-            const double end = kEnd * std::sqrt(length);
+            const double end = kUsualEnd * std::sqrt(length);
             const auto add = [&](const char* variant) {
                 out.add(fmt::format("{:g}", length), power(k), variant, p, end);
             };
@@ -318,10 +318,10 @@ void starts_and_drives(Builder& out) {
              p.cam->eccentricity = 0;
              p.initial = {0.06, -2, InitialShape::straight};
          }},
-        {"upside down", [](Problem& p) { p.initial.angle = kPi + 0.5; }},
+        {"upside down", [](Problem& p) { p.initial.angle = pi + 0.5; }},
         {"upright",
          [](Problem& p) {
-             p.initial = {kPi / 2, 0, InitialShape::straight};
+             p.initial = {pi / 2, 0, InitialShape::straight};
          }},
         {"static", [](Problem& p) { p.initial.shape = InitialShape::static_equilibrium; }},
         {"resting", [](Problem& p) { p.initial.shape = InitialShape::resting; }},
@@ -334,7 +334,7 @@ void starts_and_drives(Builder& out) {
     };
     const std::vector<Law> laws{{"free", FreeDrive{}},
                                 {"torque 100 N m", ConstantTorque{-100}},
-                                {"resonant torque", HarmonicTorque{1, kFirstBending / (2 * kPi), 0}},
+                                {"resonant torque", HarmonicTorque{1, kFirstBending / (2 * pi), 0}},
                                 {"torque table", TorqueTable{{0, 0.01, 0.010001, 0.03}, {0, 5, -5, 0}}},
                                 {"speed −2", ConstantSpeed{-2}},
                                 {"spin-up", SpinUp{20, 0.05}},
@@ -385,7 +385,7 @@ void long_runs(Builder& out, bool full) {
         p.gravity = 0;
         p.initial.angular_velocity = 1;
         p.hub.drive = TorqueTable{{0, 0.005, 0.01, 0.011}, {0, 5, 0, 0}};
-        out.add("10⁵ periods of free vibration", p, full ? 1e5 * 2 * kPi / kFirstBending : 10);
+        out.add("10⁵ periods of free vibration", p, full ? 1e5 * 2 * pi / kFirstBending : 10);
     }
 }
 
@@ -405,7 +405,7 @@ void chatter_and_resonance(Builder& out) {
         p.cam->eccentricity = 1e-3;
         approach(p);
         out.add("cam at the bending frequency", p, 0.3);
-        p.hub.drive = HarmonicTorque{2, kFirstBending / (2 * kPi), 0};
+        p.hub.drive = HarmonicTorque{2, kFirstBending / (2 * pi), 0};
         p.cam.reset();
         out.add("torque at the bending frequency", p, 2);
     }
@@ -428,9 +428,9 @@ void slender_beams_and_needles(Builder& out) {
         p.cam->eccentricity = 0;
         p.cam->speed = 0;
         approach(p);
-        out.add("needle of a micrometre", p, kEnd);
+        out.add("needle of a micrometre", p, kUsualEnd);
         p.contact.stiffness = 1e12;
-        out.add("hard needle of a micrometre", p, kEnd);
+        out.add("hard needle of a micrometre", p, kUsualEnd);
         p.gravity = 0;
         p.initial.angular_velocity = -1e-9;
         p.initial.angle = lying_angle(p) + 1e-9;
@@ -442,18 +442,18 @@ void loads_and_models(Builder& out) {
     {
         Problem p = base();
         p.beam.damping_ratio = {50};
-        out.add("overdamped fifty times", p, kEnd);
+        out.add("overdamped fifty times", p, kUsualEnd);
         p.beam.damping_ratio.clear();
         p.beam.kelvin_voigt = 1;
-        out.add("Kelvin–Voigt of a second", p, kEnd);
+        out.add("Kelvin–Voigt of a second", p, kUsualEnd);
         p.beam.kelvin_voigt.reset();
         p.gravity = 1e6;
         out.add("gravity 1e6 m/s²", p, 0.01);
         p.gravity = -9.81;
-        out.add("gravity upwards", p, kEnd);
+        out.add("gravity upwards", p, kUsualEnd);
         p.gravity = 0;
         p.initial.angular_velocity = 0;
-        out.add("nothing moves", p, kEnd);
+        out.add("nothing moves", p, kUsualEnd);
     }
     for (const auto& model : names(ModelKind{})) {
         Problem p = base();
@@ -506,7 +506,7 @@ Problem mixture(Dice& dice) {
     const double nearest = p.cam->radius + p.cam->eccentricity;
     p.cam->centre = {dice.between(nearest, std::max(1.1 * nearest, 1 + p.hub.radius + nearest)),
                      dice.between(-0.1, 0.1)};
-    p.cam->phase = dice.between(-kPi, kPi);
+    p.cam->phase = dice.between(-pi, pi);
     p.cam->speed = dice.one_in(3) ? 0 : (dice.one_in(2) ? 1 : -1) * dice.decades(-2, 3);
     p.contact.model = dice.one_in(3) ? ContactModel::restitution : ContactModel::compliant;
     p.contact.law = dice.one_of(names(ImpactLaw{}));
