@@ -17,7 +17,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct AccuracyArguments {
     Common common;
     std::string scene;
     std::vector<std::string> files;
@@ -79,7 +79,7 @@ std::string report(const sim::Accuracy& a) {
 bool is_picture(const std::string& file) { return file != "-" && !file.ends_with(".json"); }
 
 // The diagram carries the scene, but no output makes it again: its times are of this machine and hour.
-std::string diagram(const sim::Accuracy& found, Scene scene, const Arguments& args, const std::string& file) {
+std::string diagram(const sim::Accuracy& found, Scene scene, const AccuracyArguments& args, const std::string& file) {
     FigureOutput how;
     how.file = file;
     how.figure = "accuracy";
@@ -89,7 +89,7 @@ std::string diagram(const sim::Accuracy& found, Scene scene, const Arguments& ar
     return figure_files(accuracy_figure(found, scene.problem, how.lang), how, to_json(scene)).front().second;
 }
 
-int act(const Arguments& args) {
+int act(const AccuracyArguments& args) {
     const Scene scene = read_or_refuse(args.scene, args.common);
     sim::AccuracyRequest request;
     request.end_time = args.until ? seconds_argument("--until", *args.until) : scene.end_time;
@@ -132,7 +132,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_accuracy(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<AccuracyArguments>();
     Command& app = grammar.command("accuracy", "Error budget of a scene, and run time against error of every method");
     add_scene(app, args->scene, args->common);
     app.option("-o,--output", &args->files, "FILE", "Also as .json, or the diagram as .png, .svg or .pdf (repeatable)");

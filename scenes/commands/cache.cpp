@@ -7,7 +7,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct CacheArguments {
     Common common;
 };
 
@@ -22,7 +22,7 @@ std::string megabytes(std::uintmax_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
 }
 
-int list(const Arguments& args) {
+int list(const CacheArguments& args) {
     const Cache cache = the_cache();
     std::uintmax_t sum = 0;
     std::string text;
@@ -38,7 +38,7 @@ int list(const Arguments& args) {
     return 0;
 }
 
-int clear(const Arguments& args) {
+int clear(const CacheArguments& args) {
     const auto [count, bytes] = the_cache().clear();
     say(args.common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
     return 0;
@@ -52,7 +52,7 @@ void add_cache(Grammar& grammar) {
         "They are kept below $BEAMCAM_CACHE_DIR, else in beamcam below $XDG_CACHE_HOME, else in ~/.cache/beamcam, up "
         "to\n"
         "$BEAMCAM_CACHE_SIZE MiB (1024); those used longest ago go first.";
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<CacheArguments>();
     Command& ls = app.subcommand("ls", "List them, the last used first: size, duration, steps, model");
     add_quiet(ls, args->common);
     ls.bind(args, list);

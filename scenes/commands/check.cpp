@@ -8,12 +8,12 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
     Common common;
     std::vector<std::string> scenes;
 };
 
-int act(const Arguments& args) {
+int act(const CheckArguments& args) {
     bool fine = true;
     for (const std::string& path : args.scenes) {
         const Reading reading = read_scene(load_source(path), args.common.overrides);
@@ -29,7 +29,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_check(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<CheckArguments>();
     Command& app = grammar.command("check", "Validate scenes: every issue at once, with its place and remedy");
     app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
     add_set(app, args->common);

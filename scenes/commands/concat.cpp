@@ -7,13 +7,13 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct ConcatArguments {
     Common common;
     std::vector<std::string> segments;
     std::string file;
 };
 
-int act(const Arguments& args) {
+int act(const ConcatArguments& args) {
     if (args.file == "-") throw UsageError("-o -: films go to files; name one that ends as the segments do");
     const std::string ending = std::filesystem::path(args.file).extension().string();
     need_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
@@ -36,7 +36,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_concat(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<ConcatArguments>();
     Command& app = grammar.command("concat", "Join segments of a film (--shard, --frames) without re-encoding");
     app.positional("SEGMENT", &args->segments, "Films, in order").required();
     app.option("-o,--output", &args->file, "FILE", "Film to make, with the segments' ending: .mp4, .mov, .webm or .mkv")

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct DiffArguments {
     Common common;
     std::string a, b;
     std::optional<std::string> picture;
@@ -33,7 +33,7 @@ bool is_table(const std::string& file) { return file.ends_with(".csv") || file.e
 // One file: of the picture that changed most. A sequence: of every picture that changed.
 class DifferencePictures {
   public:
-    DifferencePictures(const Arguments& args) : args_(args), manifest_(args.common.force) {
+    DifferencePictures(const DiffArguments& args) : args_(args), manifest_(args.common.force) {
         if (!args.picture) return;
         if (ending_of(*args.picture) != ".png")
             throw UsageError(fmt::format("-o {}: the picture of the difference is a .png file", *args.picture));
@@ -68,7 +68,7 @@ class DifferencePictures {
         say(args_.common, fmt::format("wrote {}", file));
     }
 
-    const Arguments& args_;
+    const DiffArguments& args_;
     output::Manifest manifest_;
     bool numbered_ = false;
     std::optional<Worst> worst_;
@@ -76,7 +76,7 @@ class DifferencePictures {
 
 // ---- comparing -----------------------------------------------------------------------------------
 
-Comparison compare_pictures(const Arguments& args) {
+Comparison compare_pictures(const DiffArguments& args) {
     if (args.tolerance && (*args.tolerance < 0 || *args.tolerance > 255))
         throw UsageError("--tolerance: of pictures it is a difference of colour, 0 … 255");
     const int tolerance = static_cast<int>(args.tolerance.value_or(0));
@@ -106,7 +106,7 @@ Comparison compare_pictures(const Arguments& args) {
     return all;
 }
 
-Comparison compare_tables(const Arguments& args) {
+Comparison compare_tables(const DiffArguments& args) {
     if (args.picture) throw UsageError("-o draws how pictures differ; tables are compared in numbers");
     if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
@@ -117,7 +117,7 @@ Comparison compare_tables(const Arguments& args) {
     return all;
 }
 
-int act(const Arguments& args) {
+int act(const DiffArguments& args) {
     if (is_table(args.a) != is_table(args.b))
         throw UsageError(fmt::format("{} and {} are of two kinds; compare pictures with pictures, tables with tables",
                                      args.a, args.b));
@@ -132,7 +132,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_diff(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<DiffArguments>();
     Command& app =
         grammar.command("diff", "How two pictures, sequences, films or tables differ; ends with 7 if they do");
     app.positional("A", &args->a, "PNG, directory or sequence (name-####.png), film; or .csv, .npz").required();

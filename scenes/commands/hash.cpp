@@ -2,25 +2,21 @@
 
 #include <optional>
 
-#include "output/files/interrupt.hpp"
 #include "output/files/sha256.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/outputs/run_context.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct HashArguments {
     Common common;
     std::vector<std::string> files;
     bool whole = false;
 };
-
-void stop_if_interrupted() {
-    if (output::interrupted()) throw Stopped();
-}
 
 void print_line(const std::string& digest, const std::string& name) { print_text(digest + "  " + name + "\n"); }
 
@@ -52,7 +48,7 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
     if (whole) print_line(all.hex(), file);
 }
 
-int act(const Arguments& args) {
+int act(const HashArguments& args) {
     const int threads = thread_count(args.common.threads);
     std::vector<std::filesystem::path> stills;  // named one after the other, not hashed yet
     auto hash_stills = [&] {
@@ -75,7 +71,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_hash(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<HashArguments>();
     Command& app = grammar.command("hash", "SHA-256 of the decoded pixels of pictures and films");
     app.positional("FILE", &args->files, "PNG files, directories or sequences (name-####.png) of them, films")
         .required();

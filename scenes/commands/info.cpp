@@ -8,13 +8,13 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
     Common common;
     std::vector<std::string> files;
     bool scene = false;
 };
 
-int act(const Arguments& args) {
+int act(const InfoArguments& args) {
     if (args.scene && args.files.size() != 1) throw UsageError("--scene prints one scene; name one file");
     for (const std::string& file : args.files) {
         const Provenance found = provenance_of(file);
@@ -39,7 +39,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_info(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<InfoArguments>();
     Command& app = grammar.command("info", "Where a picture, film, figure or table came from");
     app.positional("FILE", &args->files, "Files that beamcam made").required();
     app.flag("--scene", args->scene, "Print the scene out of it: `beamcam run` makes the same from that");

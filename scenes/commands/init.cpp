@@ -14,7 +14,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct InitArguments {
     Common common;
     std::string name, from = "default";
 };
@@ -33,7 +33,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
         text.replace(at, what.size(), by);
 }
 
-int act(const Arguments& args) {
+int act(const InitArguments& args) {
     const EmbeddedScene& example = example_named(args.from);
     const std::string own = std::filesystem::path(example.name).filename().string();
     const std::string name = !args.name.empty() ? args.name : args.from == "default" ? "scene" : own;
@@ -79,7 +79,7 @@ int print_schema(const SchemaArguments& args) {
 }  // namespace
 
 void add_init(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<InitArguments>();
     Command& app = grammar.command("init", "Write a commented scene to start from");
     app.positional("NAME", &args->name, "Its name (default: scene, or that of the example); - is standard output");
     app.option("--from", &args->from, "EXAMPLE", "Copy this shipped scene; `beamcam examples` lists them");

@@ -11,7 +11,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct KeysArguments {
     std::string pattern;
     bool json = false, markdown = false;
 };
@@ -79,7 +79,7 @@ std::string text_of(const std::vector<KeyRow>& rows) {
     return text;
 }
 
-int act(const Arguments& args) {
+int act(const KeysArguments& args) {
     if (args.markdown) {
         print_data(reference_text());
         return 0;
@@ -103,7 +103,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_keys(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<KeysArguments>();
     Command& app = grammar.command("keys", "Explain the keys of scenes: type, unit, range, default, meaning");
     app.positional("PATTERN", &args->pattern, "Only keys with this in their path or meaning; * stands for anything");
     app.flag("--json", args->json, "As JSON");

@@ -12,13 +12,13 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct ModesArguments {
     Common common;
     std::string scene;
     std::optional<std::string> speed;
 };
 
-int act(const Arguments& args) {
+int act(const ModesArguments& args) {
     const Scene scene = read_or_refuse(args.scene, args.common);
     std::optional<double> speed;
     if (args.speed) {
@@ -53,7 +53,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_modes(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<ModesArguments>();
     Command& app = grammar.command("modes", "Natural frequencies of beam and hub, at rest or turning");
     add_scene(app, args->scene, args->common);
     app.option(

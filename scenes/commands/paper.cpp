@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct PaperArguments {
     Common common;
     std::string directory, column, lang = "en";
     double dpi = 300;
@@ -36,14 +36,14 @@ struct Job {
     FigureMaker make;
 };
 
-constexpr const char* kEndings[] = {".png", ".svg", ".pdf"};
+constexpr const char* kPictureEndings[] = {".png", ".svg", ".pdf"};
 
 std::string with_ending(const std::string& file, const char* ending) {
     return fs::path(file).replace_extension(ending).string();
 }
 
 // Every figure of the scenes that come with the program; one set of studies for all of them.
-std::vector<Job> jobs_of(const Arguments& args, Studies& studies) {
+std::vector<Job> jobs_of(const PaperArguments& args, Studies& studies) {
     std::vector<Job> jobs;
     for (const EmbeddedScene& embedded : embedded_scenes()) {
         if (!embedded.is_of_paper()) continue;
@@ -67,18 +67,18 @@ std::vector<Job> jobs_of(const Arguments& args, Studies& studies) {
     return jobs;
 }
 
-std::vector<std::string> files_of(const Arguments& args, const std::vector<Job>& jobs) {
+std::vector<std::string> files_of(const PaperArguments& args, const std::vector<Job>& jobs) {
     std::vector<std::string> files{"findings.md", "captions.md"};
     for (const Job& job : jobs) {
-        for (const char* ending : kEndings) files.push_back(with_ending(job.how.file, ending));
+        for (const char* ending : kPictureEndings) files.push_back(with_ending(job.how.file, ending));
         if (args.data) files.push_back(with_ending(job.how.file, ".csv"));
     }
     return files;
 }
 
-class Writer {
+class PaperWriter {
   public:
-    Writer(const Arguments& args) : args_(args), manifest_(args.common.force) {}
+    PaperWriter(const PaperArguments& args) : args_(args), manifest_(args.common.force) {}
 
     // Refuses before any work what would be refused after it.
     void prepare(const std::vector<std::string>& files) {
@@ -105,12 +105,12 @@ class Writer {
     }
 
   private:
-    const Arguments& args_;
+    const PaperArguments& args_;
     output::Manifest manifest_;
     int count_ = 0;
 };
 
-int act(const Arguments& args) {
+int act(const PaperArguments& args) {
     const RunOptions options = run_options(args.common, args.directory);
     Studies studies;
     const std::vector<Job> jobs = jobs_of(args, studies);
@@ -126,7 +126,7 @@ int act(const Arguments& args) {
         print_text(text);
         return 0;
     }
-    Writer writer(args);
+    PaperWriter writer(args);
     writer.prepare(files_of(args, jobs));
     Progress progress(resolve(options.progress));
     const std::optional<Cache> cache = open_cache(options.no_cache);
@@ -142,7 +142,7 @@ int act(const Arguments& args) {
     std::string captions;
     for (const Job& job : jobs) {
         const render::figure::Figure figure = job.make(results);
-        for (const char* ending : kEndings) {
+        for (const char* ending : kPictureEndings) {
             FigureOutput how = job.how;
             how.file = with_ending(job.how.file, ending);
             for (const auto& [file, bytes] : figure_files(figure, how, scene_of_figure(job.scene, how)))
@@ -161,7 +161,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_paper(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<PaperArguments>();
     Command& app = grammar.command(
         "paper", "Make every figure of the paper as .png, .svg and .pdf, their captions, and the table of findings");
     app.option("-o,--output", &args->directory, "DIR", "Directory of the files").required();

@@ -3,13 +3,13 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct PlanArguments {
     Common common;
     std::vector<std::string> scenes;
     std::string directory = ".";
 };
 
-int act(const Arguments& args) {
+int act(const PlanArguments& args) {
     std::vector<Scene> scenes;
     for (const std::string& path : args.scenes)
         scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
@@ -20,7 +20,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_plan(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<PlanArguments>();
     Command& app = grammar.command("plan", "Tell what `run` would do, and what it would skip and why");
     app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
     add_set(app, args->common);

@@ -17,7 +17,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
     Common common;
     std::string scene, file;
     std::vector<std::string> others;
@@ -63,7 +63,7 @@ void apply_speed(const std::string& text, Speed& speed) {
 }
 
 // The file's ending decides the codec unless --codec does; the scene's own is kept for its own kind of file.
-void apply_format(const Arguments& args, VideoOutput& film) {
+void apply_format(const RenderArguments& args, VideoOutput& film) {
     const std::string ending = ending_of(args.file);
     const auto usual = output::default_codec(ending);
     if (!usual) return;
@@ -90,7 +90,7 @@ void apply_format(const Arguments& args, VideoOutput& film) {
 }
 
 // The scenes of the command line beside each other; the first one's outputs tell how.
-void compare_scenes(const Arguments& args, Scene& scene, Picture& picture) {
+void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture) {
     const auto entry = [](const Scene& one) { return Compared{one.title.empty() ? one.name : one.title, one.problem}; };
     if (args.comparison)
         picture.comparison = *args.comparison == "ghosts" ? render::Comparison::ghosts : render::Comparison::panels;
@@ -116,7 +116,7 @@ void compare_scenes(const Arguments& args, Scene& scene, Picture& picture) {
     scene.title = fmt::format("{} motions compared", kCounts[args.others.size() - 1]);
 }
 
-void apply_render_options(const Arguments& args, VideoOutput& film) {
+void apply_render_options(const RenderArguments& args, VideoOutput& film) {
     if (args.size) {
         const auto size = parse_size(*args.size);
         if (!size)
@@ -153,7 +153,7 @@ Instant instant_argument(const char* option, const std::string& text) {
     return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
 }
 
-Output render_output(const Arguments& args, VideoOutput film) {
+Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
     need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png"});
@@ -202,7 +202,7 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
     return {from, to};
 }
 
-Ask asked_part(const Arguments& args, const Scene& scene) {
+Ask asked_part(const RenderArguments& args, const Scene& scene) {
     Ask ask;
     if (!args.frames && !args.shard) return ask;
     if (args.at) throw UsageError("--at makes one picture; --frames and --shard belong to films");
@@ -226,7 +226,7 @@ void require_poster_inside(const FrameSpan& span, double end_time) {
                                      span.from, to));
 }
 
-int act(const Arguments& args) {
+int act(const RenderArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     VideoOutput film = film_to_imitate(scene);
     apply_render_options(args, film);
@@ -246,7 +246,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_render(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<RenderArguments>();
     Command& app = grammar.command("render",
                                    "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
                                    "(name-####.png) or still (--at, .png)");

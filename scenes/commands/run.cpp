@@ -12,14 +12,14 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct RunArguments {
     Common common;
     std::vector<std::string> scenes;
     std::string directory = ".";
     std::optional<std::string> shard;
 };
 
-int act(const Arguments& args) {
+int act(const RunArguments& args) {
     // A scene that cannot be read costs its own outputs alone.
     std::vector<Scene> scenes;
     int code = kDone;
@@ -44,7 +44,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_run(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<RunArguments>();
     Command& app = grammar.command(
         "run", "Make every output that the scenes list; a scene that lists none: a film named after it");
     app.positional("SCENE", &args->scenes,

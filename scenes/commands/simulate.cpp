@@ -13,7 +13,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
     Common common;
     std::string scene;
     std::optional<std::string> trajectory, impacts, summary, rate;
@@ -21,7 +21,7 @@ struct Arguments {
     bool horizon = false;
 };
 
-TrajectoryOutput trajectory_output(const Arguments& args, const Scene& scene) {
+TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     TrajectoryOutput table;
     table.file = args.trajectory.value_or("-");
     need_ending("--trajectory", table.file, {".csv", ".npz"});
@@ -50,7 +50,7 @@ TrajectoryOutput trajectory_output(const Arguments& args, const Scene& scene) {
 }
 
 // With no file named, the table goes to standard output if its options were given, else the summary.
-std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) {
+std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
     const bool wants_table = args.trajectory || args.rate || !args.times.empty() || !args.channels.empty();
     if (wants_table) outputs.push_back(trajectory_output(args, scene));
@@ -73,7 +73,7 @@ std::vector<Output> simulate_outputs(const Arguments& args, const Scene& scene) 
     return outputs;
 }
 
-int act(const Arguments& args) {
+int act(const SimulateArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     scene.set_outputs(simulate_outputs(args, scene));
     const RunOptions options = run_options(args.common, "");
@@ -84,7 +84,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_simulate(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<SimulateArguments>();
     Command& app = grammar.command("simulate", "Compute without pictures; with no option, print the summary");
     add_scene(app, args->scene, args->common);
     app.option("--trajectory", &args->trajectory, "FILE",

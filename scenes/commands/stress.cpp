@@ -18,7 +18,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Arguments {
+struct StressArguments {
     Common common;
     bool quick = false, full = false;
     std::vector<std::string> files;
@@ -53,7 +53,7 @@ void write(const output::Target& file, const sim::Campaign& campaign, const std:
             file, ending == ".csv" ? output::stress_csv(campaign, results) : output::stress_json(campaign, results));
 }
 
-int act(const Arguments& args) {
+int act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
@@ -75,7 +75,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_stress(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<StressArguments>();
     Command& app = grammar.command(
         "stress", "Numerical stability: thousands of extreme problems, each of which must end or be refused in words");
     app.flag("--quick", args->quick, "One case in eleven and the short single cases (default)");

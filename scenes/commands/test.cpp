@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct TestArguments {
     Common common;
     std::string baselines;
     std::vector<std::string> update, only, tolerance;
@@ -22,7 +22,7 @@ struct Arguments {
     bool add_digest = false, strict = false;
 };
 
-RegressionOptions options_of(const Arguments& args) {
+RegressionOptions options_of(const TestArguments& args) {
     if (!args.update.empty() && !args.only.empty())
         throw UsageError("--update and --only exclude each other; --update runs nothing but what it names");
     if (!args.update.empty() && args.add_digest)
@@ -39,7 +39,7 @@ RegressionOptions options_of(const Arguments& args) {
 }
 
 // Refused before any work if it stands in the way.
-void need_room(const Arguments& args, output::Manifest& manifest) {
+void need_room(const TestArguments& args, output::Manifest& manifest) {
     if (args.report) manifest.require_replaceable(fs::path(*args.report) / "index.html");
     if (args.junit) manifest.require_replaceable(*args.junit);
 }
@@ -48,7 +48,7 @@ void write_own(output::Manifest& manifest, const fs::path& file, const std::stri
     output::write_file(manifest.target(file), text);
 }
 
-void write_reports(const Arguments& args, const RegressionResult& result, output::Manifest& manifest) {
+void write_reports(const TestArguments& args, const RegressionResult& result, output::Manifest& manifest) {
     const std::string title = fs::path(args.baselines).filename().string();
     if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), args.strict));
     if (args.report) {
@@ -60,7 +60,7 @@ void write_reports(const Arguments& args, const RegressionResult& result, output
     manifest.save();
 }
 
-void tell(const Arguments& args, const RegressionResult& result) {
+void tell(const TestArguments& args, const RegressionResult& result) {
     if (args.common.json)
         print_json(to_json(result));
     else
@@ -77,7 +77,7 @@ void tell(const Arguments& args, const RegressionResult& result) {
                                      args.baselines));
 }
 
-int act(const Arguments& args) {
+int act(const TestArguments& args) {
     const RegressionOptions options = options_of(args);
     output::Manifest manifest(args.common.force);
     need_room(args, manifest);
@@ -95,7 +95,7 @@ int act(const Arguments& args) {
 }  // namespace
 
 void add_test(Grammar& grammar) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<TestArguments>();
     Command& app = grammar.command(
         "test", "Render and simulate again what a file of baselines lists; ends with 7 when something differs");
     app.positional("BASELINES", &args->baselines, "The baselines, a JSON file; - is standard input").required();

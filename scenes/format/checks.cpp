@@ -19,7 +19,7 @@ namespace beamcam::scenes {
 namespace {
 
 // Where a key path stands: its value, or else the key of its nearest ancestor in the file.
-Place place_of(const Node& root, std::string_view path, bool& exact) {
+Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
     const Node* node = &root;
     Place place = root.place;
     exact = true;
@@ -49,7 +49,7 @@ void judge_physics(ObjectReader& r, const sim::Problem& problem) {
     const bool partial = r.findings().any();
     for (const sim::Finding& finding : sim::validate(problem)) {
         bool exact = false;
-        const Place place = place_of(*r.node(), finding.path, exact);
+        const Place place = place_in_scene(*r.node(), finding.path, exact);
         // With unread values replaced by defaults, only what the user wrote himself can be judged.
         if (partial && (!exact || !finding.fatal || r.findings().failed(finding.path))) continue;
         const bool named = finding.message.starts_with(finding.path);

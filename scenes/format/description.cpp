@@ -12,8 +12,6 @@ namespace {
 
 using sim::Length, sim::Range, sim::Unit;
 
-Node parsed(const std::string& json) { return parse(json).root; }
-
 Node bounded(const Range& range) {
     Node number = object_node();
     add(number, "type", text_node("number"));
@@ -32,8 +30,8 @@ Node any_of(std::vector<Node> choices) {
 }
 
 Node with_text(const Unit& unit) {
-    return parsed(same(unit.dimension, sim::dimension::kNone) ? R"({"$ref": "#/$defs/percentage"})"
-                                                              : R"({"$ref": "#/$defs/withUnit"})");
+    return node_of(same(unit.dimension, sim::dimension::kNone) ? R"({"$ref": "#/$defs/percentage"})"
+                                                               : R"({"$ref": "#/$defs/withUnit"})");
 }
 
 std::string symbol(const Unit& unit) {
@@ -46,9 +44,9 @@ class Describer final : public SceneVisitor {
     explicit Describer(std::string meaning) { common_.meaning = std::move(meaning); }
 
     // The shapes that the object may have, each with the keys that all have.
-    std::vector<Shape> take() {
+    std::vector<DescribedObject> take() {
         if (shapes_.empty()) return {std::move(common_)};
-        for (Shape& shape : shapes_) {
+        for (DescribedObject& shape : shapes_) {
             shape.keys.insert(shape.keys.end(), common_.keys.begin(), common_.keys.end());
             shape.exclusive.insert(shape.exclusive.end(), common_.exclusive.begin(), common_.exclusive.end());
         }
@@ -75,7 +73,7 @@ class Describer final : public SceneVisitor {
                                   meaning);
         d.unit = symbol(unit);
         d.range = range;
-        Node item = any_of({bounded(range), with_text(unit)}), list = parsed(R"({"type": "array"})");
+        Node item = any_of({bounded(range), with_text(unit)}), list = node_of(R"({"type": "array"})");
         if (length.least > 0) add(list, "minItems", integer_node(static_cast<long>(length.least)));
         if (fixed) add(list, "maxItems", integer_node(static_cast<long>(length.most)));
         add(list, "items", item);
@@ -87,17 +85,17 @@ class Describer final : public SceneVisitor {
     void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override {
         DescribedKey& d = add_key(key, "whole number", meaning);
         d.range = sim::between(least, most);
-        d.schema = parsed(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", least, most));
+        d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", least, most));
         if (value) d.value = integer_node(*value);
     }
     void truth(const Key& key, bool& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "true or false", meaning);
-        d.schema = parsed(R"({"type": "boolean"})");
+        d.schema = node_of(R"({"type": "boolean"})");
         d.value = truth_node(value);
     }
     void text(const Key& key, std::string& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "text", meaning);
-        d.schema = parsed(R"({"type": "string"})");
+        d.schema = node_of(R"({"type": "string"})");
         d.value = text_node(value);
     }
     void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
@@ -121,14 +119,14 @@ class Describer final : public SceneVisitor {
         for (const sim::Alternative& each : all) {
             Describer inside(each.meaning);
             each.fields(inside);
-            Shape shape = std::move(inside.take().front());
+            DescribedObject shape = std::move(inside.take().front());
             for (const auto& [tag, word] : each.tags) shape.tags.emplace_back(tag, word);
             shapes_.push_back(std::move(shape));
         }
     }
     void form(const Key& key, const Form& form, const char* meaning) override {
         DescribedKey& d = add_key(key, form.type, meaning);
-        d.schema = parsed(form.schema);
+        d.schema = node_of(form.schema);
         if (!key.derived) d.value = form.write();
     }
     void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override {
@@ -137,7 +135,7 @@ class Describer final : public SceneVisitor {
         fields(inside);
         DescribedKey& d = add_key(key, form.type, meaning);
         d.shapes = inside.take();
-        d.schema = parsed(form.schema);
+        d.schema = node_of(form.schema);
         d.value = value;
     }
     void list(const Key& key, const List& list, const char* meaning) override {
@@ -151,14 +149,14 @@ class Describer final : public SceneVisitor {
         d.shapes = std::move(described.shapes);
         d.list = true;
         d.nested = list.nested ? list.nested : "";
-        if (list.form) d.item_schema = parsed(list.form->schema);
-        d.schema = parsed(R"({"type": "array"})");
+        if (list.form) d.item_schema = node_of(list.form->schema);
+        d.schema = node_of(R"({"type": "array"})");
         if (list.least > 0) {
             add(d.schema, "minItems", integer_node(static_cast<long>(list.least)));
             add(d.schema, "maxItems", integer_node(static_cast<long>(list.most)));
         }
     }
-    void restrict(const char* schema) override { common_.restrictions.push_back(parsed(schema)); }
+    void restrict(const char* schema) override { common_.restrictions.push_back(node_of(schema)); }
     void exclude(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
   private:
@@ -176,20 +174,20 @@ class Describer final : public SceneVisitor {
         d.unit = symbol(unit);
         d.range = range;
         std::vector<Node> choices{bounded(range)};
-        if (word) choices.push_back(parsed(fmt::format(R"({{"const": "{}"}})", word)));
+        if (word) choices.push_back(node_of(fmt::format(R"({{"const": "{}"}})", word)));
         if (!unit.plain) choices.push_back(with_text(unit));
         d.schema = any_of(std::move(choices));
         return d;
     }
 
-    Shape common_;
-    std::vector<Shape> shapes_;
+    DescribedObject common_;
+    std::vector<DescribedObject> shapes_;
 };
 
 }  // namespace
 
-const Shape& scene_format() {
-    static const Shape kFormat = [] {
+const DescribedObject& scene_format() {
+    static const DescribedObject kFormat = [] {
         Scene scene;
         Describer describer(
             "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to make of it. Plain "

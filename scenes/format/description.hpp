@@ -15,7 +15,7 @@ namespace beamcam::scenes {
 struct DescribedKey;
 
 // An object with these keys. Tags are keys with a fixed word.
-struct Shape {
+struct DescribedObject {
     std::vector<std::pair<std::string, std::string>> tags;
     std::string meaning;
     std::vector<DescribedKey> keys;
@@ -26,11 +26,11 @@ struct Shape {
 struct DescribedKey {
     std::string name, type, unit, meaning;
     sim::Range range;
-    std::vector<std::string> words;  // that the value may be
-    std::optional<Node> value;       // the default; nothing: none, or other keys decide it
-    std::string example;             // of a key that must be given
-    Node schema;                     // of the value, without what is said above
-    std::vector<Shape> shapes;       // of an object, or of the objects in a list
+    std::vector<std::string> words;       // that the value may be
+    std::optional<Node> value;            // the default; nothing: none, or other keys decide it
+    std::string example;                  // of a key that must be given
+    Node schema;                          // of the value, without what is said above
+    std::vector<DescribedObject> shapes;  // of an object, or of the objects in a list
     bool list = false, nullable = false;
     std::optional<Node> item_schema;  // of a list's items that are no objects
     std::string nested;               // the items of the list have the shapes of what contains it, by that name
@@ -39,7 +39,7 @@ struct DescribedKey {
 };
 
 // The scene itself: one shape without tags.
-const Shape& scene_format();
+const DescribedObject& scene_format();
 
 std::string one_line(const Node& node);  // as JSON
 std::string schema_text();               // the JSON Schema

@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 namespace {
 
-std::vector<std::string> split(std::string_view path) {
+std::vector<std::string> split_path(std::string_view path) {
     std::vector<std::string> keys;
     for (std::size_t begin = 0; begin <= path.size();) {
         const std::size_t end = std::min(path.find('.', begin), path.size());
@@ -72,7 +72,7 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
     const Place place = value.place;
     auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
-    const std::vector<std::string> keys = split(path);
+    const std::vector<std::string> keys = split_path(path);
     if (std::find(keys.begin(), keys.end(), "") != keys.end())
         return refuse("an empty key in the path; write key.path=value");
 

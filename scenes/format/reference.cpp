@@ -11,20 +11,22 @@ namespace beamcam::scenes {
 namespace {
 
 // What tells a shape from the others: its tags, and where several have the same tags the keys that it needs.
-std::string when(const Shape& shape, const std::vector<Shape>& all) {
+std::string when(const DescribedObject& shape, const std::vector<DescribedObject>& all) {
     std::vector<std::string> parts;
     for (const auto& [tag, word] : shape.tags) parts.push_back(fmt::format("{}={}", tag, word));
-    const auto alike = std::ranges::count_if(all, [&](const Shape& other) { return other.tags == shape.tags; });
+    const auto alike =
+        std::ranges::count_if(all, [&](const DescribedObject& other) { return other.tags == shape.tags; });
     for (const DescribedKey& key : shape.keys)
         if (alike > 1 && key.required()) parts.push_back(key.name);
     return fmt::format("{}", fmt::join(parts, " "));
 }
 
-void add_rows(const Shape& shape, const std::string& path, const std::string& needed, std::vector<KeyRow>& rows) {
+void add_rows(const DescribedObject& shape, const std::string& path, const std::string& needed,
+              std::vector<KeyRow>& rows) {
     for (const DescribedKey& key : shape.keys) {
         const std::string own = path.empty() ? key.name : path + "." + key.name;
         rows.push_back({own, needed, &key});
-        for (const Shape& inside : key.shapes) {
+        for (const DescribedObject& inside : key.shapes) {
             const std::string more = when(inside, key.shapes);
             add_rows(inside, own + (key.list ? "[]" : ""), needed + (needed.empty() || more.empty() ? "" : ", ") + more,
                      rows);
@@ -65,7 +67,7 @@ std::string default_text(const DescribedKey& key) { return key.value && !key.req
 
 namespace {
 
-std::string escaped(std::string text) {
+std::string escaped_for_table(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
     return text;
 }
@@ -84,7 +86,7 @@ std::optional<std::string> example_of(const DescribedKey& key) {
     return value.empty() || value == "\"\"" ? std::nullopt : std::optional(value);
 }
 
-std::string example_of(const Shape& shape) {
+std::string example_of(const DescribedObject& shape) {
     std::vector<std::string> members;
     for (const auto& [tag, word] : shape.tags) members.push_back(fmt::format("\"{}\": \"{}\"", tag, word));
     for (const DescribedKey& key : shape.keys)
@@ -105,7 +107,7 @@ class Reference {
     }
 
   private:
-    void shape(const Shape& shape, const std::string& path, const std::string& title) {
+    void shape(const DescribedObject& shape, const std::string& path, const std::string& title) {
         if (shape.keys.empty() && shape.tags.empty()) return;
         const bool top = path.empty();
         out_ += fmt::format("\n{} {}\n", top ? "##" : "###", title);
@@ -115,20 +117,21 @@ class Reference {
             for (const DescribedKey& key : shape.keys) row(key);
         }
         for (const DescribedKey& key : shape.keys)
-            for (const Shape& inside : key.shapes) nested(key, inside, top ? key.name : path + "." + key.name);
+            for (const DescribedObject& inside : key.shapes)
+                nested(key, inside, top ? key.name : path + "." + key.name);
     }
 
     void row(const DescribedKey& key) {
         const std::string value = key.type == "text" ? "" : default_text(key);
-        out_ += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, escaped(type_of(key)), key.unit,
+        out_ += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, escaped_for_table(type_of(key)), key.unit,
                             key.required()   ? "**required**"
-                            : !value.empty() ? fmt::format("`{}`", escaped(value))
+                            : !value.empty() ? fmt::format("`{}`", escaped_for_table(value))
                                              : "",
-                            escaped(key.meaning));
+                            escaped_for_table(key.meaning));
     }
 
     // Objects that several outputs have alike are explained once.
-    void nested(const DescribedKey& key, const Shape& inside, const std::string& path) {
+    void nested(const DescribedKey& key, const DescribedObject& inside, const std::string& path) {
         const std::string tags = when(inside, key.shapes), place = path + (key.list ? "[]" : "");
         const std::string title = fmt::format("`{}`{}", place, tags.empty() ? "" : fmt::format(" with {}", tags));
         if (std::ranges::find(done_, title) != done_.end()) return;

@@ -10,8 +10,6 @@
 namespace beamcam::scenes {
 namespace {
 
-Node parsed(const std::string& json) { return parse(json).root; }
-
 // What forms refer to.
 constexpr const char* kDefinitions = R"({
     "withUnit": {
@@ -41,7 +39,8 @@ Node panel_schema() {
         if (!type.takes_channels) names.items.push_back(text_node(type.name));
     add(known, "enum", std::move(names));
     add(out, "anyOf",
-        array_node({std::move(known), parsed(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")}));
+        array_node(
+            {std::move(known), node_of(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")}));
     return out;
 }
 
@@ -52,15 +51,15 @@ Node channel_schema() {
     Node known = object_node();
     add(known, "enum", std::move(names));
     Node out = object_node();
-    add(out, "anyOf", array_node({std::move(known), parsed(R"({"description": "A coordinate of the beam, q1 … qN.",
+    add(out, "anyOf", array_node({std::move(known), node_of(R"({"description": "A coordinate of the beam, q1 … qN.",
         "type": "string", "pattern": "^q[1-9][0-9]*$"})")}));
     return out;
 }
 
 class SchemaWriter {
   public:
-    Node write(const Shape& scene) {
-        definitions_ = parsed(kDefinitions);
+    Node write(const DescribedObject& scene) {
+        definitions_ = node_of(kDefinitions);
         add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
         object(scene);  // counts what occurs more than once
@@ -89,7 +88,7 @@ class SchemaWriter {
         return out;
     }
 
-    Node object(const Shape& shape) {
+    Node object(const DescribedObject& shape) {
         ++depth_;
         Node properties = object_node(), needed = array_node(), out = object_node();
         for (const auto& [tag, word] : shape.tags) {
@@ -105,23 +104,23 @@ class SchemaWriter {
         add(out, "description", text_node(shape.meaning));
         add(out, "type", text_node("object"));
         add(out, "properties", std::move(properties));
-        add(out, "patternProperties", parsed(R"({"^x-": true})"));
+        add(out, "patternProperties", node_of(R"({"^x-": true})"));
         add(out, "additionalProperties", truth_node(false));
         if (!needed.items.empty()) add(out, "required", std::move(needed));
         const Node& known = out.find("properties")->value;
         for (const auto& [one, other] : shape.exclusive)
             if (known.find(one) && known.find(other))
-                add(out, "not", parsed(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
+                add(out, "not", node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
         for (const Node& restriction : shape.restrictions) append(out, restriction);
         --depth_;
         return out;
     }
 
     // The objects of these shapes; those that contain themselves go into the definitions.
-    Node objects(const std::vector<Shape>& shapes) {
+    Node objects(const std::vector<DescribedObject>& shapes) {
         std::vector<Node> all;
         std::string recursive;
-        for (const Shape& shape : shapes) {
+        for (const DescribedObject& shape : shapes) {
             all.push_back(object(shape));
             for (const DescribedKey& key : shape.keys)
                 if (!key.nested.empty()) recursive = key.nested;
@@ -143,7 +142,7 @@ class SchemaWriter {
             add(out, "items", one_of("anyOf", std::move(items)));
             return out;
         }
-        if (key.nullable) return one_of("oneOf", {parsed(R"({"type": "null"})"), std::move(inside)});
+        if (key.nullable) return one_of("oneOf", {node_of(R"({"type": "null"})"), std::move(inside)});
         if (key.schema.kind == Node::Kind::object) return one_of("anyOf", {key.schema, std::move(inside)});
         return inside;
     }

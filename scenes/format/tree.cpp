@@ -499,6 +499,8 @@ std::string blank_comments(std::string_view text) {
     return out;
 }
 
+Node node_of(std::string_view json) { return parse(json).root; }
+
 Parsed parse(std::string_view text, std::size_t source) {
     Parsed result;
     if (auto message = unreadable(text, source)) {

@@ -85,6 +85,8 @@ constexpr int kDeepestScene = 64;
 
 // `source` is the index that the places will carry.
 Parsed parse(std::string_view text, std::size_t source = 0);
+// Of a text that the program itself brings, which has no errors.
+Node node_of(std::string_view json);
 
 // The text with comments and trailing commas turned into spaces; every other byte stays in place.
 // An unclosed comment is left as it is, for the parser to refuse.

@@ -16,7 +16,7 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct NamedUnit {
     std::string_view name;
@@ -46,11 +46,11 @@ constexpr NamedUnit kUnits[] = {
     {"h", 3600, {0, 0, 1, 0}, 0},
     {"Hz", 1, {0, 0, -1, 0}, 0, true},
     {"rad", 1, {0, 0, 0, 1}, 0, true},
-    {"deg", kPi / 180, {0, 0, 0, 1}, 0},
-    {"°", kPi / 180, {0, 0, 0, 1}, 0},
-    {"rev", 2 * kPi, {0, 0, 0, 1}, 0},
-    {"turn", 2 * kPi, {0, 0, 0, 1}, 0},
-    {"rpm", 2 * kPi / 60, {0, 0, -1, 1}, 0},
+    {"deg", pi / 180, {0, 0, 0, 1}, 0},
+    {"°", pi / 180, {0, 0, 0, 1}, 0},
+    {"rev", 2 * pi, {0, 0, 0, 1}, 0},
+    {"turn", 2 * pi, {0, 0, 0, 1}, 0},
+    {"rpm", 2 * pi / 60, {0, 0, -1, 1}, 0},
     {"N", 1, {1, 1, -2, 0}, 0, true},
     {"lbf", 4.4482216152605, {1, 1, -2, 0}, 0},
     {"Pa", 1, {-1, 1, -2, 0}, 0, true},

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFile = "times";
 constexpr const char* kHeader = "beamcam times 1";
-constexpr std::size_t kMost = 2000;           // lines; the oldest go first
+constexpr std::size_t kMostKept = 2000;       // lines; the oldest go first
 constexpr std::uintmax_t kLongest = 1 << 20;  // [bytes] a longer file is not one of ours
 
 using Lines = std::vector<std::pair<std::string, Rate>>;
@@ -73,7 +73,7 @@ void History::save() {
             return std::ranges::any_of(noted_, [&](const auto& noted) { return noted.first == line.first; });
         });
         lines.insert(lines.end(), noted_.begin(), noted_.end());
-        const std::size_t first = lines.size() > kMost ? lines.size() - kMost : 0;
+        const std::size_t first = lines.size() > kMostKept ? lines.size() - kMostKept : 0;
         std::string text = std::string(kHeader) + "\n";
         for (std::size_t i = first; i < lines.size(); ++i)
             text +=

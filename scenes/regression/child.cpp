@@ -14,12 +14,12 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr char kDone = '+', kThrown = '-';
+constexpr char kReturned = '+', kThrown = '-';
 
 // The answer of the child: one of the two characters above, then the text.
 std::string answer_of(const std::function<std::string()>& work) {
     try {
-        return kDone + work();
+        return kReturned + work();
     } catch (const std::exception& error) {
         return std::string(1, kThrown) + error.what();
     }
@@ -27,7 +27,7 @@ std::string answer_of(const std::function<std::string()>& work) {
 
 void write_all(int descriptor, const std::string& text) {
     for (std::size_t at = 0; at < text.size();) {
-        const ssize_t written = write(descriptor, text.data() + at, text.size() - at);
+        const ssize_t written = ::write(descriptor, text.data() + at, text.size() - at);
         if (written < 0 && errno != EINTR) return;
         at += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
     }
@@ -37,7 +37,7 @@ std::string read_all(int descriptor) {
     std::string text;
     std::array<char, 4096> block;
     for (;;) {
-        const ssize_t got = read(descriptor, block.data(), block.size());
+        const ssize_t got = ::read(descriptor, block.data(), block.size());
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return text;
         text.append(block.data(), static_cast<std::size_t>(got));
@@ -65,7 +65,7 @@ std::string in_child(const std::function<std::string()>& work) {
     if (WIFSIGNALED(status))
         throw std::runtime_error(fmt::format("the library ended with {}", strsignal(WTERMSIG(status))));
     if (answer.empty()) throw std::runtime_error(fmt::format("the library ended with exit {}", WEXITSTATUS(status)));
-    if (answer.front() != kDone) throw std::runtime_error(answer.substr(1));
+    if (answer.front() != kReturned) throw std::runtime_error(answer.substr(1));
     return answer.substr(1);
 }
 

@@ -206,7 +206,8 @@ std::vector<Check> examine_machine() {
                           fmt::format("install the Debian package {}", font.package)});
     if (const std::vector<std::string>& ignored = render::ignored_gl_settings(); !ignored.empty())
         checks.push_back({"pictures", "ignored settings", true, fmt::format("{}", fmt::join(ignored, ", ")), ""});
-    examine(checks, "pictures", "OpenGL", "install the Debian package libosmesa6, or libegl1 where there is none; flat views need neither",
+    examine(checks, "pictures", "OpenGL",
+            "install the Debian package libosmesa6, or libegl1 where there is none; flat views need neither",
             [] { return in_child([] { return render::make_lit_renderer(16, 16)->name(); }); });
     for (const render::FontFile& font : render::font_files(render::Typefaces::print))
         checks.push_back({"figures", "font " + font.name, !font.path.empty(),

@@ -29,7 +29,7 @@ std::string short_digest(const std::string& digest) { return digest.empty() ? "n
 
 // ---- markup ------------------------------------------------------------------------------------------
 
-std::string escaped(std::string_view text) {
+std::string escaped_for_xml(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '&')
@@ -119,10 +119,10 @@ std::vector<std::pair<long, const FrameResult*>> worst_frames(const EntryResult&
 
 std::string entry_html(const EntryResult& entry) {
     std::string out = fmt::format("<section id=\"{0}\"><h2>{0} <span class=\"{1}\">{1}</span></h2>\n",
-                                  escaped(entry.name), name(entry.verdict()));
+                                  escaped_for_xml(entry.name), name(entry.verdict()));
     for (const std::string& line :
          {part("picture", entry.picture, entry.picture_lines), part("motion", entry.motion, entry.motion_lines)})
-        if (!line.empty()) out += fmt::format("<p>{}</p>\n", escaped(line));
+        if (!line.empty()) out += fmt::format("<p>{}</p>\n", escaped_for_xml(line));
     if (!entry.new_digest.empty())
         out += fmt::format("<p class=\"soft\">expected <code>{}</code><br>actual <code>{}</code></p>\n",
                            entry.old_digest.empty() ? "none" : entry.old_digest, entry.new_digest);
@@ -133,10 +133,11 @@ std::string entry_html(const EntryResult& entry) {
 std::string junit_case(const std::string& suite, const std::string& test, const char* what,
                        const std::optional<Verdict>& verdict, const std::vector<std::string>& lines, bool strict) {
     if (!verdict) return {};
-    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}: {}\"", escaped(suite), escaped(test), what);
+    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}: {}\"", escaped_for_xml(suite),
+                                  escaped_for_xml(test), what);
     if (is_fine(*verdict, strict)) return out + "/>\n";
     const std::string words =
-        escaped(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
+        escaped_for_xml(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
     return out + fmt::format(">\n    <failure type=\"{0}\" message=\"{1}\">{1}</failure>\n  </testcase>\n",
                              name(*verdict), words);
 }
@@ -186,14 +187,14 @@ std::string to_junit(const RegressionResult& result, const std::string& suite, b
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
         "time=\"{:.3f}\">\n{}</testsuite>\n",
-        escaped(suite), tests, failures, result.seconds, cases);
+        escaped_for_xml(suite), tests, failures, result.seconds, cases);
 }
 
 std::string to_html(const RegressionResult& result, const std::string& title) {
     std::string rows, sections;
     for (const EntryResult& entry : result.entries) {
         const bool shown = entry.verdict() != Verdict::identical;
-        const std::string own_name = escaped(entry.name);
+        const std::string own_name = escaped_for_xml(entry.name);
         rows += fmt::format("<tr><td>{}</td><td class=\"{}\">{}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
                             shown ? fmt::format("<a href=\"#{0}\">{0}</a>", own_name) : own_name,
                             entry.picture ? name(*entry.picture) : "soft", entry.picture ? name(*entry.picture) : "–",
@@ -209,7 +210,7 @@ std::string to_html(const RegressionResult& result, const std::string& title) {
         "<table><thead><tr><th>entry</th><th>picture</th><th>motion</th><th>pictures</th></tr></thead><tbody>\n{5}</"
         "tbody></table>\n"
         "{6}</body></html>\n",
-        escaped(title), kStyle, result.entries.size(), result.simulations, result.pictures, rows, sections);
+        escaped_for_xml(title), kStyle, result.entries.size(), result.simulations, result.pictures, rows, sections);
 }
 
 }  // namespace beamcam::scenes

@@ -16,7 +16,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 struct Pattern {
     std::string before, after;
 };
-Pattern split(std::string_view file) {
+Pattern split_pattern(std::string_view file) {
     const std::size_t begin = file.find('#'), end = file.find_last_of('#') + 1;
     return {std::string(file.substr(0, begin)), std::string(file.substr(end))};
 }
@@ -90,7 +90,7 @@ class ClaimIndex {
     using Index = std::map<std::string, const Claim*>;
 
     static std::string pattern_of(const Claim& claim) {
-        const Pattern parts = split(normal(claim.file));
+        const Pattern parts = split_pattern(normal(claim.file));
         return parts.before + '#' + parts.after;
     }
 
@@ -133,12 +133,12 @@ std::string problem_with_numbering(std::string_view file) {
 
 std::string numbered_file(std::string_view pattern, long number) {
     const auto width = static_cast<std::size_t>(std::count(pattern.begin(), pattern.end(), '#'));
-    const Pattern parts = split(pattern);
+    const Pattern parts = split_pattern(pattern);
     return fmt::format("{}{:0{}}{}", parts.before, number, width, parts.after);
 }
 
 std::optional<long> number_of(std::string_view pattern, std::string_view file) {
-    const Pattern parts = split(pattern);
+    const Pattern parts = split_pattern(pattern);
     if (!matches(parts, file)) return {};
     const std::string_view digits =
         file.substr(parts.before.size(), file.size() - parts.before.size() - parts.after.size());
