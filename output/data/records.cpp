@@ -97,6 +97,15 @@ Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
     return map;
 }
 
+// Within steps, too, where the residual was searched for its extrema.
+double largest_residual(const sim::Result& result, const std::vector<sim::Channel>& channels) {
+    double largest = result.energy_residual_max;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        if (channels[i].kind == sim::ChannelKind::energy_residual)
+            largest = std::max({largest, result.extrema[i].max, -result.extrema[i].min});
+    return largest;
+}
+
 void add_reproducibility(const sim::Result& result, Json& json) {
     json["reproducible_until"] = *result.reproducible_until;
     Json& lost = json["not_reproducible"] = Json::array();
@@ -207,7 +216,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     for (const sim::ZeroCrossing& zero : result.theta_zero)
         zeros.push_back({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
     json["extrema"] = extrema_of(result, extrema);
-    json["energy_residual_max"] = result.energy_residual_max;
+    json["energy_residual_max"] = largest_residual(result, extrema);
     json["energy_scale"] = result.energy_scale;
     json["impacts"] = result.impacts.size();
     json["collisions"] = result.collisions.size();

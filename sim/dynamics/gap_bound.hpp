@@ -20,6 +20,10 @@ class GapBound {
     double travel(const double* change) const;
     // Only one foot exists for these coordinates q, wherever the disc is.
     bool nearly_straight(const double* q) const;
+    // Of each mode but those of `exact`: the largest displacement per unit of its coordinate, and the wave number
+    // [1/m].
+    double shape_bound(std::size_t mode) const { return shape_bounds_[mode]; }
+    double wave_number(std::size_t mode) const { return wave_numbers_[mode]; }
 
   private:
     double deflection(const double* xi, const double* spread) const;

@@ -65,6 +65,13 @@ Collocation::Collocation() {
     }
 }
 
+void Collocation::values_at(double s, Lanes& w) const {
+    double p[kNodes];
+    sim::legendre(2 * s - 1, kNodes, p);
+    w = Lanes{};
+    for (std::size_t j = 0; j < kNodes; ++j) w += p[j] * legendre[j];
+}
+
 // ∫₀ˢ P_j(2u − 1) du = [P_{j+1} − P_{j−1}](2s − 1)/(2(2j+1)), and s for j = 0.
 void Collocation::weights_to(double s, Lanes& w) const {
     double p[kNodes + 1];

@@ -59,6 +59,8 @@ class ContactExpansion {
 
     // Expands about x unless the present expansion serves there too.
     void centre(double x);
+    // The next expansion is made anew, as the first was.
+    void forget() { x_ = -1; }
     double at() const { return x_; }
     // How far from its centre an expansion is trusted [m].
     double range() const { return range_; }

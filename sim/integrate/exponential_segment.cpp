@@ -9,6 +9,12 @@
 
 namespace beamcam::sim {
 
+namespace {
+
+constexpr double kBetweenNodes = 1.5;  // of what a polynomial may exceed its values at the nodes by
+
+}  // namespace
+
 template <class Visit>
 void ExponentialSegment::each_number(Visit&& visit) {
     const auto lanes = [&](Lanes& l) {
@@ -74,6 +80,9 @@ class StoredExponential final : public StoredSegment {
     }
     void value(double t, double* y) const override { segment_.value(t, y); }
     const MotionBounds* bounds() const override { return segment_.bounds(); }
+    const ModalBounds* modal_bounds() const override { return segment_.modal_bounds(); }
+    double balance_error() const override { return segment_.balance_error(); }
+    SegmentKind numbers(std::vector<double>& out) const override { return segment_.numbers(out); }
     const TouchSamples* touch() const override { return segment_.touch(); }
 
   private:
@@ -192,6 +201,15 @@ void ExponentialSegment::value(double t, double* y) const {
     if (books) ledger_at(t, s, weights, y);
 }
 
+// Bound of √(q² + (q̇/ω)²).
+double ExponentialSegment::largest_amplitude(std::size_t i, double force) const {
+    constexpr double kNodeGap = 0.1;  // half of the widest distance of nodes over the step
+    const double w = form_->oscillators[i].omega;
+    const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
+    const double at_nodes = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
+    return at_nodes + force / w * std::min(kNodeGap * h, 2 / w);
+}
+
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
 // by no more than the last two terms.
 double ExponentialSegment::largest_rate(std::size_t i, double amplitude, double force) const {
@@ -210,8 +228,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     bounds_known_ = true;
     MotionBounds& b = bounds_;
     b = {};
-    constexpr double kMargin = 1, kNodeGap = 0.1;  // half of the widest distance of nodes over the step
-    constexpr double kBetweenNodes = 1.5;          // of what a polynomial may exceed its values at the nodes by
+    constexpr double kMargin = 1;
     const double shape = 3 + 3 * std::fabs(form_->radius) / form_->length;
     double turn = 0, turn_rate = 0;
     Bounded deflection, stretch;  // stretch: √∫v′²
@@ -219,10 +236,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     double inertia = 0, inertia_rate = 0;  // √|qᵀBq| and what q̇ᵀBq is below it times
     for (std::size_t i = 0; i < n_; ++i) {
         const double w = form_->oscillators[i].omega;
-        const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
-        const double force = kBetweenNodes * largest(f[i]);
-        double amplitude = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
-        amplitude += force / w * std::min(kNodeGap * h, 2 / w);
+        const double force = kBetweenNodes * largest(f[i]), amplitude = largest_amplitude(i, force);
         const double speed = largest_rate(i, amplitude, force);
         const double acceleration = w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed;
         b.deflection_speed += shape * speed;
@@ -279,6 +293,71 @@ const MotionBounds* ExponentialSegment::bounds() const {
     b.angle_low = first + std::min(0.0, low) * h - turn;
     b.angle_high = first + std::max(0.0, high) * h + turn;
     return &bounds_;
+}
+
+// What the nodes miss of a forcing is of the size of its last Legendre coefficient and changes its sign at every node:
+// so long it does work.
+double ExponentialSegment::balance_error() const {
+    const Lanes& last = Collocation::get().legendre[kNodes - 1];
+    double power = largest(spin) * std::fabs(sum(last * push));
+    for (std::size_t i = 0; i < n_; ++i)
+        power += form_->mass * std::max(std::fabs(v0[i]), largest(v[i])) * std::fabs(sum(last * f[i]));
+    return power * h / (kNodes + 1);
+}
+
+// The oscillation about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
+// (|f″| + 2γ|f′|)/ω³ times half their distance; f is bounded by the derivatives of its Legendre polynomials.   (S59)
+ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i) const {
+    constexpr double kToNode = 0.1;  // of the step: no instant is farther from the nearest node
+    const Collocation& gauss = Collocation::get();
+    const Oscillator& o = form_->oscillators[i];
+    const double force = kBetweenNodes * largest(f[i]), square = o.omega * o.omega;
+    double force_range = 0, force_rate = 0, force_second = 0;  // the first: about the mean
+    for (int j = 1; j < kNodes; ++j) {
+        const double c = std::fabs(sum(gauss.legendre[static_cast<std::size_t>(j)] * f[i]));
+        force_range += c;
+        force_rate += c * j * (j + 1) / h;
+        force_second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
+    }
+    ModalBounds::Mode mode;
+    mode.amplitude = largest_amplitude(i, force);
+    mode.rate = largest_rate(i, mode.amplitude, force);
+    mode.acceleration = square * mode.amplitude + force + 2 * o.gamma * mode.rate;
+    mode.low = -mode.amplitude;
+    mode.high = mode.amplitude;
+    if (o.omega > 0 && !decays(o)) {
+        Lanes slope{};
+        for (int l = 0; l < kNodes; ++l) slope += f[i][l] * gauss.slope[static_cast<std::size_t>(l)];
+        const Lanes free = q[i] - (1 / square) * f[i], free_rate = (1 / o.omega) * (v[i] - (1 / (h * square)) * slope);
+        const double decay = o.gamma > 0 ? std::exp(o.gamma * kToNode * h) : 1;
+        const double driven = kToNode * h * (force_second + 2 * o.gamma * force_rate) / (square * o.omega);
+        const double swing = std::sqrt(largest(free * free + free_rate * free_rate)) * decay + driven;
+        // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x of the oscillation x about f/ω².
+        const double mean = sum(gauss.legendre[0] * f[i]) / square, range = force_range / square + swing;
+        mode.low = std::max(mode.low, mean - range);
+        mode.high = std::min(mode.high, mean + range);
+        mode.rate = std::min(mode.rate, o.omega * swing + force_rate / square);
+        mode.acceleration = std::min(mode.acceleration, square * swing + 2 * o.gamma * mode.rate);
+    }
+    const auto frequency = [](double largest, double first, double second) {
+        return largest > 0 ? std::max(first / largest, std::sqrt(second / largest)) : 0;
+    };
+    const double jerk = square * mode.rate + force_rate + 2 * o.gamma * mode.acceleration;
+    mode.q_frequency = frequency(mode.amplitude, mode.rate, mode.acceleration);
+    mode.rate_frequency = frequency(mode.rate, mode.acceleration, jerk);
+    return mode;
+}
+
+const ModalBounds* ExponentialSegment::modal_bounds() const {
+    if (modal_bounds_known_) return &modal_bounds_;
+    modal_bounds_known_ = true;
+    ModalBounds& b = modal_bounds_;
+    b.modes.resize(n_);
+    for (std::size_t i = 0; i < n_; ++i) b.modes[i] = mode_bounds(i);
+    b.h = h;
+    b.power_cam = books ? kBetweenNodes * largest(rate[kWorkCam]) : 0;
+    b.power_drive = books ? kBetweenNodes * largest(rate[kWorkDrive]) : 0;
+    return &b;
 }
 
 bool ExponentialSegment::resolved(std::size_t i) const {

@@ -17,12 +17,14 @@ class ExponentialSegment final : public Segment {
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
     const MotionBounds* bounds() const override;
+    const ModalBounds* modal_bounds() const override;
+    double balance_error() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
     // Must be called when the numbers have changed.
     void changed() {
         expanded_ = -1;
         turned_known_ = false;
-        bounds_known_ = false;
+        bounds_known_ = modal_bounds_known_ = false;
     }
 
     SegmentKind numbers(std::vector<double>& out) const override;
@@ -62,7 +64,9 @@ class ExponentialSegment final : public Segment {
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;
     double work_on_vibration(std::size_t mode, const double* g, double s, const double* y) const;
     double work_on_decay(std::size_t mode, bool fast, const double* g, double s, const double* y) const;
+    double largest_amplitude(std::size_t mode, double force) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
+    ModalBounds::Mode mode_bounds(std::size_t mode) const;
     double torque_on_vibration(double s, const double* y) const;
 
     std::shared_ptr<const ModalForm> form_;
@@ -70,6 +74,8 @@ class ExponentialSegment final : public Segment {
     std::size_t n_, controlled_;
     mutable bool bounds_known_ = false;
     mutable MotionBounds bounds_;
+    mutable bool modal_bounds_known_ = false;
+    mutable ModalBounds modal_bounds_;
     mutable int expanded_ = -1;
     // In lanes over eight modes, by group: f at the nodes; derivatives of f, and q and q̇, at the point `expanded_`.
     mutable bool turned_known_ = false;

@@ -19,6 +19,11 @@ GapProbe::GapProbe(System& system) : system_(system) {
     expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
 }
 
+void GapProbe::forget() {
+    x_ = -1;
+    if (expansion_) expansion_->forget();
+}
+
 ContactState GapProbe::evaluate(double t, const double* y, bool search) {
     ContactState c;
     if (expansion_ && expanded(t, y, search, c)) {
@@ -59,6 +64,7 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
         c.x = x_;
         c.gap = touch.gap;
         c.gap_rate = touch.gap_rate;
+        c.normal = {touch.nx * frame.cos - touch.ny * frame.sin, touch.nx * frame.sin + touch.ny * frame.cos};
         return true;
     }
     x_ = -1;

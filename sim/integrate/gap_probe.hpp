@@ -14,9 +14,11 @@ class GapProbe {
   public:
     explicit GapProbe(System& system);  // the system outlives the probe
 
-    // Gap, its rate and x of the contact as System::contact has them, to rounding; nothing else is filled in.
-    // `search`: where the foot is, is not known from the look before.
+    // Gap, its rate, x and the normal of the contact as System::contact has them, to rounding; nothing else is filled
+    // in. `search`: where the foot is, is not known from the look before.
     ContactState evaluate(double t, const double* y, bool search);
+    // What comes next does not depend, not even by rounding, on what was asked before.
+    void forget();
 
   private:
     bool expanded(double t, const double* y, bool search, ContactState& c);

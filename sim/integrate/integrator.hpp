@@ -36,6 +36,18 @@ struct TouchSamples {
     Ending ending = Ending::open;
 };
 
+// What a step that propagates modes promises about each of them, and of the hub besides.
+struct ModalBounds {
+    struct Mode {
+        double low = 0, high = 0;                          // of q [m]
+        double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
+        double q_frequency = 0, rate_frequency = 0;        // |q̈| ≤ q_frequency² amplitude, so for q̇ [rad/s]
+    };
+    std::vector<Mode> modes;
+    double h = 0;                           // length of the collocation step [s]
+    double power_cam = 0, power_drive = 0;  // of magnitudes [W]
+};
+
 class Segment {
   public:
     virtual ~Segment() = default;
@@ -47,6 +59,10 @@ class Segment {
     // steps in which each component is a polynomial of at most `kDegree`.
     static constexpr int kDegree = 12;
     virtual const MotionBounds* bounds() const { return nullptr; }
+    // The same mode by mode; null where the step does not propagate modes.
+    virtual const ModalBounds* modal_bounds() const { return nullptr; }
+    // By how much the error of the energy balance may be larger within the step than at its ends [J].
+    virtual double balance_error() const { return std::numeric_limits<double>::infinity(); }
     // Steps that solve for the contact force at nodes tell it; null for others. No event of the normal force lies
     // inside such a step.
     virtual const TouchSamples* touch() const { return nullptr; }

@@ -7,126 +7,15 @@
 #include <numbers>
 #include <numeric>
 
-#include "sim/base/numerics.hpp"
-#include "sim/integrate/collocation.hpp"
+#include "sim/observe/extrema.hpp"
 #include "sim/observe/warnings.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxLooks = 24;       // looks at most, at a step that resolves the vibration
-constexpr double kMostLooks = 1e5;  // and at one that spans many periods
-// At such a step, for extremes: a faster vibration is met at all its phases, if not in every period.
-constexpr int kExtremeLooks = 100;
-constexpr std::size_t kMostPeaks = 4;
-constexpr long kPatience = 200;     // peaks of one channel that may turn out to be no higher, …
-constexpr double kNoHigher = 1e-9;  // … by this share
-// The rise of a peak above its sample over that of the parabola: 1.09 for a vibration with 1.5 samples a radian.
-constexpr double kSteeper = 1.1;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
 constexpr int kContactSteps = 4;
-
-// Calls offer(t, f(t)) at the maxima of f between samples values[i] = f(time(i)), i = 0…count, that could
-// exceed `best`. A parabola rises above its highest sample by at most an eighth of the second difference;
-// twice that is looked into. At the ends of a stretch, which bracket nothing, a look a little inside
-// tells whether f rises there. Of a vibration's many peaks those are looked into whose parabolas rise highest; once
-// `vain` of them were no higher than the best, only those that promise to be. Returns whether all that
-// promise to exceed `best` were looked into.
-template <class F, class Time, class Offer>
-bool each_maximum(F&& f, Time&& time, const double* values, int count, const double& best, long& vain, Offer&& offer) {
-    const auto look = [&](double a, double b) {
-        const double before = best;
-        const auto [t, value] = find_peak(f, a, b);
-        offer(t, value);
-        if (!(best > before + kNoHigher * std::fabs(before))) ++vain;
-    };
-    const auto promises = [&](double height) { return vain < kPatience || height > best; };
-    const auto bend_at = [&](int i) {
-        const int middle = std::clamp(i, 1, count - 1);
-        return std::fabs(values[middle - 1] - 2 * values[middle] + values[middle + 1]);
-    };
-    const auto may_exceed = [&](int i) { return bend_at(i) > 0 && values[i] + 0.25 * bend_at(i) > best; };
-    for (const int end : {0, count}) {
-        const int other = end == 0 ? 1 : count - 1;
-        if (!may_exceed(end) || !(values[end] >= values[other])) continue;
-        if (!promises(values[end] + kSteeper * 0.125 * bend_at(end))) continue;
-        const double inside = time(end) + 1e-3 * (time(other) - time(end));
-        if (f(inside) > values[end]) look(std::min(time(end), time(other)), std::max(time(end), time(other)));
-    }
-    struct Peak {
-        int i;
-        double height;
-    };
-    std::vector<Peak> peaks;
-    for (int i = 1; i < count; ++i) {
-        if (!may_exceed(i) || values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
-        const double lean = values[i + 1] - values[i - 1];
-        peaks.push_back({i, values[i] + kSteeper * lean * lean / (8 * bend_at(i))});
-    }
-    if (peaks.size() > kMostPeaks)
-        std::nth_element(peaks.begin(), peaks.begin() + kMostPeaks, peaks.end(),
-                         [](const Peak& a, const Peak& b) { return a.height > b.height; });
-    bool complete = true;
-    for (std::size_t k = 0; k < peaks.size(); ++k) {
-        if (!may_exceed(peaks[k].i) || !promises(peaks[k].height)) continue;
-        if (k < kMostPeaks)
-            look(time(peaks[k].i - 1), time(peaks[k].i + 1));
-        else if (peaks[k].height > best)
-            complete = false;
-    }
-    return complete;
-}
-
-// The polynomial through the samples of a step (barycentric formula).
-class Sampled {
-  public:
-    Sampled(const double* t, const double* f) : t_(t), f_(f) {
-        const double span = t[kCount - 1] - t[0];
-        for (int i = 0; i < kCount; ++i) {
-            weight_[i] = 1;
-            for (int j = 0; j < kCount; ++j)
-                if (j != i) weight_[i] *= span / (t[i] - t[j]);
-        }
-    }
-    double operator()(double at) const {
-        double above = 0, below = 0;
-        for (int i = 0; i < kCount; ++i) {
-            if (at == t_[i]) return f_[i];
-            const double w = weight_[i] / (at - t_[i]);
-            above += w * f_[i];
-            below += w;
-        }
-        return above / below;
-    }
-
-  private:
-    static constexpr int kCount = TouchSamples::kCount;
-    const double *t_, *f_;
-    double weight_[kCount];
-};
-
-// `best`, or the largest value of sign·f within a step, from its samples at the ends and nodes, if that is larger.
-double sampled_peak(const double* t, const double* f, double sign, double best) {
-    constexpr int kCount = TouchSamples::kCount, kPieces = 4;  // of an interval between samples
-    constexpr double kLebesgue = 2.9;  // how much farther from zero than its samples the polynomial may be
-    const auto [low, high] = std::minmax_element(f, f + kCount);
-    const double middle = sign * 0.5 * (*low + *high), half_range = 0.5 * (*high - *low);
-    if (middle + kLebesgue * half_range <= best) return best;
-    const Sampled curve(t, f);
-    const auto at = [&](double instant) { return sign * curve(instant); };
-    const auto time = [&](int i) {
-        const int left = std::min(i / kPieces, kCount - 2);
-        return t[left] + (t[left + 1] - t[left]) * (i - left * kPieces) / kPieces;
-    };
-    std::array<double, kPieces*(kCount - 1) + 1> values;
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = at(time(static_cast<int>(i)));
-    for (const double value : values) best = value > best ? value : best;  // of a step of rounding's size: NaN
-    long vain = 0;
-    each_maximum(at, time, values.data(), static_cast<int>(values.size()) - 1, best, vain,
-                 [&](double, double value) { best = std::max(best, value); });
-    return best;
-}
 
 }  // namespace
 
@@ -153,6 +42,11 @@ const System::Books& Eye::books() {
         books_known_ = true;
     }
     return books_;
+}
+
+void Eye::contact_is(const ContactState& contact) {
+    contact_ = contact;
+    contact_known_ = true;
 }
 
 void Eye::gap_is(double gap) {
@@ -286,6 +180,7 @@ Recorder::Recorder(const System& system, const Request& request, double end)
     : problem_(system.problem()),
       request_(request),
       eye_(system),
+      finder_(std::make_unique<ExtremaFinder>(system, request.extrema)),
       y_(static_cast<std::size_t>(eye_.system().size)),
       end_(end) {
     const auto ordered = [](const std::vector<double>& times) {
@@ -315,26 +210,25 @@ Recorder::Recorder(const System& system, const Request& request, double end)
     }
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
-    vain_.assign(2 * request.extrema.size(), 0);
 }
 
-void Recorder::begin(const Phase& phase, const std::vector<double>& y) {
-    eye_.set_phase(phase);
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder::~Recorder() = default;
+
+void Recorder::begin(const Phase& first_phase, const std::vector<double>& y) {
+    phase(first_phase);
     eye_.look(0, y.data());
     start_total_ = eye_.books().total();
     eye_.set_start_energy(start_total_);
     const double lever = problem_.hub.radius + 0.5 * problem_.beam.length;
     result_.energy_scale = std::fabs(problem_.beam.line_density() * problem_.beam.length * problem_.gravity * lever);
-    ledger();
+    finder_->begin(start_total_, y.data(), result_.extrema);
+    note_balance();
 }
 
-void Recorder::phase(const Phase& phase) { eye_.set_phase(phase); }
-
-int Recorder::pieces(const Stretch& s) {
-    // Steps of high order span a good part of the fastest period: look a few times a radian.
-    const double radians = (s.to - s.from) * eye_.system().highest_frequency();
-    const double most = s.segment->bounds() ? kMostLooks : kMaxLooks;
-    return static_cast<int>(std::clamp(std::ceil(radians * 1.5), 2.0, most));
+void Recorder::phase(const Phase& phase) {
+    eye_.set_phase(phase);
+    finder_->set_phase(phase);
 }
 
 template <class F>
@@ -477,145 +371,30 @@ void Recorder::contact_poses(const Stretch& s) {
     eye_.system().search_again();
 }
 
-// For how many pieces from here on neither the hub's angle nor its rate can change sign: the frame is too far from that
-// for the vibration, and needs a while to come near. Half of its rate is left to the inertia's own vibration.
-int Recorder::quiet_pieces(const Turn& hub, const Stretch& s, double piece) {
-    const MotionBounds* b = s.segment->bounds();
-    if (!b) return 0;
-    const double rate = 0.5 * std::fabs(hub.frame_rate) - b->ripple_rate, angle = std::fabs(hub.frame) - b->ripple;
-    if (!(rate > 0 && angle > 0)) return 0;
-    const double quiet = std::min(rate / b->spin_acceleration, angle / b->spin) / piece;
-    return static_cast<int>(std::min(quiet, kMostLooks));
-}
-
-Recorder::Turn Recorder::turn(const Stretch& s, double t) {
-    s.segment->value(t, y_.data());
-    eye_.system().place(t, y_.data());
-    const Model& model = eye_.system().model();
-    return {model.hub_angle(), model.hub_rate(), y_[0], y_[static_cast<std::size_t>(eye_.system().coordinates())]};
-}
-
-void Recorder::turning_points(const Stretch& s) {
-    if (!request_.turning_points) return;
-    if (const MotionBounds* b = s.segment->bounds()) {
-        const bool turns = b->rate_low <= 0 && b->rate_high >= 0, crosses = b->angle_low <= 0 && b->angle_high >= 0;
-        if (!turns && !crosses) return;
-    }
-    const auto angle = [&](double t) { return turn(s, t).angle; };
-    const auto rate = [&](double t) { return turn(s, t).rate; };
-    const int count = pieces(s);
-    const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
-    Turn before = turn(s, s.from);
-    for (int i = 0; i < count;) {
-        if (const int quiet = quiet_pieces(before, s, (s.to - s.from) / count)) {
-            i = std::min(count, i + quiet);
-            before = turn(s, time(i));
-            continue;
-        }
-        const Turn after = turn(s, time(i + 1));
-        if (before.rate > 0 && after.rate <= 0) {
-            const double t = find_root(rate, time(i), time(i + 1), before.rate, after.rate);
-            result_.apexes.push_back({t, angle(t)});
-        }
-        if ((before.angle > 0) != (after.angle > 0) && before.angle != 0) {
-            const double t = find_root(angle, time(i), time(i + 1), before.angle, after.angle);
-            result_.theta_zero.push_back({t, rate(t)});
-        }
-        before = after;
-        ++i;
-    }
-}
-
 void Recorder::contact_peaks(const Stretch& s) {
     if (!impact_open_) return;
     Impact& impact = result_.impacts.back();
-    if (const TouchSamples* samples = s.segment->touch()) {
-        impact.force_peak = sampled_peak(samples->t, samples->force, 1, impact.force_peak.value_or(0));
-        impact.penetration_peak = sampled_peak(samples->t, samples->gap, -1, impact.penetration_peak);
-        return;
-    }
-    const auto contact_at = [&](double t) -> const ContactState& {
-        s.segment->value(t, y_.data());
-        eye_.look(t, y_.data());
-        return eye_.contact();
-    };
-    const auto force = [&](double t) { return contact_at(t).force; };
-    const auto depth = [&](double t) { return -contact_at(t).gap; };
-    const int count = std::max(4, pieces(s));
-    const auto time = [&](int i) { return i >= count ? s.to : s.from + (s.to - s.from) * i / count; };
-    std::vector<double> forces(static_cast<std::size_t>(count) + 1), depths(forces.size());
-    for (int i = 0; i <= count; ++i) {
-        const ContactState& c = contact_at(time(i));
-        forces[static_cast<std::size_t>(i)] = c.force;
-        depths[static_cast<std::size_t>(i)] = -c.gap;
-    }
-    const auto refine = [&](const auto& values, const auto& f, double& best) {
-        for (int i = 0; i <= count; ++i) best = std::max(best, values[static_cast<std::size_t>(i)]);
-        long vain = 0;
-        each_maximum(f, time, values.data(), count, best, vain,
-                     [&](double, double value) { best = std::max(best, value); });
-    };
-    double force_peak = impact.force_peak.value_or(0);
-    refine(forces, force, force_peak);
-    impact.force_peak = force_peak;
-    refine(depths, depth, impact.penetration_peak);
+    finder_->contact_peaks(s, impact.force_peak, impact.penetration_peak);
 }
 
-void Recorder::extrema(const Stretch& s) {
-    if (request_.extrema.empty()) return;
-    const int count = std::min(pieces(s), kExtremeLooks);
-    bool complete = count == pieces(s);
-    const std::size_t channels = request_.extrema.size();
-    std::vector<std::vector<double>> values(channels, std::vector<double>(static_cast<std::size_t>(count) + 1));
-    const auto time = [&](int i) { return i == count ? s.to : s.from + (s.to - s.from) * i / count; };
-    for (int i = 0; i <= count; ++i) {
-        s.segment->value(time(i), y_.data());
-        eye_.look(time(i), y_.data());
-        for (std::size_t c = 0; c < channels; ++c)
-            values[c][static_cast<std::size_t>(i)] = eye_.value(request_.extrema[c]);
-    }
-    for (std::size_t c = 0; c < channels; ++c) {
-        Extremum& e = result_.extrema[c];
-        const auto offer = [&](double t, double v) {
-            if (v < e.min) {
-                e.min = v;
-                e.t_min = t;
-            }
-            if (v > e.max) {
-                e.max = v;
-                e.t_max = t;
-            }
-        };
-        const auto at = [&](double t) {
-            s.segment->value(t, y_.data());
-            eye_.look(t, y_.data());
-            return eye_.value(request_.extrema[c]);
-        };
-        for (int i = 0; i <= count; ++i) offer(time(i), values[c][static_cast<std::size_t>(i)]);
-        if (request_.extrema[c].kind == ChannelKind::energy_residual)  // largest near the nodes of a collocation
-            for (int k = 0; k < kNodes; ++k) {
-                const double t = s.from + Collocation::get().c[k] * (s.to - s.from);
-                offer(t, at(t));
-            }
-        complete = each_maximum(at, time, values[c].data(), count, e.max, vain_[2 * c], offer) && complete;
-        for (double& value : values[c]) value = -value;
-        double highest = -e.min;
-        const auto offer_lowest = [&](double t, double value) {
-            offer(t, -value);
-            highest = -e.min;
-        };
-        complete = each_maximum([&](double t) { return -at(t); }, time, values[c].data(), count, highest,
-                                vain_[2 * c + 1], offer_lowest) &&
-                   complete;
-    }
-    if (!complete) ++thinned_;
-}
-
-void Recorder::ledger() {
+void Recorder::note_balance() {
     const System::Books& books = eye_.books();
     largest_elastic_ = std::max(largest_elastic_, books.energies.elastic);
     result_.energy_scale = std::max({result_.energy_scale, books.energies.kinetic, books.energies.elastic});
     result_.energy_residual_max = std::max(result_.energy_residual_max, std::fabs(books.total() - start_total_));
+}
+
+// The energy balance where a step ends and, in contact, where only the dense output knows the force, inside it.
+void Recorder::ledger(const Stretch& s) {
+    const TouchSamples* samples = s.segment->touch();
+    for (const double share : {1.0 / 3, 2.0 / 3, 1.0}) {
+        if (share < 1 && (!impact_open_ || samples)) continue;
+        const double t = share < 1 ? s.from + share * (s.to - s.from) : s.to;
+        s.segment->value(t, y_.data());
+        eye_.look(t, y_.data());
+        if (samples && t == s.segment->t1) eye_.gap_is(samples->gap[TouchSamples::kCount - 1]);
+        note_balance();
+    }
 }
 
 void Recorder::stretch(const Stretch& s, Notes* made) {
@@ -626,24 +405,12 @@ void Recorder::stretch(const Stretch& s, Notes* made) {
     sample(s);
     contact_poses(s);
     if (s.to > s.from) {
-        turning_points(s);
-        eye_.system().search_again();
+        if (request_.turning_points) finder_->turning_points(s, result_.apexes, result_.theta_zero);
         contact_peaks(s);
-        eye_.system().search_again();
-        extrema(s);
+        finder_->step(s, result_.extrema);
     }
     eye_.system().search_again();
-    // In contact also inside the step, where only the dense output knows the force, unless nodes do.
-    for (const double share : {1.0 / 3, 2.0 / 3, 1.0}) {
-        if (share < 1 && (!impact_open_ || s.segment->touch())) continue;
-        const double t = share < 1 ? s.from + share * (s.to - s.from) : s.to;
-        s.segment->value(t, y_.data());
-        eye_.look(t, y_.data());
-        if (const TouchSamples* samples = s.segment->touch())
-            eye_.gap_is(t == s.segment->t1 ? samples->gap[TouchSamples::kCount - 1]
-                                           : Sampled(samples->t, samples->gap)(t));
-        ledger();
-    }
+    ledger(s);
     if (!made) return;
     made->turning_points = request_.turning_points;
     made->apexes.assign(result_.apexes.begin() + static_cast<std::ptrdiff_t>(apexes), result_.apexes.end());
@@ -662,14 +429,12 @@ void Recorder::stretch(const Stretch& s, const Notes& known) {
     sample(s);
     contact_poses(s);
     eye_.system().search_again();
-    extrema(s);
-    eye_.system().search_again();
+    finder_->step(s, result_.extrema);
     if (request_.turning_points && known.turning_points) {
         result_.apexes.insert(result_.apexes.end(), known.apexes.begin(), known.apexes.end());
         result_.theta_zero.insert(result_.theta_zero.end(), known.theta_zero.begin(), known.theta_zero.end());
-    } else {
-        turning_points(s);
-        eye_.system().search_again();
+    } else if (request_.turning_points) {
+        finder_->turning_points(s, result_.apexes, result_.theta_zero);
     }
     if (impact_open_) {
         result_.impacts.back().force_peak = known.force_peak;
@@ -748,6 +513,7 @@ void Recorder::finish(double t, const double* y, const Tally& tally) {
         result_.impacts.back().energy_lost -= eye_.books().contact;  // what is stored is not lost
         result_.collisions.back().energy_lost -= eye_.books().contact;
     }
+    finder_->finish(result_.extrema);
     // Channels that are undefined all along have no extrema.
     for (Extremum& e : result_.extrema)
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
@@ -760,7 +526,7 @@ void Recorder::finish(double t, const double* y, const Tally& tally) {
         if (steps > 0) result_.steps_by_method.emplace_back(by, steps);
     result_.beyond_model = bends_beyond(problem_, largest_elastic_);
     Tally all = tally;
-    all.fallbacks.thinned = thinned_;
+    all.fallbacks.searches = finder_->incomplete();
     result_.warnings = warnings(problem_, result_, all, largest_elastic_);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,9 @@ class Eye {
     Pose pose(int stations);
     System& system() { return system_; }
     const System::Books& books();
-    void gap_is(double gap);  // known at this instant: the books need no look at the contact
+    // Spare a look at the contact where it is known.
+    void gap_is(double gap);
+    void contact_is(const ContactState& contact);
     const ContactState& contact();
 
   private:
@@ -65,7 +68,7 @@ struct Fallbacks {
     long strikes = 0;      // taken as plastic because the step's error swallows the rebound
     long coarse = 0;       // steps whose vibration is faster than the looks for a touch resolve
     long left_behind = 0;  // resting starts on a turning cam without a motion along it
-    long thinned = 0;      // steps in which not every peak of a vibration was searched for an extremum
+    long searches = 0;     // for an extremum that ended before they were sure
     double gap = 0;        // largest distance from zero of the gap at an event, taken out of it from there on [m]
     Method method = Method::rk8;
 };
@@ -78,10 +81,14 @@ struct Tally {
     Fallbacks fallbacks;
 };
 
+class ExtremaFinder;
+
 // Records for one request, until its own end.
 class Recorder {
   public:
     Recorder(const System& system, const Request& request, double end);
+    Recorder(Recorder&&) noexcept;
+    ~Recorder();
 
     void begin(const Phase& phase, const std::vector<double>& y);
     void phase(const Phase& phase);
@@ -104,28 +111,20 @@ class Recorder {
     void refine_curves(const Stretch& s, const std::vector<std::size_t>& before);
     void merge_refined();
     void sample(const Stretch& s);
-    struct Turn {  // of the hub, and of the frame that the beam vibrates in
-        double angle, rate, frame, frame_rate;
-    };
-    Turn turn(const Stretch& s, double t);
-    static int quiet_pieces(const Turn& hub, const Stretch& s, double piece);
-    void turning_points(const Stretch& s);
     void contact_peaks(const Stretch& s);
     void contact_poses(const Stretch& s);
-    void extrema(const Stretch& s);
-    void ledger();
+    void ledger(const Stretch& s);
+    void note_balance();
     void settle(const double* y);
     template <class F>
     void sweep(const std::vector<double>& times, Cursor& cursor, const Stretch& s, F&& visit);
-    int pieces(const Stretch& s);
 
     Problem problem_;
     const Request& request_;
     Result result_;
     Eye eye_;
+    std::unique_ptr<ExtremaFinder> finder_;
     std::vector<double> y_;
-    long thinned_ = 0;        // steps whose extrema were searched for in part
-    std::vector<long> vain_;  // peaks looked into that were no extremes, of each channel's maximum and minimum
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     struct Refined {  // rows between the times of a table with a curve
         CurveRefiner refiner;

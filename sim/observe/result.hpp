@@ -73,7 +73,7 @@ struct Result {
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
     std::vector<Extremum> extrema;   // one per Request::extrema
-    double energy_residual_max = 0;  // [J]
+    double energy_residual_max = 0;  // at the ends of steps; an extremum of the channel is searched within them [J]
     double energy_scale = 0;         // [J]
     // With Request::horizon:
     std::optional<double> reproducible_until;       // the first loss, or the end [s]

@@ -95,11 +95,10 @@ void tell_fallbacks(const Problem& problem, const Result& result, const Tally& t
             fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
                         "fewer modes or tighten solver.rtol",
                         times(f.coarse, "step")));
-    if (f.thinned > 0)
-        out.push_back(fmt::format(
-            "in {} not every peak of the vibration was searched: a true extremum may lie slightly beyond the "
-            "one given; use fewer modes",
-            times(f.thinned, "step")));
+    if (f.searches > 0)
+        out.push_back(
+            fmt::format("extrema were not searched to the end in {}: the true ones may lie beyond those given",
+                        times(f.searches, "step")));
     if (f.gap > kToldGap * problem.beam.length)
         out.push_back(
             fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "

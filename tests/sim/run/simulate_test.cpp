@@ -685,22 +685,6 @@ TEST(Extrema, AreThoseOfAFineTable) {
     }
 }
 
-// A hundred samples of a step of many periods.
-TEST(Extrema, SearchedForInPartAreReported) {
-    const auto reported = [](int modes) {
-        Problem p;
-        p.beam.modes = modes;
-        Request request;
-        request.end_time = 0.1;
-        request.extrema = {channel("theta")};
-        return std::ranges::any_of(simulate(p, request).warnings, [](const std::string& w) {
-            return w.find("not every peak of the vibration was searched") != std::string::npos;
-        });
-    };
-    EXPECT_FALSE(reported(2));
-    EXPECT_TRUE(reported(40));
-}
-
 TEST(Extrema, OfTheEnergyBalanceAreFoundWithinSteps) {
     for (const Method method : {Method::automatic, Method::rk8}) {
         Problem p;

@@ -1,0 +1,418 @@
+#include "sim/observe/extrema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "sim/base/numerics.hpp"
+#include "sim/integrate/collocation.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNegligible = 1e-10;  // of the best value: what is not searched for
+// Intervals that a search looks into, at most: many times more than a sound step needs, so that a damaged one ends.
+constexpr double kLooksPerRadian = 32;
+constexpr double kFewestLooks = 4000, kMostLooks = 1e8;
+constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of steps: 32 MB
+
+struct Sample {
+    double t, value;
+};
+
+// The largest value of sign · f so far.
+struct Best {
+    double sign, value, t;
+    long looks = 0;  // that the search may still take
+    void offer(const Sample& s) {
+        if (!(sign * s.value > value)) return;
+        value = sign * s.value;
+        t = s.t;
+    }
+    double to_beat() const { return value + kNegligible * std::fabs(value); }
+};
+
+// The crest of sign · f near three samples, if the parabola through them promises a better value.
+template <class F>
+void climb_crest(const F& f, const Variation& variation, Sample a, Sample m, Sample b, Best& best) {
+    constexpr int kMost = 8;          // parabolas: each squares the distance from the crest, or halves the interval
+    constexpr double kInside = 0.02;  // of the interval: new points keep this distance from its ends
+    double error = variation.parabola_error(b.t - a.t);
+    for (int round = 0; round < kMost; ++round) {
+        const double left = best.sign * (m.value - a.value) / (m.t - a.t),
+                     right = best.sign * (b.value - m.value) / (b.t - m.t), bend = (left - right) / (b.t - a.t);
+        const double slope = (left * (b.t - m.t) + right * (m.t - a.t)) / (b.t - a.t);  // at m
+        if (!(bend > 0)) return;
+        const double margin = kInside * (b.t - a.t), step = 0.5 * slope / bend;
+        if (!(best.sign * m.value + 0.25 * slope * slope / bend + error > best.to_beat())) return;
+        const double t = std::clamp(m.t + step, a.t + margin, b.t - margin);
+        if (std::fabs(t - m.t) < 1e-9 * (b.t - a.t)) return;
+        const Sample next{t, f(t)};
+        best.offer(next);
+        const Sample first = t < m.t ? next : m, second = t < m.t ? m : next;
+        if (best.sign * first.value > best.sign * second.value)
+            std::tie(m, b) = std::pair{first, second};
+        else
+            std::tie(a, m) = std::pair{first, second};
+        error = std::min(error, variation.parabola_error(b.t - a.t));
+    }
+}
+
+template <class F>
+void climb(const F& f, const Variation& variation, const Sample& a, const Sample& b, Best& best) {
+    const double length = b.t - a.t, t = a.t + 0.5 * length;
+    const double high = std::max(best.sign * a.value, best.sign * b.value);
+    if (!(high + variation.rises(length, a.value - b.value) > best.to_beat()) || !(t > a.t && t < b.t)) return;
+    if (--best.looks < 0) return;
+    const Sample m{t, f(t)};
+    best.offer(m);
+    if (variation.unresolved(length) <= kNegligible * std::fabs(best.value)) {
+        climb_crest(f, variation, a, m, b, best);
+        return;
+    }
+    const bool left_first = best.sign * a.value > best.sign * b.value;
+    if (left_first) climb(f, variation, a, m, best);
+    climb(f, variation, m, b, best);
+    if (!left_first) climb(f, variation, a, m, best);
+}
+
+// Calls found(a, b) for intervals, in order, in which f changes its sign once, but for what is rounding.
+template <class F, class Found>
+void sign_changes(const F& f, const Variation& variation, double rounding, const Sample& a, const Sample& b,
+                  const Found& found) {
+    const double length = b.t - a.t, stray = variation.strays(length), t = a.t + 0.5 * length;
+    if (std::min(a.value, b.value) > stray || std::max(a.value, b.value) < -stray) return;
+    const bool monotone = std::fabs(b.value - a.value) > length * variation.slope_strays(length);
+    if (monotone || stray <= rounding || !(t > a.t && t < b.t)) {
+        if ((a.value > 0) != (b.value > 0)) found(a, b);
+        return;
+    }
+    const Sample m{t, f(t)};
+    sign_changes(f, variation, rounding, a, m, found);
+    sign_changes(f, variation, rounding, m, b, found);
+}
+
+double sample_time(const Stretch& s, std::size_t k) {
+    if (k == 0) return s.from;
+    if (k > kNodes) return s.to;
+    return s.from + Collocation::get().c[static_cast<int>(k) - 1] * (s.to - s.from);
+}
+
+bool is_separation(ChannelKind kind) {
+    return kind == ChannelKind::separation || kind == ChannelKind::separation_paper;
+}
+
+// Channels that cost much; at the ends of a step an estimate will do.
+bool is_estimated(ChannelKind kind) {
+    return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
+}
+
+bool needs_gap(ChannelKind kind) {
+    return kind == ChannelKind::energy_contact || kind == ChannelKind::energy_residual ||
+           kind == ChannelKind::loss_contact;
+}
+
+bool needs_contact(ChannelKind kind) {
+    return needs_gap(kind) || kind == ChannelKind::gap || kind == ChannelKind::contact_x ||
+           kind == ChannelKind::contact_s || kind == ChannelKind::contact_force || is_separation(kind);
+}
+
+}  // namespace
+
+void offer(Extremum& e, double t, double value) {
+    if (value < e.min) {
+        e.min = value;
+        e.t_min = t;
+    }
+    if (value > e.max) {
+        e.max = value;
+        e.t_max = t;
+    }
+}
+
+ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
+    : eye_(system),
+      probe_(eye_.system()),
+      modal_channels_(eye_.system()),
+      channels_(std::move(channels)),
+      y_(static_cast<std::size_t>(system.size)),
+      first_(channels_.size()),
+      last_(channels_.size()) {}
+
+void ExtremaFinder::set_phase(const Phase& phase) {
+    eye_.set_phase(phase);
+    last_time_ = bounded_from_ = -1;
+}
+
+void ExtremaFinder::begin(double start_energy, const double* y, std::vector<Extremum>& extrema) {
+    eye_.set_start_energy(start_energy);
+    eye_.look(0, y);
+    for (std::size_t c = 0; c < channels_.size(); ++c) offer(extrema[c], 0, eye_.value(channels_[c]));
+}
+
+// What is found must not depend on where the contact was looked for before.
+void ExtremaFinder::search_contact_again() {
+    eye_.system().search_again();
+    probe_.forget();
+}
+
+// Geometry and normal force: the probe costs less than a search of the whole beam.
+void ExtremaFinder::look_for_contact(double t) {
+    ContactState c = probe_.evaluate(t, y_.data(), false);
+    const System& system = eye_.system();
+    if (system.phase().touching) c.force = system.normal_law().force(-c.gap, -c.gap_rate, system.phase().approach);
+    eye_.contact_is(c);
+}
+
+double ExtremaFinder::evaluate(const Stretch& s, Channel channel, double t) {
+    s.segment->value(t, y_.data());
+    if (channel.kind == ChannelKind::q) return y_[static_cast<std::size_t>(channel.index)];
+    eye_.look(t, y_.data());
+    if (modal_ && eye_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
+    if (modal_ && eye_.system().phase().touching && needs_gap(channel.kind)) eye_.gap_is(eye_.contact().gap);
+    return eye_.value(channel);
+}
+
+void ExtremaFinder::evaluate_all(const Stretch& s, double t, std::vector<double>& values) {
+    s.segment->value(t, y_.data());
+    eye_.look(t, y_.data());
+    if (modal_ && eye_.system().has_cam()) {
+        const bool touching = eye_.system().phase().touching;
+        if (!touching || eye_.system().friction().kinetic == 0) look_for_contact(t);
+        if (touching) eye_.gap_is(eye_.contact().gap);
+    }
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (!modal_ || !is_estimated(channels_[c].kind))
+            values[c] = eye_.value(channels_[c]);
+        else if (!is_separation(channels_[c].kind))
+            values[c] = modal_channels_.tip(channels_[c].kind, y_.data());
+        else
+            values[c] = eye_.system().has_cam() ? 0 : kNan;  // only bounded
+    }
+}
+
+bool ExtremaFinder::set_bounds(const Stretch& s) {
+    if (bounded_from_ != s.from) modal_ = modal_channels_.set(*s.segment, s.from, s.to);
+    bounded_from_ = s.from;
+    search_contact_again();
+    return modal_;
+}
+
+void ExtremaFinder::step(const Stretch& s, std::vector<Extremum>& extrema) {
+    if (channels_.empty()) return;
+    if (!set_bounds(s)) {
+        last_time_ = -1;
+        search_now(s, extrema);
+        return;
+    }
+    if (last_time_ == s.from)
+        std::swap(first_, last_);
+    else
+        evaluate_all(s, s.from, first_);
+    evaluate_all(s, s.to, last_);
+    last_time_ = s.to;
+    std::shared_ptr<const KeptStep> kept;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (std::isnan(first_[c])) continue;
+        if (!is_estimated(channels_[c].kind)) {
+            offer(extrema[c], s.from, first_[c]);
+            offer(extrema[c], s.to, last_[c]);
+        }
+        const ModalChannels::Range range = modal_channels_.range(channels_[c], first_[c], last_[c]);
+        for (const double sign : {1.0, -1.0}) {
+            const Best best{sign, sign > 0 ? extrema[c].max : -extrema[c].min, 0};
+            const double high = sign > 0 ? range.high : -range.low;
+            if (high <= best.to_beat()) continue;
+            if (!kept) kept = keep(s);
+            candidates_.push_back({c, sign, high, kept});
+        }
+    }
+    if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
+}
+
+std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const Stretch& s) {
+    KeptStep step{eye_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}};
+    s.segment->numbers(step.numbers);
+    kept_numbers_ += step.numbers.size();
+    return std::make_shared<const KeptStep>(std::move(step));
+}
+
+void ExtremaFinder::finish(std::vector<Extremum>& extrema) { search_kept(extrema); }
+
+void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
+    std::ranges::stable_sort(candidates_, {},
+                             [](const Candidate& c) { return std::tuple(c.channel, c.sign, -c.high); });
+    const Phase phase = eye_.system().phase();
+    const KeptStep* loaded = nullptr;
+    if (!stored_ && !candidates_.empty())
+        stored_ = make_stored_segment(SegmentKind::exponential, eye_.system().problem());
+    for (const Candidate& candidate : candidates_) {
+        Extremum& e = extrema[candidate.channel];
+        const Best best{candidate.sign, candidate.sign > 0 ? e.max : -e.min, 0};
+        if (candidate.high <= best.to_beat()) continue;
+        const KeptStep& step = *candidate.step;
+        const Stretch s{stored_.get(), step.from, step.to, false};
+        if (loaded != &step) {
+            loaded = &step;
+            stored_->load(step.t0, step.t1, step.numbers);
+            set_phase(step.phase);
+            set_bounds(s);
+        }
+        const Channel channel = channels_[candidate.channel];
+        search(s, channel, candidate.sign, sample(s, channel), e);
+    }
+    candidates_.clear();
+    kept_numbers_ = 0;
+    set_phase(phase);
+}
+
+// Of a step that resolves all vibration: all channels are sampled at once.
+void ExtremaFinder::search_now(const Stretch& s, std::vector<Extremum>& extrema) {
+    std::vector<Values> values(channels_.size());
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        evaluate_all(s, sample_time(s, k), last_);
+        for (std::size_t c = 0; c < channels_.size(); ++c) values[c][k] = last_[c];
+    }
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (std::isnan(values[c][0])) continue;
+        for (const double sign : {1.0, -1.0}) search(s, channels_[c], sign, values[c], extrema[c]);
+    }
+}
+
+ExtremaFinder::Values ExtremaFinder::sample(const Stretch& s, Channel channel) {
+    Values values;
+    for (std::size_t k = 0; k < kSamples; ++k) values[k] = evaluate(s, channel, sample_time(s, k));
+    return values;
+}
+
+// The polynomial through the inner samples, what it misses at the ends, and vibrations that it does not resolve.
+Variation ExtremaFinder::variation(const Stretch& s, Channel channel, const Values& values) {
+    const double h = s.to - s.from;
+    Lanes nodes;
+    for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
+    Variation out;
+    out.add_polynomial(nodes, h);
+    double missed = 0;
+    for (const double end : {0.0, 1.0}) {
+        Lanes weights;
+        Collocation::get().values_at(end, weights);
+        missed = std::max(missed, std::fabs(sum(weights * nodes) - values[end == 0 ? 0 : kSamples - 1]));
+    }
+    out.add(2 * missed, kNodes * (kNodes + 1) / h);
+    if (modal_) modal_channels_.add_unresolved(channel, out);
+    return out;
+}
+
+// The arc on the disc begins anew at a mark; without that jump, as it is next to another.
+double ExtremaFinder::turn(double arc, double near) {
+    const double around = 2 * std::numbers::pi * eye_.system().problem().cam->radius;
+    return arc - around * std::round((arc - near) / around);
+}
+
+void ExtremaFinder::search(const Stretch& s, Channel channel, double sign, const Values& sampled, Extremum& e) {
+    const bool arc = channel.kind == ChannelKind::contact_s;
+    const auto f = [&](double t) {
+        const double value = evaluate(s, channel, t);
+        return arc ? turn(value, sampled[0]) : value;
+    };
+    Values values = sampled;
+    if (arc)
+        for (double& value : values) value = turn(value, sampled[0]);
+    const Variation strays = variation(s, channel, values);
+    const double before = sign > 0 ? e.max : -e.min;
+    const double radians = (s.to - s.from) * eye_.system().highest_frequency();
+    Best best{sign, before, s.from, static_cast<long>(std::min(kFewestLooks + kLooksPerRadian * radians, kMostLooks))};
+    for (std::size_t k = 0; k < kSamples; ++k) best.offer({sample_time(s, k), values[k]});
+    for (std::size_t k = 0; k + 1 < kSamples; ++k)
+        climb(f, strays, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]}, best);
+    if (best.looks < 0) ++incomplete_;
+    if (!(best.value > before)) return;
+    const double value = sign * best.value;
+    if (!arc ||
+        (value >= 0 && turn(value, 0) != 0 && value < 2 * std::numbers::pi * eye_.system().problem().cam->radius)) {
+        offer(e, best.t, value);
+        return;
+    }
+    // It passes the mark, where it is as small and as large as it can be.
+    const double around = 2 * std::numbers::pi * eye_.system().problem().cam->radius, mark = value < 0 ? 0 : around;
+    const auto past = [&](double t) { return f(t) - mark; };
+    const double t = find_root(past, std::min(s.from, best.t), std::max(s.from, best.t));
+    offer(e, t, 0);
+    offer(e, t, std::nextafter(around, 0.0));
+}
+
+void ExtremaFinder::contact_peaks(const Stretch& s, std::optional<double>& force, double& penetration) {
+    const bool modal = set_bounds(s);
+    Extremum of_force{0, s.from, force.value_or(0), s.from}, of_gap{-penetration, s.from, 0, s.from};
+    const auto promises = [&](ChannelKind kind, double sign, double best) {
+        if (!modal) return true;
+        const ModalChannels::Range range = modal_channels_.range({kind}, 0, 0);
+        return !((sign > 0 ? range.high : -range.low) <= Best{sign, best, 0}.to_beat());
+    };
+    const TouchSamples* touch = s.segment->touch();
+    const bool sampled = modal && touch && touch->t[0] == s.from && touch->t[kSamples - 1] == s.to;
+    const auto look = [&](ChannelKind kind, double sign, const auto& known, Extremum& e) {
+        if (!promises(kind, sign, sign > 0 ? e.max : -e.min)) return;
+        Values values;
+        if (sampled)
+            std::copy_n(known, kSamples, values.begin());
+        else
+            values = sample(s, {kind});
+        search(s, {kind}, sign, values, e);
+    };
+    if (eye_.system().phase().touching)
+        look(ChannelKind::contact_force, 1, touch ? &touch->force[0] : nullptr, of_force);
+    look(ChannelKind::gap, -1, touch ? &touch->gap[0] : nullptr, of_gap);
+    force = of_force.max;
+    penetration = -of_gap.min;
+}
+
+// ---- turning points -------------------------------------------------------------------------------
+
+template <class F, class Found>
+void ExtremaFinder::each_sign_change(const Stretch& s, Channel channel, double scale, F&& f, Found&& found) {
+    constexpr double kRounding = 1e-14;  // of the sum of magnitudes
+    Values values;
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        values[k] = f(sample_time(s, k));
+        scale = std::max(scale, std::fabs(values[k]));
+    }
+    const double rounding = kRounding * scale;
+    const Variation strays = variation(s, channel, values);
+    for (std::size_t k = 0; k + 1 < kSamples; ++k)
+        sign_changes(f, strays, rounding, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]},
+                     found);
+}
+
+void ExtremaFinder::turning_points(const Stretch& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero) {
+    const MotionBounds* motion = s.segment->bounds();
+    const bool may_turn = !motion || (motion->rate_low <= 0 && motion->rate_high >= 0),
+               may_cross = !motion || (motion->angle_low <= 0 && motion->angle_high >= 0);
+    if (!may_turn && !may_cross) return;
+    set_bounds(s);
+    const auto model = [&](double t) -> const Model& {
+        s.segment->value(t, y_.data());
+        eye_.system().place(t, y_.data());
+        return eye_.system().model();
+    };
+    const auto angle = [&](double t) { return model(t).hub_angle(); };
+    const auto rate = [&](double t) { return model(t).hub_rate(); };
+    const auto apex = [&](const Sample& a, const Sample& b) {
+        if (!(a.value > 0)) return;
+        const double t = find_root(rate, a.t, b.t, a.value, b.value);
+        apexes.push_back({t, angle(t)});
+    };
+    const auto zero = [&](const Sample& a, const Sample& b) {
+        if (a.value == 0) return;
+        const double t = find_root(angle, a.t, b.t, a.value, b.value);
+        theta_zero.push_back({t, rate(t)});
+    };
+    if (may_turn)
+        each_sign_change(s, {ChannelKind::theta_dot}, motion ? motion->spin + motion->ripple_rate : 0, rate, apex);
+    if (may_cross) each_sign_change(s, {ChannelKind::theta}, motion ? motion->ripple : 0, angle, zero);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,84 @@
+// Where channels are largest and smallest, and where the hub turns back: branch and bound over one step after another.
+// Two values and a bound of how far the channel strays from the line between them (Variation) tell whether an interval
+// can beat the best value so far; if so, it is halved until a parabola is as good as the channel. MODEL.md §12, (S59).
+//
+// Bounds come from the polynomial through ten values in a step and from the vibrations that it does not
+// resolve (ModalChannels). Steps of many modes that may hold an extremum are kept, and searched when the run is over,
+// the most promising first: by then most of them are beaten without a look.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/integrate/gap_probe.hpp"
+#include "sim/observe/modal_channels.hpp"
+#include "sim/observe/observe.hpp"
+
+namespace beamcam::sim {
+
+void offer(Extremum& e, double t, double value);
+
+class ExtremaFinder {
+  public:
+    ExtremaFinder(const System& system, std::vector<Channel> channels);
+
+    void set_phase(const Phase& phase);
+    // The values at the start of the run, in the first phase.
+    void begin(double start_energy, const double* y, std::vector<Extremum>& extrema);
+    // Searches one step, or keeps it for `finish`.
+    void step(const Stretch& s, std::vector<Extremum>& extrema);
+    void finish(std::vector<Extremum>& extrema);
+    // Searches that ended before they were sure.
+    long incomplete() const { return incomplete_; }
+    // Raises the two to the largest normal force and penetration within the step.
+    void contact_peaks(const Stretch& s, std::optional<double>& force, double& penetration);
+    // Appends maxima and zeros of θ, in the order of time.
+    void turning_points(const Stretch& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero);
+
+  private:
+    static constexpr std::size_t kSamples = kNodes + 2;  // the ends and the Gauss nodes
+    using Values = std::array<double, kSamples>;
+    struct KeptStep {
+        Phase phase;
+        double from, to, t0, t1;
+        std::vector<double> numbers;
+    };
+    struct Candidate {
+        std::size_t channel;
+        double sign, high;  // `high`: bound of sign times the channel
+        std::shared_ptr<const KeptStep> step;
+    };
+
+    double evaluate(const Stretch& s, Channel channel, double t);
+    void search_contact_again();
+    void look_for_contact(double t);
+    void evaluate_all(const Stretch& s, double t, std::vector<double>& values);
+    std::shared_ptr<const KeptStep> keep(const Stretch& s);
+    void search_kept(std::vector<Extremum>& extrema);
+    void search_now(const Stretch& s, std::vector<Extremum>& extrema);
+    void search(const Stretch& s, Channel channel, double sign, const Values& values, Extremum& e);
+    Values sample(const Stretch& s, Channel channel);
+    Variation variation(const Stretch& s, Channel channel, const Values& values);
+    bool set_bounds(const Stretch& s);
+    double turn(double arc, double near);
+    template <class F, class Found>
+    void each_sign_change(const Stretch& s, Channel channel, double scale, F&& f, Found&& found);
+
+    Eye eye_;
+    GapProbe probe_;
+    ModalChannels modal_channels_;
+    std::vector<Channel> channels_;
+    std::vector<double> y_, first_, last_;  // state; all channels at the ends of the step
+    double last_time_ = -1;                 // of `last_`, while the phase lasts
+    bool modal_ = false;                    // `modal_channels_` bounds the present step
+    double bounded_from_ = -1;              // its start
+    long incomplete_ = 0;
+
+    std::vector<Candidate> candidates_;
+    std::size_t kept_numbers_ = 0;
+    std::unique_ptr<StoredSegment> stored_;
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,323 @@
+#include "sim/observe/modal_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/beam/modal_model.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNearlyStraight = 2;  // a bent beam moves the contact by at most this times what a straight one does
+constexpr double kMixed = 3;           // products of up to three modes vibrate no faster than this times the fastest
+constexpr double kApart = 0.2;         // of the step: no instant is farther from a node than half of this
+constexpr double kResolved = 2;        // [rad] within a step: a polynomial of degree 7 follows to 10⁻⁷
+
+bool touches(ChannelKind kind) {
+    return kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || kind == ChannelKind::gap ||
+           kind == ChannelKind::energy_contact;
+}
+
+}  // namespace
+
+ModalChannels::ModalChannels(System& system) : system_(system) {
+    const auto* model = dynamic_cast<const ModalModel*>(&system.model());
+    if (!model) return;
+    const ModalMatrices& m = model->matrices();
+    const double radius = std::fabs(system.problem().hub.radius);
+    length_ = model->length();
+    reach_ = radius + length_;
+    mass_ = model->mass();
+    inertia_ = m.J;
+    lever_ = std::fabs(m.S);
+    gravity_ = std::fabs(system.problem().gravity);
+    if (system.has_cam()) {
+        const Cam& cam = *system.problem().cam;
+        cam_radius_ = cam.radius;
+        cam_speed_ = std::fabs(cam.speed);
+        disc_speed_ = cam.eccentricity * cam_speed_;
+        friction_ = std::max(system.friction().kinetic, system.friction().limit);
+    }
+    const int n = model->size() - 1;
+    double tip[kMaxModes], root[kMaxModes];
+    if (n > 0) {
+        model->shapes().evaluate(length_, tip, nullptr, nullptr);
+        model->shapes().evaluate(0, root, nullptr, nullptr);
+    }
+    for (int i = 0; i < n; ++i) {
+        const std::size_t mode = static_cast<std::size_t>(i);
+        const double shape = system.gap_bound().shape_bound(mode);
+        modes_.push_back({std::fabs(m.slope[i]), tip[i] - root[i] - length_ * m.slope[i], std::fabs(m.U[i]),
+                          std::fabs(m.W[i]), m.K[i], std::sqrt(m.M(i, i)) + std::sqrt(m.D(i, i)), std::sqrt(m.G(i, i)),
+                          shape, shape * system.gap_bound().wave_number(mode), model->frequency(i)});
+    }
+}
+
+bool ModalChannels::set(const Segment& segment, double from, double to) {
+    bounds_ = segment.modal_bounds();
+    motion_ = segment.bounds();
+    touch_ = segment.touch();
+    if (!bounds_ || (system_.phase().touching && !touch_)) return false;
+    from_ = from;
+    to_ = to;
+    balance_error_ = segment.balance_error();
+    deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
+    hub_acceleration_ = motion_->spin_acceleration;
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const double amplitude = bounds_->modes[i].amplitude;
+        deflection_ += modes_[i].shape * amplitude;
+        inclination_ += modes_[i].slope * amplitude;
+        alpha_ += modes_[i].h * amplitude;
+        inertia_root_ += modes_[i].inertia * amplitude;
+        weight_root_ += modes_[i].weight * amplitude;
+        hub_acceleration_ += modes_[i].h * bounds_->modes[i].acceleration;
+    }
+    const DriveLaw& drive = system_.drive();
+    torque_ = drive.has_torque() ? std::max(std::fabs(drive.torque(from)), std::fabs(drive.torque(to))) : 0;
+    if (!system_.has_cam()) return true;
+    const double speed = motion_->spin * reach_ + disc_speed_;
+    place_contact();
+    foot_speed_ = kNearlyStraight * (speed + motion_->spin * away_);
+    slide_ = foot_speed_ + kNearlyStraight * (motion_->slope_speed * away_ + motion_->deflection_speed);
+    if (touch_) set_contact();
+    return true;
+}
+
+// How far the disc's centre is from the beam, and the contact from the root: of a straight beam, and by bending.
+void ModalChannels::place_contact() {
+    const double angle = 0.5 * (motion_->angle_low + motion_->angle_high),
+                 turn = 0.5 * (motion_->angle_high - motion_->angle_low), h = to_ - from_;
+    const Vec2 disc = system_.cam(from_).disc, along = unit(angle);
+    const double root = system_.problem().hub.radius, foot = dot(disc, along),
+                 on_beam = std::clamp(foot, root, root + length_), moved = disc_speed_ * h;
+    away_ = norm(disc - on_beam * along) + turn * reach_ + moved + deflection_;
+    const double bent = kNearlyStraight * (inclination_ * away_ + deflection_ * inclination_);
+    arm_ = std::min(length_, std::max(0.0, foot - root) + turn * norm(disc) + moved + bent) + deflection_;
+}
+
+// The law is convex in the penetration and linear in its rate: its slopes just beyond the deepest and fastest point are
+// the largest.
+void ModalChannels::set_contact() {
+    double depth = 0, rate = 0;
+    for (int k = 0; k < TouchSamples::kCount; ++k) {
+        depth = std::max(depth, std::fabs(touch_->gap[k]));
+        rate = std::max(rate, std::fabs(touch_->gap_rate[k]));
+    }
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const double omega = modes_[i].omega;
+        if (!(omega * (to_ - from_) > kResolved)) continue;
+        depth += modes_[i].shape * swing(i);
+        rate += (modes_[i].shape * omega + modes_[i].slope * slide_) * swing(i);
+    }
+    const double more = 1e-3 * depth;
+    const auto force = [&](double d, double v) { return system_.normal_law().force(d, v, system_.phase().approach); };
+    force_ = force(depth, rate);
+    force_per_depth_ = more > 0 ? (force(depth + more, rate) - force_) / more : 0;
+    force_per_rate_ = rate > 0 ? (force_ - force(depth, 0)) / rate : 0;
+}
+
+double ModalChannels::tip(ChannelKind kind, const double* y) const {
+    const double* x = kind == ChannelKind::tip_rate ? y + 2 + modes_.size() : y + 1;
+    double total = 0;
+    for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].tip * x[i];
+    return total;
+}
+
+// |∂c/∂q_i|, |∂c/∂q̇_i|, |∂c/∂q̈_i|
+ModalChannels::Sensitivity ModalChannels::sensitivity(Channel channel, std::size_t i) const {
+    const Mode& m = modes_[i];
+    const ModalBounds::Mode& b = bounds_->modes[i];
+    const double spin = motion_->spin, turning = spin * m.inertia * inertia_root_ * b.amplitude;
+    // Of the contact's place: a slope turns the normal, which meets the disc's centre `away_`.
+    const double foot = kNearlyStraight * (m.slope * away_ + m.shape * inclination_);
+    const double shift = m.slope / m.shape * slide_;
+    // −(L + Δu) sin α + Δv cos α: what is not linear is of third order.
+    const double third =
+        length_ * alpha_ * alpha_ / 6 + 0.5 * length_ * inclination_ * inclination_ + 0.5 * deflection_ * alpha_;
+    const double pull = 1.5 * gravity_ / length_;
+    switch (channel.kind) {
+        case ChannelKind::q:
+            return {.q = 1};
+        case ChannelKind::theta:
+            return {.q = m.h};
+        case ChannelKind::theta_dot:  // Θ̇ = p/(J + qᵀBq)
+            return {.rate = m.h, .mixed = 2 * turning / inertia_};
+        case ChannelKind::tip_deflection:
+            return {.q = std::fabs(m.tip), .mixed = 3 * third * m.h * b.amplitude};
+        case ChannelKind::tip_rate:
+            return {.rate = std::fabs(m.tip), .mixed = 9 * third * m.h * b.rate};
+        case ChannelKind::gap:
+            return {.q = m.shape, .shift = shift};
+        case ChannelKind::contact_x:
+            return {.q = foot, .shift = shift};
+        case ChannelKind::contact_s:
+            return {.q = cam_radius_ * m.slope + m.shape, .shift = shift};
+        case ChannelKind::contact_force:
+            return {.q = force_per_depth_ * m.shape + force_per_rate_ * m.slope * slide_,
+                    .rate = force_per_rate_ * m.shape,
+                    .shift = shift};
+        case ChannelKind::friction_force: {
+            Sensitivity s = sensitivity({ChannelKind::contact_force}, i);
+            s.q *= friction_;
+            s.rate *= friction_;
+            return s;
+        }
+        case ChannelKind::energy_contact:
+            return {.q = force_ * m.shape, .shift = shift};
+        case ChannelKind::energy_kinetic:
+            return {.rate = spin * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + spin * turning};
+        case ChannelKind::energy_potential:
+            return {.q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * spin};
+        case ChannelKind::energy_elastic:
+            return {.mixed = 0.25 * m.stiffness * b.amplitude * b.amplitude};
+        case ChannelKind::work_drive:  // (S55)
+            if (!system_.drive().prescribed()) return {.q = torque_ * m.h};
+            return {.q = m.U * motion_->spin_acceleration, .rate = 2 * spin * m.U, .mixed = 2 * spin * turning};
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper:  // (S41)
+            return {.acceleration = m.h * arm_,
+                    .mixed = ((hub_acceleration_ + pull) * foot + pull * arm_ * m.h) * b.amplitude};
+        case ChannelKind::t:
+        case ChannelKind::cam_angle:
+        case ChannelKind::loss_structural:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+        case ChannelKind::work_cam:
+        case ChannelKind::energy_residual:
+            break;
+    }
+    return {};
+}
+
+// Bound of |dc/dt| with the modes at rest; zero where the channel is monotone.
+double ModalChannels::drift(ChannelKind kind) const {
+    const double spin = motion_->spin, acceleration = motion_->spin_acceleration;
+    switch (kind) {
+        case ChannelKind::theta:
+            return spin;
+        case ChannelKind::theta_dot:
+            return acceleration;
+        case ChannelKind::gap:
+            return spin * reach_ + disc_speed_;
+        case ChannelKind::contact_x:
+            return foot_speed_;
+        case ChannelKind::contact_s:
+            return cam_radius_ * (spin + cam_speed_) + spin * reach_ + disc_speed_;
+        case ChannelKind::energy_kinetic:
+            return inertia_ * spin * acceleration;
+        case ChannelKind::energy_potential:
+            return gravity_ * lever_ * spin;
+        case ChannelKind::work_cam:
+            return bounds_->power_cam;
+        case ChannelKind::work_drive:
+            return bounds_->power_drive + (system_.drive().prescribed() ? 2 * inertia_ * spin * acceleration : 0);
+        default:
+            return 0;
+    }
+}
+
+template <class Visit>
+void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
+    const bool one = channel.kind == ChannelKind::q;
+    const std::size_t first = one ? static_cast<std::size_t>(channel.index) - 1 : 0,
+                      last = one ? first + 1 : modes_.size();
+    for (std::size_t i = first; i < last; ++i) visit(sensitivity(channel, i), i);
+}
+
+template <class Visit>
+void ModalChannels::each_vibration(Channel channel, Visit&& visit) const {
+    each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
+        const ModalBounds::Mode& b = bounds_->modes[i];
+        visit(s.q * b.amplitude, b.q_frequency + s.shift);
+        visit(s.rate * b.rate, b.rate_frequency + s.shift);
+        visit(s.mixed, kMixed * std::max(b.q_frequency, b.rate_frequency));
+    });
+}
+
+// Bound of the oscillation x = −(q̈ + 2γq̇)/ω² about f/ω²; the latter is a polynomial.
+double ModalChannels::swing(std::size_t i) const {
+    const double omega = modes_[i].omega, amplitude = bounds_->modes[i].amplitude;
+    return omega > 0 ? std::min(2 * amplitude, bounds_->modes[i].acceleration / (omega * omega)) : amplitude;
+}
+
+// Products of modes swing by what each of them swings, as a share of it.
+void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
+    constexpr double kShare = 4;
+    if (touches(channel.kind) && channel.kind != ChannelKind::gap && !touch_) return;
+    const auto add = [&](double amplitude, double frequency) {
+        if (frequency * (to_ - from_) > kResolved) out.add(amplitude, frequency);
+    };
+    each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
+        const ModalBounds::Mode& b = bounds_->modes[i];
+        const double omega = modes_[i].omega, x = swing(i);
+        const bool swings = kShare * x < b.amplitude && kShare * omega * x < b.rate;
+        const double share = swings ? kShare * std::max(x / b.amplitude, omega * x / b.rate) : 1;
+        add(s.q * x, omega + s.shift);
+        add(s.q * b.amplitude, s.shift);
+        add(s.rate * omega * x, omega + s.shift);
+        add(s.acceleration * b.acceleration, omega);
+        add(s.mixed * share, kMixed * omega);
+    });
+}
+
+ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
+    const double h = to_ - from_;
+    if (channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper) {
+        const double most = arm_ * (hub_acceleration_ + 1.5 * gravity_ / length_);
+        return {-most, most};
+    }
+    if (channel.kind == ChannelKind::energy_residual)
+        return {std::min(first, last) - balance_error_, std::max(first, last) + balance_error_};
+    if (touch_ && touches(channel.kind)) return contact_range(channel);
+    if (touches(channel.kind) && channel.kind != ChannelKind::gap) return {0, 0};
+    double stray = 0.5 * drift(channel.kind) * h;
+    if (channel.kind == ChannelKind::tip_deflection || channel.kind == ChannelKind::tip_rate)
+        for (std::size_t i = 0; i < modes_.size(); ++i) stray += sensitivity(channel, i).mixed;  // not in `tip`
+    each_vibration(channel, [&](double amplitude, double frequency) {
+        const double radians = frequency * h;
+        stray += amplitude * std::min(2.0, radians * radians / 8);
+    });
+    Range range{std::min(first, last) - stray, std::max(first, last) + stray};
+    if (channel.kind == ChannelKind::q) {
+        const ModalBounds::Mode& mode = bounds_->modes[static_cast<std::size_t>(channel.index) - 1];
+        range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
+    }
+    if (channel.kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
+    // The arc begins anew at the mark on the disc.
+    const double around = 2 * std::numbers::pi * cam_radius_;
+    if (channel.kind == ChannelKind::contact_s &&
+        (range.low < 0 || range.high > around || range.high - range.low > 0.5 * around))
+        return {-kInfinity, kInfinity};
+    return range;
+}
+
+double ModalChannels::contact_value(ChannelKind kind, int k) const {
+    if (kind == ChannelKind::gap) return touch_->gap[k];
+    if (kind == ChannelKind::energy_contact) return system_.normal_law().stored_energy(-touch_->gap[k]);
+    return touch_->force[k];
+}
+
+// From the values at the nodes.
+ModalChannels::Range ModalChannels::contact_range(Channel channel) const {
+    Variation variation;
+    Lanes nodes;
+    for (int k = 0; k < kNodes; ++k) nodes[k] = contact_value(channel.kind, k + 1);
+    variation.add_polynomial(nodes, bounds_->h);
+    add_unresolved(channel, variation);
+    Range range{kInfinity, -kInfinity};
+    for (int k = 0; k < TouchSamples::kCount; ++k) {
+        const double value = contact_value(channel.kind, k);
+        range = {std::min(range.low, value), std::max(range.high, value)};
+    }
+    const double stray = variation.strays(kApart * bounds_->h);
+    if (channel.kind == ChannelKind::friction_force) {
+        const double most = friction_ * (range.high + stray);
+        return {-most, most};
+    }
+    return {range.low - stray, range.high + stray};
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,71 @@
+// How each channel depends on the modes within one step: bounds of |∂c/∂q|, |∂c/∂q̇| and |∂c/∂q̈|, which turn the
+// bounds of each mode (ModalBounds) into vibrations of the channel; and how fast the channel changes besides. For the
+// modal models. MODEL.md §12, (S59).
+#pragma once
+
+#include <vector>
+
+#include "sim/dynamics/system.hpp"
+#include "sim/integrate/integrator.hpp"
+#include "sim/observe/channels.hpp"
+#include "sim/observe/variation.hpp"
+
+namespace beamcam::sim {
+
+class ModalChannels {
+  public:
+    explicit ModalChannels(System& system);  // which must outlive it
+
+    // The part [from, to] of a step of that system in its present phase. False when the step bounds no modes.
+    bool set(const Segment& segment, double from, double to);
+
+    struct Range {
+        double low, high;
+    };
+    // The tip's deflection or its rate in the state y, but for what is not linear in the modes.
+    double tip(ChannelKind kind, const double* y) const;
+    // Of a channel within that part, from its values at the ends.
+    Range range(Channel channel, double first, double last) const;
+    // Vibrations that a polynomial of degree 7 over that part does not resolve.
+    void add_unresolved(Channel channel, Variation& out) const;
+
+  private:
+    // To one mode. `mixed`: what products of modes contribute; `shift`: how fast the factor of q itself turns [rad/s].
+    struct Sensitivity {
+        double q = 0, rate = 0, acceleration = 0, mixed = 0, shift = 0;
+    };
+    struct Mode {  // weights that do not change
+        double h, tip, U, W, stiffness, inertia, weight, shape, slope, omega;
+    };
+    Sensitivity sensitivity(Channel channel, std::size_t i) const;
+    double swing(std::size_t i) const;
+    double drift(ChannelKind kind) const;
+    template <class Visit>
+    void each_mode(Channel channel, Visit&& visit) const;
+    template <class Visit>
+    void each_vibration(Channel channel, Visit&& visit) const;
+    void place_contact();
+    void set_contact();
+    Range contact_range(Channel channel) const;
+    double contact_value(ChannelKind kind, int sample) const;
+
+    System& system_;
+    std::vector<Mode> modes_;
+    double reach_ = 0, length_ = 0, mass_ = 0, inertia_ = 0, lever_ = 0, gravity_ = 0;
+    double friction_ = 0, cam_radius_ = 0, cam_speed_ = 0, disc_speed_ = 0;
+
+    // Of the step.
+    const ModalBounds* bounds_ = nullptr;
+    const MotionBounds* motion_ = nullptr;
+    const TouchSamples* touch_ = nullptr;
+    double from_ = 0, to_ = 0, balance_error_ = 0;
+    double deflection_ = 0, inclination_ = 0, alpha_ = 0;  // bounds of |v|, |v′|, |α|
+    double inertia_root_ = 0, weight_root_ = 0;            // of √|qᵀBq|, √|qᵀGq|
+    double hub_acceleration_ = 0;                          // of |θ̈|
+    double arm_ = 0;                                       // of the contact's distance from the root
+    double away_ = 0;                                      // of the distance from the disc's centre to the beam
+    double foot_speed_ = 0, slide_ = 0;  // of the contact along a straight beam, and along the bent one
+    double torque_ = 0, force_ = 0, force_per_depth_ = 0, force_per_rate_ = 0;
+};
+
+}  // namespace beamcam::sim

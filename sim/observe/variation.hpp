@@ -1,0 +1,35 @@
+// How far a function strays from the straight line between two of its values: f = line + Σ f_k with |f_k| ≤ a_k and
+// |f_k″| ≤ a_k ω_k². Over an interval of length ℓ a slow part strays by at most a(ωℓ)²/8, a fast one by 2a. (S59)
+#pragma once
+
+#include <vector>
+
+#include "sim/base/lanes.hpp"
+
+namespace beamcam::sim {
+
+class Variation {
+  public:
+    // A vibration with these bounds; the frequency in rad/s.
+    void add(double amplitude, double frequency);
+    // The polynomial through values at the Gauss nodes of an interval of length h; its linear part does not stray.
+    void add_polynomial(const Lanes& nodes, double h);
+
+    double strays(double length) const;
+    // The same of f′ from the slope of the line.
+    double slope_strays(double length) const;
+    // How far f may rise above the higher of its values at the ends, which differ by `difference`.
+    double rises(double length, double difference) const;
+    // How far f may be from the parabola through its values at both ends and in the middle.
+    double parabola_error(double length) const;
+    // What all vibrations that turn by more than one radian contribute.
+    double unresolved(double length) const;
+
+  private:
+    struct Vibration {
+        double amplitude, frequency;
+    };
+    std::vector<Vibration> vibrations_;
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,165 @@
+// Extrema, peaks of contact and the error of the energy balance against dense sampling of the same motion.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/observe/trajectory.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+using namespace testing;
+
+constexpr double kShare = 1e-9;  // of the largest magnitude: the search leaves out ten times less
+
+std::vector<double> instants(double from, double to, int count) {
+    std::vector<double> times;
+    for (int k = 0; k <= count; ++k) times.push_back(from + (to - from) * k / count);
+    return times;
+}
+
+std::vector<Channel> searched_channels(const Problem& problem) {
+    std::vector<Channel> channels = all_channels(problem);
+    std::erase_if(channels, [](Channel c) { return c.kind == ChannelKind::energy_residual; });
+    return channels;
+}
+
+Table sampled(const Problem& problem, const std::vector<Channel>& channels, std::vector<double> times) {
+    Request request;
+    request.turning_points = false;
+    request.tables.push_back({std::move(times), channels});
+    return simulate(problem, request).tables.front();
+}
+
+// Samples never exceed an extremum, and near its instant they reach it.
+void expect_true_extrema(const Problem& problem, double end, int count) {
+    const std::vector<Channel> channels = searched_channels(problem);
+    Request request;
+    request.end_time = end;
+    request.extrema = channels;
+    const Result found = simulate(problem, request);
+    const Table dense = sampled(problem, channels, instants(0, end, count));
+    std::vector<double> own;  // where the extrema are said to be
+    for (const Extremum& e : found.extrema)
+        for (const double t : {e.t_min, e.t_max}) own.push_back(t);
+    const Table there = sampled(problem, channels, own);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const Extremum& e = found.extrema[c];
+        const auto [low, high] = std::ranges::minmax(dense.values[c]);
+        // What should be zero is rounding.
+        const double share = kShare * std::max({std::fabs(e.min), std::fabs(e.max), 1e-6});
+        EXPECT_GE(low, e.min - share) << name(channels[c]) << " at " << e.t_min << " of " << e.min;
+        EXPECT_LE(high, e.max + share) << name(channels[c]) << " at " << e.t_max << " of " << e.max;
+        const double at_min = there.values[c][2 * c], at_max = there.values[c][2 * c + 1];
+        if (channels[c].kind == ChannelKind::contact_s) continue;  // jumps at the mark on the disc
+        EXPECT_NEAR(at_min, e.min, share) << name(channels[c]) << " at " << e.t_min;
+        EXPECT_NEAR(at_max, e.max, share) << name(channels[c]) << " at " << e.t_max;
+    }
+}
+
+Problem turning_cam(ModelKind model, int modes, double speed = 10) {
+    Problem p;
+    p.beam.model = model;
+    p.beam.modes = modes;
+    p.cam->speed = speed;
+    return p;
+}
+
+TEST(Extrema, OfTwoModesExceedEverySample) {
+    expect_true_extrema(turning_cam(ModelKind::first_order, 2), 0.5, 200'000);
+}
+
+TEST(Extrema, OfEightModesExceedEverySample) {
+    expect_true_extrema(turning_cam(ModelKind::first_order, 8), 0.4, 100'000);
+}
+
+TEST(Extrema, OfFortyModesExceedEverySample) {
+    expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 60'000);
+}
+
+TEST(Extrema, OfARigidBeamExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::rigid, 2), 0.5, 100'000); }
+
+TEST(Extrema, OfADampedBeamExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 6);
+    p.beam.damping_ratio = {0.01};
+    expect_true_extrema(p, 0.5, 200'000);
+}
+
+TEST(Extrema, OfThePapersModelExceedEverySample) {
+    expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 200'000);
+}
+
+TEST(Extrema, OfTheSecondOrderModelExceedEverySample) {
+    expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 100'000);
+}
+
+TEST(Extrema, OfTheExactModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::exact, 2), 0.35, 50'000); }
+
+TEST(Extrema, OfClampedShapesExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 3);
+    p.beam.basis = Basis::cantilever;
+    expect_true_extrema(p, 0.4, 100'000);
+}
+
+TEST(Extrema, OfOtherMethodsExceedEverySample) {
+    for (const Method method : {Method::rk8, Method::cvode_adams, Method::cvode_bdf}) {
+        Problem p = turning_cam(ModelKind::first_order, 2);
+        p.solver.method = method;
+        SCOPED_TRACE(name(method));
+        expect_true_extrema(p, 0.4, 50'000);
+    }
+}
+
+// Its sixth impact has neighbouring local maxima of the force.
+Problem six_impacts() {
+    Problem p;
+    p.hub.radius = 0.1;
+    p.beam.modes = 6;
+    p.cam->centre = {0.36030778472619396, -0.05185487813803117};
+    p.cam->radius = 0.09852167861119288;
+    p.cam->eccentricity = 0.01944668691081597;
+    p.cam->speed = 10.651245072893802;
+    p.cam->phase = 2.8970932986672304;
+    p.contact.stiffness = 7424492848.708854;
+    p.contact.damping = DampingLaw::none;
+    p.initial.angle = 0.7362831534330934;
+    p.initial.angular_velocity = -0.6994435681443056;
+    return p;
+}
+
+TEST(ContactPeaks, AreThoseOfDenseSampling) {
+    const Problem p = six_impacts();
+    const Result r = run(p, 0.29);
+    ASSERT_GE(r.impacts.size(), 6u);
+    EXPECT_NEAR(*r.impacts[5].force_peak, 1237.51, 0.01);  // a neighbour is 1237.4922
+    for (const Impact& impact : r.impacts) {
+        const Table dense = sampled(p, {channel("contact_force"), channel("gap")},
+                                    instants(impact.t_start, impact.t_end.value_or(0.29), 20'000));
+        const double force = std::ranges::max(dense.values[0]), depth = -std::ranges::min(dense.values[1]);
+        EXPECT_LE(force, *impact.force_peak * (1 + kShare)) << impact.t_start;
+        EXPECT_LE(depth, impact.penetration_peak * (1 + kShare)) << impact.t_start;
+        EXPECT_NEAR(force, *impact.force_peak, 2e-6 * force) << impact.t_start;
+        EXPECT_NEAR(depth, impact.penetration_peak, 2e-6 * depth) << impact.t_start;
+    }
+}
+
+TEST(EnergyBalance, IsWatchedWithinSteps) {
+    for (const int modes : {2, 6}) {
+        for (const Method method : {Method::automatic, Method::rk8}) {
+            Problem p = turning_cam(ModelKind::first_order, modes);
+            p.solver.method = method;
+            Request request;
+            request.end_time = 0.5;
+            request.extrema = {channel("energy_residual")};
+            const Result r = simulate(p, request);
+            const Table dense = sampled(p, {channel("energy_residual")}, instants(0, 0.5, 100'000));
+            double largest = 0;
+            for (const double value : dense.values[0]) largest = std::max(largest, std::fabs(value));
+            // Its place is known to 1/64 of a step, and it is flat there.
+            EXPECT_GE(std::max(r.extrema[0].max, -r.extrema[0].min), 0.998 * largest) << modes << " " << name(method);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::sim
