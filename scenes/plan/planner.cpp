@@ -6,7 +6,7 @@
 
 #include "scenes/motions/motions.hpp"
 #include "scenes/plan/picture_times.hpp"
-#include "sim/observe/observe.hpp"
+#include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -266,10 +266,10 @@ void System::acceleration(double t, const double* y, double* acc) {
     std::copy_n(dy + n_, n_, acc);
 }
 
-System::Books System::open_books(double t, const double* y) {
+System::EnergyBalance System::mechanical_balance(double t, const double* y) {
     place(t, y);
     const double* ledger = y + controlled;
-    Books b;
+    EnergyBalance b;
     b.energies = model_->energies();
     b.loss_structural = ledger[kLossStructural];
     b.loss_contact = ledger[kNormalWork];
@@ -279,15 +279,15 @@ System::Books System::open_books(double t, const double* y) {
     return b;
 }
 
-System::Books System::books(double t, const double* y, double gap) {
-    Books b = open_books(t, y);
+System::EnergyBalance System::energy_balance(double t, const double* y, double gap) {
+    EnergyBalance b = mechanical_balance(t, y);
     b.contact = law_.stored_energy(-gap);
     b.loss_contact -= b.contact;
     return b;
 }
 
-System::Books System::books(double t, const double* y) {
-    Books b = open_books(t, y);
+System::EnergyBalance System::energy_balance(double t, const double* y) {
+    EnergyBalance b = mechanical_balance(t, y);
     double normal = 0, bristle_energy = 0;
     if (phase_.touching) {
         const ContactState c = contact_placed(t, y, false);

@@ -81,8 +81,8 @@ class System final : public Ode {
     // not positive.
     bool generalized_force(double t, const ContactState& c, double normal, double* f);
 
-    // Energy books at (t, y). Total = what the ledger says must stay constant.
-    struct Books {
+    // Energies and what the ledger says of losses and work at (t, y); the total must stay constant.
+    struct EnergyBalance {
         Energies energies;
         double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
         double total() const {
@@ -90,9 +90,9 @@ class System final : public Ode {
                    loss_friction - work_cam - work_drive;
         }
     };
-    Books books(double t, const double* y);
+    EnergyBalance energy_balance(double t, const double* y);
     // The same in contact without friction's bristle, where the gap is known.
-    Books books(double t, const double* y, double gap);
+    EnergyBalance energy_balance(double t, const double* y, double gap);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
 
@@ -123,7 +123,7 @@ class System final : public Ode {
     bool assemble(double* f);
     // The same, but throws InertiaLost.
     void require_inertia(double* f);
-    Books open_books(double t, const double* y);
+    EnergyBalance mechanical_balance(double t, const double* y);
 
     Problem problem_;
     std::unique_ptr<Model> model_;

@@ -106,7 +106,7 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
 Guard ContactStepEnd::penetration_at(double after) {
     ExponentialSegment& s = step_.segment;
     s.t1 = kNoSolution;  // evaluated, not copied
-    s.books = false;
+    s.ledger_changes = false;
     scratch_.resize(s.end.size());
     s.value(s.t0 + after, scratch_.data());
     ContactKinematics<double> touch;

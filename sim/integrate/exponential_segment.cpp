@@ -37,8 +37,8 @@ void ExponentialSegment::each_number(Visit&& visit) {
         visit(value);
         on = value != 0;
     };
-    flag(books);
-    if (books)
+    flag(ledger_changes);
+    if (ledger_changes)
         for (Lanes& one : rate) lanes(one);
     flag(touching);
     if (!touching) return;
@@ -198,7 +198,7 @@ void ExponentialSegment::value(double t, double* y) const {
     }
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
-    if (books) ledger_at(t, s, weights, y);
+    if (ledger_changes) ledger_at(t, s, weights, y);
 }
 
 // Bound of √(q² + (q̇/ω)²).
@@ -355,8 +355,8 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     b.modes.resize(n_);
     for (std::size_t i = 0; i < n_; ++i) b.modes[i] = mode_bounds(i);
     b.h = h;
-    b.power_cam = books ? kBetweenNodes * largest(rate[kWorkCam]) : 0;
-    b.power_drive = books ? kBetweenNodes * largest(rate[kWorkDrive]) : 0;
+    b.power_cam = ledger_changes ? kBetweenNodes * largest(rate[kWorkCam]) : 0;
+    b.power_drive = ledger_changes ? kBetweenNodes * largest(rate[kWorkDrive]) : 0;
     return &b;
 }
 

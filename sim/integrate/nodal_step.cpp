@@ -235,8 +235,8 @@ void NodalStep::set_scales(const double* a, const double* b) {
 void NodalStep::finish(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     std::copy_n(next.begin(), system.controlled, s.end.begin());
-    s.books = load || form->damped || form->prescribed || system.drive().has_torque();
-    if (!s.books) {
+    s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque();
+    if (!s.ledger_changes) {
         std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
         return;
     }

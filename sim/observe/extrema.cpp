@@ -95,7 +95,7 @@ void sign_changes(const F& f, const Variation& variation, double rounding, const
     sign_changes(f, variation, rounding, m, b, found);
 }
 
-double sample_time(const Stretch& s, std::size_t k) {
+double sample_time(const SegmentInterval& s, std::size_t k) {
     if (k == 0) return s.from;
     if (k > kNodes) return s.to;
     return s.from + Collocation::get().c[static_cast<int>(k) - 1] * (s.to - s.from);
@@ -134,74 +134,75 @@ void offer(Extremum& e, double t, double value) {
 }
 
 ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
-    : eye_(system),
-      probe_(eye_.system()),
-      modal_channels_(eye_.system()),
+    : evaluator_(system),
+      probe_(evaluator_.system()),
+      modal_channels_(evaluator_.system()),
       channels_(std::move(channels)),
       y_(static_cast<std::size_t>(system.size)),
       first_(channels_.size()),
       last_(channels_.size()) {}
 
 void ExtremaFinder::set_phase(const Phase& phase) {
-    eye_.set_phase(phase);
+    evaluator_.set_phase(phase);
     last_time_ = bounded_from_ = -1;
 }
 
 void ExtremaFinder::begin(double start_energy, const double* y, std::vector<Extremum>& extrema) {
-    eye_.set_start_energy(start_energy);
-    eye_.look(0, y);
-    for (std::size_t c = 0; c < channels_.size(); ++c) offer(extrema[c], 0, eye_.value(channels_[c]));
+    evaluator_.set_start_energy(start_energy);
+    evaluator_.set(0, y);
+    for (std::size_t c = 0; c < channels_.size(); ++c) offer(extrema[c], 0, evaluator_.value(channels_[c]));
 }
 
 // What is found must not depend on where the contact was looked for before.
 void ExtremaFinder::search_contact_again() {
-    eye_.system().search_again();
+    evaluator_.system().search_again();
     probe_.forget();
 }
 
 // Geometry and normal force: the probe costs less than a search of the whole beam.
 void ExtremaFinder::look_for_contact(double t) {
     ContactState c = probe_.evaluate(t, y_.data(), false);
-    const System& system = eye_.system();
+    const System& system = evaluator_.system();
     if (system.phase().touching) c.force = system.normal_law().force(-c.gap, -c.gap_rate, system.phase().approach);
-    eye_.contact_is(c);
+    evaluator_.set_contact(c);
 }
 
-double ExtremaFinder::evaluate(const Stretch& s, Channel channel, double t) {
+double ExtremaFinder::evaluate(const SegmentInterval& s, Channel channel, double t) {
     s.segment->value(t, y_.data());
     if (channel.kind == ChannelKind::q) return y_[static_cast<std::size_t>(channel.index)];
-    eye_.look(t, y_.data());
-    if (modal_ && eye_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
-    if (modal_ && eye_.system().phase().touching && needs_gap(channel.kind)) eye_.gap_is(eye_.contact().gap);
-    return eye_.value(channel);
+    evaluator_.set(t, y_.data());
+    if (modal_ && evaluator_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
+    if (modal_ && evaluator_.system().phase().touching && needs_gap(channel.kind))
+        evaluator_.set_gap(evaluator_.contact().gap);
+    return evaluator_.value(channel);
 }
 
-void ExtremaFinder::evaluate_all(const Stretch& s, double t, std::vector<double>& values) {
+void ExtremaFinder::evaluate_all(const SegmentInterval& s, double t, std::vector<double>& values) {
     s.segment->value(t, y_.data());
-    eye_.look(t, y_.data());
-    if (modal_ && eye_.system().has_cam()) {
-        const bool touching = eye_.system().phase().touching;
-        if (!touching || eye_.system().friction().kinetic == 0) look_for_contact(t);
-        if (touching) eye_.gap_is(eye_.contact().gap);
+    evaluator_.set(t, y_.data());
+    if (modal_ && evaluator_.system().has_cam()) {
+        const bool touching = evaluator_.system().phase().touching;
+        if (!touching || evaluator_.system().friction().kinetic == 0) look_for_contact(t);
+        if (touching) evaluator_.set_gap(evaluator_.contact().gap);
     }
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (!modal_ || !is_estimated(channels_[c].kind))
-            values[c] = eye_.value(channels_[c]);
+            values[c] = evaluator_.value(channels_[c]);
         else if (!is_separation(channels_[c].kind))
             values[c] = modal_channels_.tip(channels_[c].kind, y_.data());
         else
-            values[c] = eye_.system().has_cam() ? 0 : kNan;  // only bounded
+            values[c] = evaluator_.system().has_cam() ? 0 : kNan;  // only bounded
     }
 }
 
-bool ExtremaFinder::set_bounds(const Stretch& s) {
+bool ExtremaFinder::set_bounds(const SegmentInterval& s) {
     if (bounded_from_ != s.from) modal_ = modal_channels_.set(*s.segment, s.from, s.to);
     bounded_from_ = s.from;
     search_contact_again();
     return modal_;
 }
 
-void ExtremaFinder::step(const Stretch& s, std::vector<Extremum>& extrema) {
+void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrema) {
     if (channels_.empty()) return;
     if (!set_bounds(s)) {
         last_time_ = -1;
@@ -233,8 +234,8 @@ void ExtremaFinder::step(const Stretch& s, std::vector<Extremum>& extrema) {
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
-std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const Stretch& s) {
-    KeptStep step{eye_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}};
+std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const SegmentInterval& s) {
+    KeptStep step{evaluator_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}};
     s.segment->numbers(step.numbers);
     kept_numbers_ += step.numbers.size();
     return std::make_shared<const KeptStep>(std::move(step));
@@ -245,16 +246,16 @@ void ExtremaFinder::finish(std::vector<Extremum>& extrema) { search_kept(extrema
 void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     std::ranges::stable_sort(candidates_, {},
                              [](const Candidate& c) { return std::tuple(c.channel, c.sign, -c.high); });
-    const Phase phase = eye_.system().phase();
+    const Phase phase = evaluator_.system().phase();
     const KeptStep* loaded = nullptr;
     if (!stored_ && !candidates_.empty())
-        stored_ = make_stored_segment(SegmentKind::exponential, eye_.system().problem());
+        stored_ = make_stored_segment(SegmentKind::exponential, evaluator_.system().problem());
     for (const Candidate& candidate : candidates_) {
         Extremum& e = extrema[candidate.channel];
         const Best best{candidate.sign, candidate.sign > 0 ? e.max : -e.min, 0};
         if (candidate.high <= best.to_beat()) continue;
         const KeptStep& step = *candidate.step;
-        const Stretch s{stored_.get(), step.from, step.to, false};
+        const SegmentInterval s{stored_.get(), step.from, step.to, false};
         if (loaded != &step) {
             loaded = &step;
             stored_->load(step.t0, step.t1, step.numbers);
@@ -270,7 +271,7 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
 }
 
 // Of a step that resolves all vibration: all channels are sampled at once.
-void ExtremaFinder::search_now(const Stretch& s, std::vector<Extremum>& extrema) {
+void ExtremaFinder::search_now(const SegmentInterval& s, std::vector<Extremum>& extrema) {
     std::vector<Values> values(channels_.size());
     for (std::size_t k = 0; k < kSamples; ++k) {
         evaluate_all(s, sample_time(s, k), last_);
@@ -282,14 +283,14 @@ void ExtremaFinder::search_now(const Stretch& s, std::vector<Extremum>& extrema)
     }
 }
 
-ExtremaFinder::Values ExtremaFinder::sample(const Stretch& s, Channel channel) {
+ExtremaFinder::Values ExtremaFinder::sample(const SegmentInterval& s, Channel channel) {
     Values values;
     for (std::size_t k = 0; k < kSamples; ++k) values[k] = evaluate(s, channel, sample_time(s, k));
     return values;
 }
 
 // The polynomial through the inner samples, what it misses at the ends, and vibrations that it does not resolve.
-Variation ExtremaFinder::variation(const Stretch& s, Channel channel, const Values& values) {
+Variation ExtremaFinder::variation(const SegmentInterval& s, Channel channel, const Values& values) {
     const double h = s.to - s.from;
     Lanes nodes;
     for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
@@ -308,11 +309,11 @@ Variation ExtremaFinder::variation(const Stretch& s, Channel channel, const Valu
 
 // The arc on the disc begins anew at a mark; without that jump, as it is next to another.
 double ExtremaFinder::turn(double arc, double near) {
-    const double around = 2 * std::numbers::pi * eye_.system().problem().cam->radius;
+    const double around = 2 * std::numbers::pi * evaluator_.system().problem().cam->radius;
     return arc - around * std::round((arc - near) / around);
 }
 
-void ExtremaFinder::search(const Stretch& s, Channel channel, double sign, const Values& sampled, Extremum& e) {
+void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Values& sampled, Extremum& e) {
     const bool arc = channel.kind == ChannelKind::contact_s;
     const auto f = [&](double t) {
         const double value = evaluate(s, channel, t);
@@ -323,7 +324,7 @@ void ExtremaFinder::search(const Stretch& s, Channel channel, double sign, const
         for (double& value : values) value = turn(value, sampled[0]);
     const Variation strays = variation(s, channel, values);
     const double before = sign > 0 ? e.max : -e.min;
-    const double radians = (s.to - s.from) * eye_.system().highest_frequency();
+    const double radians = (s.to - s.from) * evaluator_.system().highest_frequency();
     Best best{sign, before, s.from, static_cast<long>(std::min(kFewestLooks + kLooksPerRadian * radians, kMostLooks))};
     for (std::size_t k = 0; k < kSamples; ++k) best.offer({sample_time(s, k), values[k]});
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
@@ -331,20 +332,21 @@ void ExtremaFinder::search(const Stretch& s, Channel channel, double sign, const
     if (best.looks < 0) ++incomplete_;
     if (!(best.value > before)) return;
     const double value = sign * best.value;
-    if (!arc ||
-        (value >= 0 && turn(value, 0) != 0 && value < 2 * std::numbers::pi * eye_.system().problem().cam->radius)) {
+    if (!arc || (value >= 0 && turn(value, 0) != 0 &&
+                 value < 2 * std::numbers::pi * evaluator_.system().problem().cam->radius)) {
         offer(e, best.t, value);
         return;
     }
     // It passes the mark, where it is as small and as large as it can be.
-    const double around = 2 * std::numbers::pi * eye_.system().problem().cam->radius, mark = value < 0 ? 0 : around;
+    const double around = 2 * std::numbers::pi * evaluator_.system().problem().cam->radius,
+                 mark = value < 0 ? 0 : around;
     const auto past = [&](double t) { return f(t) - mark; };
     const double t = find_root(past, std::min(s.from, best.t), std::max(s.from, best.t));
     offer(e, t, 0);
     offer(e, t, std::nextafter(around, 0.0));
 }
 
-void ExtremaFinder::contact_peaks(const Stretch& s, std::optional<double>& force, double& penetration) {
+void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration) {
     const bool modal = set_bounds(s);
     Extremum of_force{0, s.from, force.value_or(0), s.from}, of_gap{-penetration, s.from, 0, s.from};
     const auto promises = [&](ChannelKind kind, double sign, double best) {
@@ -363,7 +365,7 @@ void ExtremaFinder::contact_peaks(const Stretch& s, std::optional<double>& force
             values = sample(s, {kind});
         search(s, {kind}, sign, values, e);
     };
-    if (eye_.system().phase().touching)
+    if (evaluator_.system().phase().touching)
         look(ChannelKind::contact_force, 1, touch ? &touch->force[0] : nullptr, of_force);
     look(ChannelKind::gap, -1, touch ? &touch->gap[0] : nullptr, of_gap);
     force = of_force.max;
@@ -373,7 +375,7 @@ void ExtremaFinder::contact_peaks(const Stretch& s, std::optional<double>& force
 // ---- turning points -------------------------------------------------------------------------------
 
 template <class F, class Found>
-void ExtremaFinder::each_sign_change(const Stretch& s, Channel channel, double scale, F&& f, Found&& found) {
+void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, double scale, F&& f, Found&& found) {
     constexpr double kRounding = 1e-14;  // of the sum of magnitudes
     Values values;
     for (std::size_t k = 0; k < kSamples; ++k) {
@@ -387,7 +389,8 @@ void ExtremaFinder::each_sign_change(const Stretch& s, Channel channel, double s
                      found);
 }
 
-void ExtremaFinder::turning_points(const Stretch& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero) {
+void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& apexes,
+                                   std::vector<ZeroCrossing>& theta_zero) {
     const MotionBounds* motion = s.segment->bounds();
     const bool may_turn = !motion || (motion->rate_low <= 0 && motion->rate_high >= 0),
                may_cross = !motion || (motion->angle_low <= 0 && motion->angle_high >= 0);
@@ -395,8 +398,8 @@ void ExtremaFinder::turning_points(const Stretch& s, std::vector<Apex>& apexes, 
     set_bounds(s);
     const auto model = [&](double t) -> const Model& {
         s.segment->value(t, y_.data());
-        eye_.system().place(t, y_.data());
-        return eye_.system().model();
+        evaluator_.system().place(t, y_.data());
+        return evaluator_.system().model();
     };
     const auto angle = [&](double t) { return model(t).hub_angle(); };
     const auto rate = [&](double t) { return model(t).hub_rate(); };

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "sim/integrate/gap_probe.hpp"
+#include "sim/observe/channel_evaluator.hpp"
 #include "sim/observe/modal_channels.hpp"
-#include "sim/observe/observe.hpp"
+#include "sim/observe/segment_interval.hpp"
 
 namespace beamcam::sim {
 
@@ -28,14 +29,14 @@ class ExtremaFinder {
     // The values at the start of the run, in the first phase.
     void begin(double start_energy, const double* y, std::vector<Extremum>& extrema);
     // Searches one step, or keeps it for `finish`.
-    void step(const Stretch& s, std::vector<Extremum>& extrema);
+    void step(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void finish(std::vector<Extremum>& extrema);
     // Searches that ended before they were sure.
     long incomplete() const { return incomplete_; }
     // Raises the two to the largest normal force and penetration within the step.
-    void contact_peaks(const Stretch& s, std::optional<double>& force, double& penetration);
+    void contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration);
     // Appends maxima and zeros of θ, in the order of time.
-    void turning_points(const Stretch& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero);
+    void turning_points(const SegmentInterval& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero);
 
   private:
     static constexpr std::size_t kSamples = kNodes + 2;  // the ends and the Gauss nodes
@@ -51,22 +52,22 @@ class ExtremaFinder {
         std::shared_ptr<const KeptStep> step;
     };
 
-    double evaluate(const Stretch& s, Channel channel, double t);
+    double evaluate(const SegmentInterval& s, Channel channel, double t);
     void search_contact_again();
     void look_for_contact(double t);
-    void evaluate_all(const Stretch& s, double t, std::vector<double>& values);
-    std::shared_ptr<const KeptStep> keep(const Stretch& s);
+    void evaluate_all(const SegmentInterval& s, double t, std::vector<double>& values);
+    std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
-    void search_now(const Stretch& s, std::vector<Extremum>& extrema);
-    void search(const Stretch& s, Channel channel, double sign, const Values& values, Extremum& e);
-    Values sample(const Stretch& s, Channel channel);
-    Variation variation(const Stretch& s, Channel channel, const Values& values);
-    bool set_bounds(const Stretch& s);
+    void search_now(const SegmentInterval& s, std::vector<Extremum>& extrema);
+    void search(const SegmentInterval& s, Channel channel, double sign, const Values& values, Extremum& e);
+    Values sample(const SegmentInterval& s, Channel channel);
+    Variation variation(const SegmentInterval& s, Channel channel, const Values& values);
+    bool set_bounds(const SegmentInterval& s);
     double turn(double arc, double near);
     template <class F, class Found>
-    void each_sign_change(const Stretch& s, Channel channel, double scale, F&& f, Found&& found);
+    void each_sign_change(const SegmentInterval& s, Channel channel, double scale, F&& f, Found&& found);
 
-    Eye eye_;
+    ChannelEvaluator evaluator_;
     GapProbe probe_;
     ModalChannels modal_channels_;
     std::vector<Channel> channels_;

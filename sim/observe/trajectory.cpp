@@ -9,7 +9,7 @@ namespace beamcam::sim {
 namespace {
 
 // First number of every record; the second is the record's length, both included.
-enum Record : int { kBegin = 1, kStretch, kTouch, kRelease, kResume, kEnd };
+enum Record : int { kBegin = 1, kInterval, kTouch, kRelease, kResume, kEnd };
 
 constexpr std::size_t kFlush = 1 << 16;  // numbers handed on at once
 
@@ -21,7 +21,7 @@ void put(std::vector<double>& out, const Phase& p) {
         out.push_back(value);
 }
 
-void put(std::vector<double>& out, const Tally& t) {
+void put(std::vector<double>& out, const RunStatistics& t) {
     const Counters& c = t.counters;
     const Fallbacks& f = t.fallbacks;
     for (long value : {c.steps, c.rejected, c.rhs_evaluations, c.gap_evaluations, c.jacobians, t.floored, t.chatters,
@@ -31,7 +31,7 @@ void put(std::vector<double>& out, const Tally& t) {
     out.push_back(static_cast<int>(f.method));
 }
 
-void put(std::vector<double>& out, const Notes& n) {
+void put(std::vector<double>& out, const SegmentSummary& n) {
     const std::optional<double> peak = n.force_peak;
     for (double value : {double(n.turning_points), double(peak.has_value()), peak.value_or(0), n.penetration_peak,
                          n.energy_scale, n.energy_residual_max, n.largest_elastic})
@@ -99,8 +99,8 @@ Phase phase_of(Numbers& n) {
     return p;
 }
 
-Tally tally_of(Numbers& n) {
-    Tally t;
+RunStatistics statistics_of(Numbers& n) {
+    RunStatistics t;
     Counters& c = t.counters;
     Fallbacks& f = t.fallbacks;
     for (long* value : {&c.steps, &c.rejected, &c.rhs_evaluations, &c.gap_evaluations, &c.jacobians, &t.floored,
@@ -111,24 +111,24 @@ Tally tally_of(Numbers& n) {
     return t;
 }
 
-Notes notes_of(Numbers& n) {
-    Notes notes;
-    notes.turning_points = n.flag();
+SegmentSummary summary_of(Numbers& n) {
+    SegmentSummary summary;
+    summary.turning_points = n.flag();
     const bool has_peak = n.flag();
     const double peak = n.next();
-    if (has_peak) notes.force_peak = peak;
+    if (has_peak) summary.force_peak = peak;
     for (double* value :
-         {&notes.penetration_peak, &notes.energy_scale, &notes.energy_residual_max, &notes.largest_elastic})
+         {&summary.penetration_peak, &summary.energy_scale, &summary.energy_residual_max, &summary.largest_elastic})
         *value = n.next();
     for (long count = n.whole(); count > 0; --count) {
         const double t = n.next();
-        notes.apexes.push_back({t, n.next()});
+        summary.apexes.push_back({t, n.next()});
     }
     for (long count = n.whole(); count > 0; --count) {
         const double t = n.next();
-        notes.theta_zero.push_back({t, n.next()});
+        summary.theta_zero.push_back({t, n.next()});
     }
-    return notes;
+    return summary;
 }
 
 ContactState contact_of(Numbers& n) {
@@ -216,16 +216,16 @@ void TrajectoryWriter::begin(const Phase& phase, const std::vector<double>& y) {
     buffer_.insert(buffer_.end(), y.begin(), y.end());
 }
 
-void TrajectoryWriter::stretch(const Segment& segment, double from, double to, bool event, const Tally& tally,
-                               const Notes* notes) {
+void TrajectoryWriter::record(const Segment& segment, double from, double to, bool event,
+                              const RunStatistics& statistics, const SegmentSummary* summary) {
     if (broken_) return;
     ++steps_;
     {
-        const Open record(buffer_, kStretch);
-        for (double value : {from, to, double(event), segment.t0, segment.t1, double(notes != nullptr)})
+        const Open record(buffer_, kInterval);
+        for (double value : {from, to, double(event), segment.t0, segment.t1, double(summary != nullptr)})
             buffer_.push_back(value);
-        put(buffer_, tally);
-        if (notes) put(buffer_, *notes);
+        put(buffer_, statistics);
+        if (summary) put(buffer_, *summary);
         const std::size_t kind = buffer_.size();
         buffer_.push_back(0);
         buffer_[kind] = static_cast<double>(segment.numbers(buffer_));
@@ -252,12 +252,13 @@ void TrajectoryWriter::release(double t, const std::vector<double>& y, const Con
     put_event(kRelease, t, y, contact);
 }
 
-void TrajectoryWriter::resume(double t, const std::vector<double>& y, const Phase& phase, const Tally& tally) {
+void TrajectoryWriter::resume(double t, const std::vector<double>& y, const Phase& phase,
+                              const RunStatistics& statistics) {
     if (broken_) return;
     const Open record(buffer_, kResume);
     buffer_.push_back(t);
     put(buffer_, phase);
-    put(buffer_, tally);
+    put(buffer_, statistics);
     buffer_.insert(buffer_.end(), y.begin(), y.end());
 }
 
@@ -293,16 +294,16 @@ Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSourc
     end_ = end.numbers.next();
 }
 
-void Trajectory::play(const Problem& problem, Audience& audience) const {
-    if (audience.end() > end_) throw std::invalid_argument("the trajectory ends before the request");
+void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
+    if (recorders.end() > end_) throw std::invalid_argument("the trajectory ends before the request");
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> segments;
     const auto segment_of = [&](SegmentKind kind) -> StoredSegment& {
         std::unique_ptr<StoredSegment>& made = segments[kind];
         if (!made) made = make_stored_segment(kind, problem);
         return *made;
     };
-    Tally tally;
-    const Audience::TallySource tally_source = [&] { return tally; };
+    RunStatistics statistics;
+    const RecorderSet::StatisticsSource so_far = [&] { return statistics; };
     std::vector<double> y;
     double reached = 0;
     Feed feed(*numbers_);
@@ -313,22 +314,22 @@ void Trajectory::play(const Problem& problem, Audience& audience) const {
                 const Phase phase = phase_of(n);
                 const std::span<const double> state = n.rest();
                 y.assign(state.begin(), state.end());
-                audience.begin(phase, y);
+                recorders.begin(phase, y);
                 break;
             }
-            case kStretch: {
+            case kInterval: {
                 const double from = n.next(), to = n.next();
                 const bool event = n.flag();
                 const double t0 = n.next(), t1 = n.next();
-                const bool noted = n.flag();
-                tally = tally_of(n);
-                const Notes notes = noted ? notes_of(n) : Notes{};
+                const bool has_summary = n.flag();
+                statistics = statistics_of(n);
+                const SegmentSummary summary = has_summary ? summary_of(n) : SegmentSummary{};
                 StoredSegment& segment = segment_of(static_cast<SegmentKind>(n.whole()));
                 segment.load(t0, t1, n.rest());
-                audience.stretch(segment, from, to, event, tally_source, noted ? &notes : nullptr);
+                recorders.record(segment, from, to, event, so_far, has_summary ? &summary : nullptr);
                 reached = to;
                 // What follows at the same instant still belongs to a request that ends here.
-                over = audience.end() < to || (audience.end() == to && !event);
+                over = recorders.end() < to || (recorders.end() == to && !event);
                 break;
             }
             case kTouch:
@@ -336,18 +337,18 @@ void Trajectory::play(const Problem& problem, Audience& audience) const {
                 const double t = n.next();
                 const ContactState contact = contact_of(n);
                 const double* state = n.rest().data();
-                kind == kTouch ? audience.touch(t, state, contact) : audience.release(t, state, contact);
+                kind == kTouch ? recorders.touch(t, state, contact) : recorders.release(t, state, contact);
                 break;
             }
             case kResume: {
                 const double t = n.next();
                 const Phase phase = phase_of(n);
-                tally = tally_of(n);
+                statistics = statistics_of(n);
                 const std::span<const double> state = n.rest();
                 y.assign(state.begin(), state.end());
-                audience.resume(t, y, phase, tally_source);
+                recorders.resume(t, y, phase, so_far);
                 reached = t;
-                over = audience.end() <= t;
+                over = recorders.end() <= t;
                 break;
             }
             case kEnd:
@@ -355,7 +356,7 @@ void Trajectory::play(const Problem& problem, Audience& audience) const {
                 break;
         }
     }
-    if (reached < audience.end()) throw std::invalid_argument("the trajectory has a gap");
+    if (reached < recorders.end()) throw std::invalid_argument("the trajectory has a gap");
 }
 
 std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem) {

@@ -1,5 +1,5 @@
 // A trajectory taken down as plain numbers: every accepted segment with its phase, every event, and the
-// notes that do not depend on what is asked for. Any request that ends where it ends, or before, is
+// summary that do not depend on what is asked for. Any request that ends where it ends, or before, is
 // answered from it with the bits of the direct run.
 //
 // The numbers are doubles in memory order, for this machine and this version of the program; who
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/observe/observe.hpp"
+#include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::sim {
 
@@ -23,10 +23,11 @@ class TrajectoryWriter {
     explicit TrajectoryWriter(Sink sink) : sink_(std::move(sink)) {}
 
     void begin(const Phase& phase, const std::vector<double>& y);
-    void stretch(const Segment& segment, double from, double to, bool event, const Tally& tally, const Notes* notes);
+    void record(const Segment& segment, double from, double to, bool event, const RunStatistics& statistics,
+                const SegmentSummary* summary);
     void touch(double t, const std::vector<double>& y, const ContactState& contact);
     void release(double t, const std::vector<double>& y, const ContactState& contact);
-    void resume(double t, const std::vector<double>& y, const Phase& phase, const Tally& tally);
+    void resume(double t, const std::vector<double>& y, const Phase& phase, const RunStatistics& statistics);
     void end(double t);
 
     // False once a segment was more than numbers: then nothing more is handed on and the rest is worthless.
@@ -57,8 +58,8 @@ class Trajectory {
     Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
     Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
     double end() const { return end_; }
-    // Tells it again, as far as the audience looks: at most to `end`. Few of the numbers are held at once.
-    void play(const Problem& problem, Audience& audience) const;
+    // Tells it again, as far as the recorders looks: at most to `end`. Few of the numbers are held at once.
+    void play(const Problem& problem, RecorderSet& recorders) const;
 
   private:
     std::shared_ptr<const NumberSource> numbers_;

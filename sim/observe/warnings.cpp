@@ -11,13 +11,13 @@ constexpr double kEnergyRounding = 1e-12;     // of the energy scale
 constexpr double kToldGap = 1e-10;            // of the length, left at an event: a thousand times what rounding leaves
 constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
-void tell_chatter(const Problem& problem, const Tally& tally, std::vector<std::string>& out) {
-    if (tally.chatters == 0) return;
+void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
+    if (statistics.chatters == 0) return;
     const double speed = kSummedShare * problem.contact.approach_floor.value;
     out.push_back(fmt::format(
         "chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
         "times {:g}) are summed up at its end instead of listed",
-        tally.chatters, tally.chatters == 1 ? "" : "s", speed, kSummedShare));
+        statistics.chatters, statistics.chatters == 1 ? "" : "s", speed, kSummedShare));
 }
 
 // Ten times what was asked for is the promise of `auto`; whatever misses it says so.
@@ -61,17 +61,19 @@ void tell_gains(const Problem& problem, const Result& result, std::vector<std::s
             name(problem.contact.law), gained, count, result.impacts.size()));
 }
 
-void tell_floor(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
-    if (tally.floored > 0)
+void tell_floor(const Problem& problem, const Result& result, const RunStatistics& statistics,
+                std::vector<std::string>& out) {
+    if (statistics.floored > 0)
         out.push_back(
             fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
                         "dissipation uses that floor",
-                        tally.floored, result.impacts.size(), problem.contact.approach_floor.value));
+                        statistics.floored, result.impacts.size(), problem.contact.approach_floor.value));
 }
 
 // What was done in another way than asked for, or left unresolved.
-void tell_fallbacks(const Problem& problem, const Result& result, const Tally& tally, std::vector<std::string>& out) {
-    const Fallbacks& f = tally.fallbacks;
+void tell_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
+                    std::vector<std::string>& out) {
+    const Fallbacks& f = statistics.fallbacks;
     const auto times = [](long n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); };
     if (f.handed_over > 0)
         out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
@@ -114,15 +116,15 @@ bool bends_beyond(const Problem& problem, double largest_elastic) {
            slope_bound(problem, largest_elastic) > kForeshorteningSlope;
 }
 
-std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
+std::vector<std::string> warnings(const Problem& problem, const Result& result, const RunStatistics& statistics,
                                   double largest_elastic) {
     std::vector<std::string> out;
-    tell_chatter(problem, tally, out);
+    tell_chatter(problem, statistics, out);
     tell_gains(problem, result, out);
     tell_ledger(problem, result, out);
     tell_slopes(problem, largest_elastic, out);
-    tell_floor(problem, result, tally, out);
-    tell_fallbacks(problem, result, tally, out);
+    tell_floor(problem, result, statistics, out);
+    tell_fallbacks(problem, result, statistics, out);
     return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/observe/observe.hpp"
+#include "sim/observe/run_statistics.hpp"
 
 namespace beamcam::sim {
 
@@ -18,7 +18,7 @@ inline constexpr double kChatterShare = 1e-3;
 // Through angles that the model does not hold for. `largest_elastic`: the largest bending energy of the run [J].
 bool bends_beyond(const Problem& problem, double largest_elastic);
 
-std::vector<std::string> warnings(const Problem& problem, const Result& result, const Tally& tally,
+std::vector<std::string> warnings(const Problem& problem, const Result& result, const RunStatistics& statistics,
                                   double largest_elastic);
 
 }  // namespace beamcam::sim

@@ -134,7 +134,7 @@ Event ContactGuards::first_event(const Segment& segment) {
 // Else it stays for this step: too many changes at one instant.
 bool ContactGuards::may_change_grip() {
     if (state_.idle_events <= kMostFlips) return true;
-    ++state_.tally.fallbacks.grips;
+    ++state_.statistics.fallbacks.grips;
     return false;
 }
 

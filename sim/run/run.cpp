@@ -39,7 +39,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       progress_(progress),
       dynamics_(problem),
       probe_(dynamics_),
-      output_(dynamics_, requests, keep, [this] { return tally(); }),
+      output_(dynamics_, requests, keep, [this] { return statistics(); }),
       integrator_(make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
@@ -68,7 +68,7 @@ std::vector<Result> Run::integrate() {
 void Run::start() {
     const InitialState initial = initial_state(dynamics_);
     state_.y = initial.y;
-    state_.tally.fallbacks.left_behind = initial.left_behind;
+    state_.statistics.fallbacks.left_behind = initial.left_behind;
     state_.phase = initial.phase;
     transitions_.enter_phase();
     started_ = true;
@@ -198,8 +198,8 @@ void Run::report(double t) const {
     if (progress_ && !progress_(std::min(t, end_))) throw Interrupted();
 }
 
-Tally Run::tally() const {
-    Tally all = state_.tally;
+RunStatistics Run::statistics() const {
+    RunStatistics all = state_.statistics;
     const IntegratorCounters& done = integrator_->counters;
     all.counters = {.steps = done.steps,
                     .rejected = done.rejected,

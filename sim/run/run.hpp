@@ -19,7 +19,7 @@ class Run {
 
     // Throws SolverError with what was reached by then.
     std::vector<Result> integrate();
-    Counters counters() const { return tally().counters; }
+    Counters counters() const { return statistics().counters; }
 
   private:
     void start();
@@ -36,7 +36,7 @@ class Run {
     bool has_come(double t) const;
     void pass_kinks();
     void report(double t) const;
-    Tally tally() const;
+    RunStatistics statistics() const;
     std::string explain(const StepFailure& failure);
 
     const Problem& problem_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
-#include "sim/observe/observe.hpp"
+#include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::sim {
 
@@ -24,7 +24,7 @@ struct RunState {
     double clamp_side = 1;              // of the kink of the clamp where it was last away from it: +1 pushes
     int idle_events = 0;                // at this instant, without time passing
     std::optional<double> chatter_end;  // of the chatter that was summed up
-    Tally tally;                        // without the integrator's counters
+    RunStatistics statistics;           // without the integrator's counters
 };
 
 }  // namespace beamcam::sim

@@ -117,9 +117,9 @@ std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory,
     require_valid(problem);
     return timed([&] {
         return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
-            Audience audience(System(problem), all);
-            trajectory.play(problem, audience);
-            return audience.results();
+            RecorderSet recorders(System(problem), all);
+            trajectory.play(problem, recorders);
+            return recorders.results();
         });
     });
 }

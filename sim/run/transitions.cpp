@@ -47,7 +47,7 @@ void Transitions::touch() {
     if (!same_collision) first_approach_ = approach;
     state_.phase.approach =
         std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);
-    if (approach < floor.value) ++state_.tally.floored;
+    if (approach < floor.value) ++state_.statistics.floored;
     set_grip();
     enter_phase();
     const ContactState c = contact_now();
@@ -109,7 +109,7 @@ void Transitions::take_out_gap() {
     const double left = contact_now().gap;
     state_.phase.gap_offset = -left;
     enter_phase();
-    state_.tally.fallbacks.gap = std::max(state_.tally.fallbacks.gap, std::fabs(left));
+    state_.statistics.fallbacks.gap = std::max(state_.statistics.fallbacks.gap, std::fabs(left));
 }
 
 void Transitions::strike() {
@@ -134,14 +134,14 @@ void Transitions::strike() {
     state_.phase_start = state_.t;
     // The gap opens: that it was below zero is rounding, and no impact.
     if (!slow && !(approach > 0)) return;
-    if (!chatter && slow) ++state_.tally.fallbacks.strikes;
+    if (!chatter && slow) ++state_.statistics.fallbacks.strikes;
     output_.touch(state_.t, state_.y, c);
     if (slow) impact = resolve(0);
     if (approach > 0) system_.strike(state_.t, state_.y.data(), c, impact);
     const double pull_after = pull_on_cam();
     if (slow && pull_after > 0) {
         hold();
-        ++state_.tally.chatters;
+        ++state_.statistics.chatters;
         return;
     }
     // A step much longer than the bounce errs by more than the bounce is high: bounces would never die out.
@@ -195,7 +195,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
     state_.y = std::move(settled);
     state_.phase_start = state_.t;
     state_.chatter_end = state_.t + lasts;
-    ++state_.tally.chatters;
+    ++state_.statistics.chatters;
     return true;
 }
 

@@ -2,7 +2,7 @@
 // a beam that no sign of gravity hides. Methods that share nothing but the equations must see the same impacts.
 #include <gtest/gtest.h>
 
-#include "sim/observe/observe.hpp"
+#include "sim/observe/run_statistics.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {

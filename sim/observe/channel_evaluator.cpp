@@ -1,0 +1,172 @@
+#include "sim/observe/channel_evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace beamcam::sim {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+ChannelEvaluator::ChannelEvaluator(const System& system)
+    : system_(system), y_(static_cast<std::size_t>(system_.size)) {}
+
+void ChannelEvaluator::set(double t, const double* y) {
+    t_ = t;
+    std::copy_n(y, y_.size(), y_.begin());
+    balance_known_ = contact_known_ = acceleration_known_ = false;
+    system_.place(t, y_.data());
+}
+
+const ContactState& ChannelEvaluator::contact() {
+    if (!contact_known_) {
+        contact_ = system_.contact(t_, y_.data(), !system_.phase().touching);
+        contact_known_ = true;
+    }
+    return contact_;
+}
+
+const System::EnergyBalance& ChannelEvaluator::energy_balance() {
+    if (!balance_known_) {
+        balance_ = system_.energy_balance(t_, y_.data());
+        balance_known_ = true;
+    }
+    return balance_;
+}
+
+void ChannelEvaluator::set_contact(const ContactState& contact) {
+    contact_ = contact;
+    contact_known_ = true;
+}
+
+void ChannelEvaluator::set_gap(double gap) {
+    balance_ = system_.energy_balance(t_, y_.data(), gap);
+    balance_known_ = true;
+}
+
+double ChannelEvaluator::value(Channel channel) {
+    const int n = system_.coordinates();
+    const Model& model = system_.model();
+    const bool cam = system_.has_cam();
+    switch (channel.kind) {
+        case ChannelKind::t:
+            return t_;
+        case ChannelKind::theta:
+            return model.hub_angle();
+        case ChannelKind::theta_dot:
+            return model.hub_rate();
+        case ChannelKind::tip_deflection:
+        case ChannelKind::tip_rate: {
+            // Across the tangent at the root, which is the hub's direction (S6).
+            BeamPoint tip, root;
+            model.point(model.length(), tip);
+            model.point(0, root);
+            const Vec2 along = unit(model.hub_angle()), across = perp(along), span = tip.r - root.r;
+            if (channel.kind == ChannelKind::tip_deflection) return dot(span, across);
+            return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
+        }
+        case ChannelKind::contact_force:
+            return cam ? contact().force : kNan;
+        case ChannelKind::friction_force:
+            return cam ? contact().friction : kNan;
+        case ChannelKind::gap:
+            return cam ? contact().gap : kNan;
+        case ChannelKind::contact_x:
+            return cam ? contact().x : kNan;
+        case ChannelKind::contact_s: {
+            if (!cam) return kNan;
+            const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
+            const double full = 2 * std::numbers::pi;
+            return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
+        }
+        case ChannelKind::cam_angle:
+            return cam ? system_.cam(t_).angle : kNan;
+        case ChannelKind::q:
+            return channel.index < n ? y_[static_cast<std::size_t>(channel.index)] : kNan;
+        case ChannelKind::energy_kinetic:
+            return energy_balance().energies.kinetic;
+        case ChannelKind::energy_potential:
+            return energy_balance().energies.gravity;
+        case ChannelKind::energy_elastic:
+            return energy_balance().energies.elastic;
+        case ChannelKind::energy_contact:
+            return cam ? energy_balance().contact : kNan;
+        case ChannelKind::loss_structural:
+            return energy_balance().loss_structural;
+        case ChannelKind::loss_contact:
+            return cam ? energy_balance().loss_contact : kNan;
+        case ChannelKind::loss_friction:
+            return cam ? energy_balance().loss_friction : kNan;
+        case ChannelKind::work_cam:
+            return cam ? energy_balance().work_cam : kNan;
+        case ChannelKind::work_drive:
+            return energy_balance().work_drive;
+        case ChannelKind::energy_residual:
+            return energy_balance().total() - start_total_;
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper: {
+            if (!cam) return kNan;
+            const ContactState c = contact();
+            if (!acceleration_known_) {
+                double acc[kMaxSize];
+                system_.acceleration(t_, y_.data(), acc);
+                hub_acceleration_ = 0;
+                for (int i = 0; i < n; ++i) hub_acceleration_ += model.hub_row()[i] * acc[i];
+                acceleration_known_ = true;
+                system_.place(t_, y_.data());
+            }
+            // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
+            BeamPoint p, root;
+            model.point(c.x, p);
+            model.point(0, root);
+            const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
+            const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
+            const double pull =
+                3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
+            return hub_acceleration_ * arm + (channel.kind == ChannelKind::separation ? pull : -pull);
+        }
+    }
+    return kNan;
+}
+
+Pose ChannelEvaluator::pose(int stations) {
+    const Model& model = system_.model();
+    Pose pose;
+    pose.t = t_;
+    pose.theta = model.hub_angle();
+    pose.theta_dot = model.hub_rate();
+    pose.centreline.reserve(static_cast<std::size_t>(stations));
+    pose.moment.reserve(static_cast<std::size_t>(stations));
+    for (int i = 0; i < stations; ++i) {
+        const double x = model.length() * i / (stations - 1);
+        BeamPoint p;
+        model.point(x, p);
+        pose.centreline.push_back(p.r);
+        pose.moment.push_back(model.bending_moment(x));
+    }
+    if (!system_.has_cam()) return pose;
+    const Cam& cam = *system_.problem().cam;
+    const CamPose at = system_.cam(t_);
+    const ContactState& c = contact();
+    pose.cam_centre = cam.centre;
+    pose.disc_centre = at.disc;
+    pose.cam_angle = at.angle;
+    Nearest nearest;
+    nearest.x = c.x;
+    nearest.s = value({ChannelKind::contact_s});
+    nearest.point = at.disc + cam.radius * c.normal;
+    nearest.normal = c.normal;
+    nearest.gap = c.gap;
+    nearest.force = c.force;
+    nearest.friction = c.friction;
+    nearest.touching = system_.phase().touching;
+    pose.nearest = nearest;
+    return pose;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,38 @@
+// Channels and poses of a motion at one instant.
+#pragma once
+
+#include <vector>
+
+#include "sim/dynamics/system.hpp"
+#include "sim/observe/channels.hpp"
+#include "sim/observe/pose.hpp"
+
+namespace beamcam::sim {
+
+// Channel values at one instant; remembers what it already worked out for that instant.
+class ChannelEvaluator {
+  public:
+    explicit ChannelEvaluator(const System& system);
+    void set_phase(const Phase& phase) { system_.set_phase(phase); }
+    void set_start_energy(double total) { start_total_ = total; }
+    void set(double t, const double* y);
+    double value(Channel channel);
+    Pose pose(int stations);
+    System& system() { return system_; }
+    const System::EnergyBalance& energy_balance();
+    // Spare a look at the contact where it is known.
+    void set_gap(double gap);
+    void set_contact(const ContactState& contact);
+    const ContactState& contact();
+
+  private:
+    System system_;
+    double t_ = 0, start_total_ = 0;
+    std::vector<double> y_;
+    bool balance_known_ = false, contact_known_ = false, acceleration_known_ = false;
+    System::EnergyBalance balance_;
+    ContactState contact_;
+    double hub_acceleration_ = 0;
+};
+
+}  // namespace beamcam::sim
