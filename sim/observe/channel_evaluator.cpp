@@ -7,12 +7,6 @@
 
 namespace beamcam::sim {
 
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 ChannelEvaluator::ChannelEvaluator(const System& system)
     : system_(system), y_(static_cast<std::size_t>(system_.size)) {}
 

@@ -2,6 +2,7 @@
 // Signs and frames: MODEL.md, "Definitions".
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +44,8 @@ struct Channel {
     int index = 0;  // of q, from 1
     bool operator==(const Channel&) const = default;
 };
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // the value of an undefined channel
 
 std::string name(Channel channel);                          // "theta", "q1"
 const char* unit(Channel channel, const Problem& problem);  // "rad", "m", "" for none

@@ -12,7 +12,6 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNegligible = 1e-10;  // of the best value: what is not searched for
 // Intervals that a search looks into, at most: many times more than a sound step needs, so that a damaged one ends.
 constexpr double kLooksPerRadian = 32;

@@ -13,7 +13,6 @@ namespace beamcam::sim {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
 constexpr int kContactSteps = 4;
 
