@@ -18,6 +18,7 @@
 #include "output/film/video_library.hpp"
 #include "output/film/yuv.hpp"
 #include "render/base/memory.hpp"
+#include "render/base/threads.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::output {
@@ -182,6 +183,12 @@ void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* t
     });
 }
 
+// At most, of any encoder but SVT-AV1: `threads`, and some that look ahead or filter.
+constexpr int kThreadsOfEncoder = 16;
+
+// SVT-AV1 waits forever for those of its threads that could not start. It started 90 on two cores; more cores take more.
+int threads_of_svt_av1() { return std::min(64 + 32 * static_cast<int>(std::thread::hardware_concurrency()), 256); }
+
 }  // namespace
 
 FrameRate frame_rate(double fps) {
@@ -261,13 +268,16 @@ struct VideoWriter::Impl {
         try {
             worker = std::thread([this] { work(); });
         } catch (const std::system_error&) {
-            throw IoError("cannot make " + target.path.string() +
-                          ": no thread can be started for the encoder; close some programs or raise the limits "
-                          "(ulimit -u, ulimit -v)");
+            throw no_thread();
         }
     }
 
     ~Impl() { stop(true); }
+
+    IoError no_thread() const {
+        return IoError("cannot make " + file.target().string() + ": no thread can be started for the encoder; " +
+                       render::kThreadRemedy);
+    }
 
     void open() {
         const Recipe recipe = recipe_of(options, file.target().extension().string());
@@ -296,10 +306,15 @@ struct VideoWriter::Impl {
         settings.missing = recipe.missing;
         if (layout == PixelLayout::indices) std::copy(colors.begin(), colors.end(), settings.palette.emplace().begin());
         settings.metadata.assign(options.metadata.begin(), options.metadata.end());
+        const VideoLibrary& library = video_library();
+        if (options.codec == Codec::av1 && library.has_encoder("libsvtav1") &&
+            !render::can_start_threads(threads_of_svt_av1()))
+            throw no_thread();
         try {
-            encoder = video_library().open_encoder(settings);
+            encoder = library.open_encoder(settings);
         } catch (const CodecFailure& error) {                       // what no rule of ours knew
             if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
+            if (!render::can_start_threads(kThreadsOfEncoder)) throw no_thread();
             throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
                                     std::to_string(options.width) + "x" + std::to_string(options.height) +
                                     " pixels here (" + error.what() +

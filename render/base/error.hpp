@@ -22,4 +22,9 @@ struct PictureError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// A library needs threads that cannot start (exit code 6).
+struct ThreadError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace beamcam::render

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <thread>
 
 #include "render/base/error.hpp"
 #include "render/base/memory.hpp"
 #include "render/base/modules.hpp"
+#include "render/base/threads.hpp"
 #include "render/gl/gl_environment.hpp"
 
 namespace beamcam::render {
@@ -19,10 +22,16 @@ std::vector<std::string> ways() {
     return {"osmesa", "egl"};
 }
 
+// Mesa draws in a thread for each processor, up to 32, compiles in a few more, and waits forever for those that could
+// not start.
+int threads_of_mesa() { return std::min(static_cast<int>(std::thread::hardware_concurrency()), 32) + 4; }
+
 }  // namespace
 
 std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
     ignored_gl_settings();  // settles the environment before Mesa reads it
+    if (!can_start_threads(threads_of_mesa()))
+        throw ThreadError(fmt::format("no thread can be started for OpenGL; {}", kThreadRemedy));
     std::string reasons;
     for (const std::string& way : ways()) {
         try {

@@ -13,9 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "output/files/crash.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/interrupt.hpp"
-#include "output/files/out_of_memory.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "render/base/memory.hpp"
@@ -128,7 +128,7 @@ int fail_or_blame_memory(int code, const std::string& text) {
 int command_line(int argc, const char* const* argv) {
     try {
         output::install_handlers();
-        output::install_memory_handlers(kInputOutput);
+        output::install_crash_handlers(kInputOutput);
         render::ignored_gl_settings();  // the environment may be changed while there is one thread
         return parse_and_run(argc, argv);
     } catch (const UsageError& e) {
@@ -150,6 +150,8 @@ int command_line(int argc, const char* const* argv) {
         return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
     } catch (const render::MissingPart& e) {
         return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
+    } catch (const render::ThreadError& e) {
+        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const output::IoError& e) {
         return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const std::filesystem::filesystem_error& e) {

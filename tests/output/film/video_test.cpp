@@ -9,6 +9,7 @@
 #include "output/files/atomic_file.hpp"
 #include "output/files/sha256.hpp"
 #include "output/film/video_library.hpp"
+#include "render/base/threads.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -309,6 +310,46 @@ TEST(Film, SaysSoAndLeavesNothingWhenTheDiskIsFull) {
     });
     EXPECT_EQ(code, 0);
     EXPECT_TRUE(scratch.names().empty());
+}
+
+long open_files() {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+}
+
+// The session of the encoder is open when the thread that feeds it cannot start.
+TEST(Film, WithoutAThreadForTheEncoderSaysSoAndClosesWhatIsOpen) {
+    constexpr int kNoLimit = 77;
+    const std::pair<const char*, Codec> kinds[] = {{"a.mkv", Codec::ffv1},
+                                                   {"a.mp4", Codec::h264},
+                                                   {"a.webm", Codec::vp9},
+                                                   {"a.webm", Codec::av1},
+                                                   {"a.mov", Codec::prores}};
+    for (const auto& [file, codec] : kinds) {
+        Scratch scratch;
+        std::filesystem::permissions(scratch.path(), std::filesystem::perms::all);
+        const int code = exit_code_of([&] {
+            VideoOptions options = small_film();
+            options.codec = codec;
+            options.height = 64;
+            video_library();
+            const rlimit one = {1, 1};
+            setrlimit(RLIMIT_NPROC, &one);
+            if (geteuid() == 0 && setuid(65534) != 0) return kNoLimit;  // root has no limit
+            if (render::can_start_threads(1)) return kNoLimit;
+            const long before = open_files();
+            for (int times = 0; times < 3; ++times) try {
+                    VideoWriter film(scratch / file, options);
+                    return 1;
+                } catch (const IoError& error) {
+                    if (std::string(error.what()).find("no thread can be started") == std::string::npos) return 2;
+                } catch (const MissingCodec&) {
+                }
+            return open_files() == before ? 0 : 3;
+        });
+        if (code == kNoLimit) GTEST_SKIP() << "the number of threads cannot be limited here";
+        EXPECT_EQ(code, 0) << file;
+        EXPECT_TRUE(scratch.names().empty()) << file;
+    }
 }
 
 TEST(Film, SecondSignalLeavesNothing) {

@@ -116,6 +116,59 @@ TEST(FileSafety, PicturesOfAGigabyteAreAnnounced) {
     EXPECT_THAT(usual.out + usual.err, ::testing::Not(HasSubstr("of memory")));
 }
 
+// Runs the command as a user who may have so many processes and threads.
+Finished with_threads(const Folder& folder, int most, const std::string& command) {
+    return shell(folder, "chmod 777 .; as='prlimit --nproc=" + std::to_string(most) +
+                             "'; if [ $(id -u) = 0 ]; then as=\"setpriv --reuid 65534 --clear-groups $as\"; fi; "
+                             "HOME=$PWD timeout -s KILL 60 $as $BEAMCAM " +
+                             command);
+}
+
+TEST(FileSafety, WithoutThreadsAFilmEndsWithAMessageAndIsMadeLater) {
+    for (const std::string film : {"f.mp4", "f.mkv", "f.webm --codec av1", "f.mov", "f.gif"}) {
+        const Folder folder;
+        folder.write("s.json", R"({"time": {"end": 0.2}})");
+        const std::string command = "render s.json --size 96x96 --fps 10 --style flat -q --no-cache -o " + film;
+        if (shell(folder, "$BEAMCAM " + command).code == 5) continue;  // without this encoder
+        for (const int most : {1, 4}) {
+            fs::remove(folder / film.substr(0, film.find(' ')));
+            const Finished run = with_threads(folder, most, command);
+            if (most > 1 && run.code == 0) continue;
+            EXPECT_EQ(run.code, 6) << film << run.err;
+            EXPECT_THAT(run.err, HasSubstr("no thread can be started")) << film;
+            EXPECT_FALSE(fs::exists(folder / film.substr(0, film.find(' '))));
+        }
+        EXPECT_EQ(with_threads(folder, 10000, command).code, 0) << film;
+    }
+}
+
+// Pango may search for fonts in threads, and GLib ends the process when it cannot start one.
+TEST(FileSafety, WithoutThreadsAPictureIsMadeOrEndsWithAMessage) {
+    for (const char* output : {"render s.json -o s.png --at 0 --size 96x96 --style flat -q --no-cache",
+                               "figure s.json angle -o s.pdf -q --no-cache"})
+        for (const int most : {1, 2, 3, 4}) {
+            const Folder folder;
+            folder.write("s.json", R"({"time": {"end": 0.1}})");
+            const Finished run = with_threads(folder, most, output);
+            if (run.code == 0) continue;
+            EXPECT_EQ(run.code, 6) << output << run.err;
+            EXPECT_THAT(run.err, HasSubstr("no thread can be started")) << output;
+        }
+}
+
+// Mesa waits forever for threads that could not start.
+TEST(GlSafety, WithoutThreadsALitFilmIsMadeOrEndsWithAMessage) {
+    for (int most = 1; most < 14; most += 2) {
+        const Folder folder;
+        folder.write("s.json", R"({"time": {"end": 0.1}})");
+        const Finished run =
+            with_threads(folder, most, "render s.json -o s.mkv --size 96x96 --fps 10 --style lit -q --no-cache");
+        if (run.code == 0) continue;
+        EXPECT_EQ(run.code, 6) << most << run.err;
+        EXPECT_THAT(run.err, HasSubstr("no thread can be started"));
+    }
+}
+
 TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
     const std::pair<const char*, const char*> cases[] = {
         {"mkdir -p out/t.csv", "out/t.csv is a directory"},
