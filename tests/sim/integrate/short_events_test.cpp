@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/observe/run_statistics.hpp"
+#include "sim/observe/warnings.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -323,6 +324,53 @@ TEST(Fallback, ACappedSearchForATouchIsCountedAndReported) {
     EXPECT_TRUE(reports(run(p, 0.1), "a touch may be missed"));
     p.cam->radius = 1e-4;
     EXPECT_FALSE(reports(run(p, 0.1), "a touch may be missed"));
+}
+
+TEST(Fallback, AGapLeftAtAnEventIsReported) {
+    Problem p;
+    p.solver.method = Method::rk8;
+    p.solver.rtol = 1e-2;
+    p.solver.atol = 1e-5;
+    EXPECT_TRUE(reports(run(p, 0.6), "was left at a touch or release and taken for zero"));
+    p.solver.rtol = 1e-10;
+    p.solver.atol = 1e-13;
+    EXPECT_FALSE(reports(run(p, 0.6), "taken for zero"));
+}
+
+// The state after a strike is as uncertain as a step: where the rebound is lower, the gap closes again at the same
+// instant.
+TEST(Fallback, AReboundWithinTheErrorOfAStepIsCountedAsPlasticAndReported) {
+    Problem p;
+    p.contact.model = ContactModel::restitution;
+    for (const Method method : {Method::cvode_adams, Method::cvode_bdf})
+        for (const double rtol : {1e-2, 1e-3}) {
+            p.solver = {method, rtol, 1e-3 * rtol, p.solver.max_steps};
+            EXPECT_TRUE(reports(run(p, 0.6), "taken as plastic")) << name(method) << " " << rtol;
+        }
+    p.solver = Solver{};
+    EXPECT_FALSE(reports(run(p, 0.6), "taken as plastic"));
+}
+
+// A grip that can neither hold nor slide needs rounding to come about: no scene shows it on every machine.
+TEST(Fallback, EachIsReportedWithItsCount) {
+    const auto reported = [](const Fallbacks& fallbacks, const char* words) {
+        RunStatistics statistics;
+        statistics.fallbacks = fallbacks;
+        const Problem p;
+        const std::vector<std::string> all = warnings(p, Result{}, statistics, 0);
+        return all.size() == 1 && all.front().find(words) != std::string::npos;
+    };
+    EXPECT_TRUE(reported({.grips = 1}, "in 1 step the friction changed between stick and slip again and again"));
+    EXPECT_TRUE(reported({.grips = 3}, "in 3 steps the friction"));
+    EXPECT_TRUE(reported({.strikes = 1}, "1 strike taken as plastic"));
+    EXPECT_TRUE(reported({.strikes = 2}, "2 strikes taken as plastic"));
+    EXPECT_TRUE(reported({.coarse = 2}, "in 2 steps the beam vibrates faster than the looks for a touch"));
+    EXPECT_TRUE(reported({.left_behind = 1}, "no motion was found in which the resting beam follows"));
+    EXPECT_TRUE(reported({.searches = 2}, "not searched to the end in 2 steps"));
+    EXPECT_TRUE(reported({.gap = 2e-9}, "a gap of 2e-09 m was left"));
+    RunStatistics rounding;
+    rounding.fallbacks.gap = 1e-15;
+    EXPECT_TRUE(warnings(Problem{}, Result{}, rounding, 0).empty());
 }
 
 }  // namespace
