@@ -186,7 +186,8 @@ void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* t
 // At most, of any encoder but SVT-AV1: `threads`, and some that look ahead or filter.
 constexpr int kThreadsOfEncoder = 16;
 
-// SVT-AV1 waits forever for those of its threads that could not start. It started 90 on two cores; more cores take more.
+// SVT-AV1 waits forever for those of its threads that could not start. It started 90 on two cores; more cores take
+// more.
 int threads_of_svt_av1() { return std::min(64 + 32 * static_cast<int>(std::thread::hardware_concurrency()), 256); }
 
 }  // namespace

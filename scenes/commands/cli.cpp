@@ -46,9 +46,16 @@ void refuse_unknown_command(int argc, const char* const* argv, const Grammar& gr
 }
 
 std::string exit_code_words() {
-    std::vector<std::string> words;
-    for (const auto& [code, meaning] : kExitCodes) words.push_back(fmt::format("{} {}", int(code), meaning));
-    return fmt::format("Exit codes: {}.", fmt::join(words, ", "));
+    constexpr std::size_t kColumns = 100;
+    std::string text = "Exit codes:";
+    std::size_t line = 0;  // where it begins
+    for (const auto& [code, meaning] : kExitCodes) {
+        const std::string word = fmt::format("{} {}{}", int(code), meaning, code == kInterrupted ? "." : ",");
+        const bool fits = text.size() - line + 1 + word.size() <= kColumns;
+        text += (fits ? " " : "\n") + word;
+        if (!fits) line = text.size() - word.size();
+    }
+    return text;
 }
 
 // A parsed command and its parser.

@@ -37,7 +37,7 @@ class ExponentialSegment final : public Segment {
     Lanes spin{}, push{};        // Θ̇ and ṗ at the nodes
     double ledger0[kLedgerSize] = {};
     Lanes rate[kLedgerSize] = {};  // of the ledger at the nodes, but for what `ledger_at` adds
-    bool ledger_changes = false;            // anything of the ledger changes in this step
+    bool ledger_changes = false;   // anything of the ledger changes in this step
     bool touching = false;
     TouchSamples samples;     // if touching
     double boundary0 = 0;     // `drive_boundary` at t0
