@@ -66,39 +66,39 @@ Problem turning_cam(ModelKind model, int modes, double speed = 10) {
 }
 
 TEST(Extrema, OfTwoModesExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::first_order, 2), 0.5, 40'000);
+    expect_true_extrema(turning_cam(ModelKind::first_order, 2), 0.5, 12'000);
 }
 
 TEST(Extrema, OfEightModesExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::first_order, 8), 0.4, 20'000);
+    expect_true_extrema(turning_cam(ModelKind::first_order, 8), 0.4, 8'000);
 }
 
 TEST(Extrema, OfFortyModesExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 12'000);
+    expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 4'000);
 }
 
-TEST(Extrema, OfARigidBeamExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::rigid, 2), 0.5, 20'000); }
+TEST(Extrema, OfARigidBeamExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::rigid, 2), 0.5, 8'000); }
 
 TEST(Extrema, OfADampedBeamExceedEverySample) {
     Problem p = turning_cam(ModelKind::first_order, 6);
     p.beam.damping_ratio = {0.01};
-    expect_true_extrema(p, 0.5, 40'000);
+    expect_true_extrema(p, 0.5, 12'000);
 }
 
 TEST(Extrema, OfThePapersModelExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 40'000);
+    expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 12'000);
 }
 
 TEST(Extrema, OfTheSecondOrderModelExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 20'000);
+    expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 6'000);
 }
 
-TEST(Extrema, OfTheExactModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::exact, 2), 0.35, 15'000); }
+TEST(Extrema, OfTheExactModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::exact, 2), 0.35, 5'000); }
 
 TEST(Extrema, OfClampedShapesExceedEverySample) {
     Problem p = turning_cam(ModelKind::first_order, 3);
     p.beam.basis = Basis::cantilever;
-    expect_true_extrema(p, 0.4, 20'000);
+    expect_true_extrema(p, 0.4, 8'000);
 }
 
 TEST(Extrema, OfOtherMethodsExceedEverySample) {
@@ -106,7 +106,7 @@ TEST(Extrema, OfOtherMethodsExceedEverySample) {
         Problem p = turning_cam(ModelKind::first_order, 2);
         p.solver.method = method;
         SCOPED_TRACE(name(method));
-        expect_true_extrema(p, 0.4, 15'000);
+        expect_true_extrema(p, 0.4, 5'000);
     }
 }
 
