@@ -54,7 +54,7 @@ struct FilmFacts {
     void choose_scales();
 };
 
-inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // no value
+using sim::kNan;
 
 // The time after which a trace coloured by its age is half as strong [s].
 inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }

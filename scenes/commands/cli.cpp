@@ -50,11 +50,12 @@ std::string exit_code_words() {
     std::string text = "Exit codes:";
     std::size_t line = 0;  // where it begins
     for (const auto& [code, meaning] : kExitCodes) {
-        const std::string word = fmt::format("{} {}{}", int(code), meaning, code == kInterrupted ? "." : ",");
+        const std::string word = fmt::format("{} {},", int(code), meaning);
         const bool fits = text.size() - line + 1 + word.size() <= kColumns;
         text += (fits ? " " : "\n") + word;
         if (!fits) line = text.size() - word.size();
     }
+    text.back() = '.';
     return text;
 }
 

@@ -84,31 +84,4 @@ double find_root(F&& f, double a, double b) {
     return find_root(std::forward<F>(f), a, b, fa, fb);
 }
 
-// The largest value of f in [a, b] and where it is (golden section; one hump). A maximum is flat, so
-// the position need not be sharp.
-template <class F>
-std::pair<double, double> find_peak(F&& f, double a, double b) {
-    BEAMCAM_ASSERT(a <= b);
-    constexpr double kRatio = 0.6180339887498949;
-    const double span = b - a;
-    double x1 = b - kRatio * (b - a), x2 = a + kRatio * (b - a), f1 = f(x1), f2 = f(x2);
-    while (b - a > 1e-7 * span) {
-        if (f1 > f2) {
-            b = x2;
-            x2 = x1;
-            f2 = f1;
-            x1 = b - kRatio * (b - a);
-            f1 = f(x1);
-        } else {
-            a = x1;
-            x1 = x2;
-            f1 = f2;
-            x2 = a + kRatio * (b - a);
-            f2 = f(x2);
-        }
-        if (x1 >= x2) break;  // rounding
-    }
-    return f1 > f2 ? std::pair{x1, f1} : std::pair{x2, f2};
-}
-
 }  // namespace beamcam::sim

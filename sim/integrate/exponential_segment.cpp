@@ -12,6 +12,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kBetweenNodes = 1.5;  // of what a polynomial may exceed its values at the nodes by
+constexpr double kToNode = 0.1;        // of the step: no instant is farther from the nearest node
 
 }  // namespace
 
@@ -203,11 +204,10 @@ void ExponentialSegment::value(double t, double* y) const {
 
 // Bound of √(q² + (q̇/ω)²).
 double ExponentialSegment::largest_amplitude(std::size_t i, double force) const {
-    constexpr double kNodeGap = 0.1;  // half of the widest distance of nodes over the step
     const double w = form_->oscillators[i].omega;
     const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
     const double at_nodes = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
-    return at_nodes + force / w * std::min(kNodeGap * h, 2 / w);
+    return at_nodes + force / w * std::min(kToNode * h, 2 / w);
 }
 
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
@@ -308,7 +308,6 @@ double ExponentialSegment::balance_error() const {
 // The oscillation about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
 // (|f″| + 2γ|f′|)/ω³ times half their distance; f is bounded by the derivatives of its Legendre polynomials.   (S59)
 ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i) const {
-    constexpr double kToNode = 0.1;  // of the step: no instant is farther from the nearest node
     const Collocation& gauss = Collocation::get();
     const Oscillator& o = form_->oscillators[i];
     const double force = kBetweenNodes * largest(f[i]), square = o.omega * o.omega;

@@ -168,8 +168,8 @@ constexpr double kD[4][12] = {
 constexpr std::size_t kDenseRows = 7;
 
 // The continuous extension at the share s of the step: y out of its start and seven rows, each of n numbers.
-template <class TableauRow>
-void extend(double s, std::size_t n, const double* start, const TableauRow* rows, double* y) {
+template <class Row>
+void extend(double s, std::size_t n, const double* start, const Row* rows, double* y) {
     const double r = 1 - s;
     for (std::size_t i = 0; i < n; ++i) {
         double v = rows[6][i] * s;

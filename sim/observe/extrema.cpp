@@ -94,6 +94,17 @@ void sign_changes(const F& f, const Variation& variation, double rounding, const
     sign_changes(f, variation, rounding, m, b, found);
 }
 
+void offer(Extremum& e, double t, double value) {
+    if (value < e.min) {
+        e.min = value;
+        e.t_min = t;
+    }
+    if (value > e.max) {
+        e.max = value;
+        e.t_max = t;
+    }
+}
+
 double sample_time(const SegmentInterval& s, std::size_t k) {
     if (k == 0) return s.from;
     if (k > kNodes) return s.to;
@@ -120,17 +131,6 @@ bool needs_contact(ChannelKind kind) {
 }
 
 }  // namespace
-
-void offer(Extremum& e, double t, double value) {
-    if (value < e.min) {
-        e.min = value;
-        e.t_min = t;
-    }
-    if (value > e.max) {
-        e.max = value;
-        e.t_max = t;
-    }
-}
 
 ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
     : evaluator_(system),

@@ -19,8 +19,6 @@
 
 namespace beamcam::sim {
 
-void offer(Extremum& e, double t, double value);
-
 class ExtremaFinder {
   public:
     ExtremaFinder(const System& system, std::vector<Channel> channels);
