@@ -21,14 +21,16 @@ rlim_t limit() noexcept {
 
 }  // namespace
 
+bool has_memory(std::size_t bytes) noexcept {
+    void* room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return false;
+    munmap(room, bytes);
+    return true;
+}
+
 bool memory_is_short() noexcept {
     const rlim_t most = limit();
-    if (most == RLIM_INFINITY) return false;
-    const std::size_t half = std::max<std::size_t>(most / 2, 64 * kMiB);
-    void* room = mmap(nullptr, half, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (room == MAP_FAILED) return true;
-    munmap(room, half);
-    return false;
+    return most != RLIM_INFINITY && !has_memory(std::max<std::size_t>(most / 2, 64 * kMiB));
 }
 
 std::string memory_words() {

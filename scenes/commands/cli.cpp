@@ -17,6 +17,7 @@
 #include "output/files/errors.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
+#include "output/film/video.hpp"
 #include "render/base/error.hpp"
 #include "render/base/memory.hpp"
 #include "render/gl/gl_environment.hpp"
@@ -138,6 +139,7 @@ int command_line(int argc, const char* const* argv) {
         output::install_handlers();
         output::install_crash_handlers(kInputOutput);
         render::ignored_gl_settings();  // the environment may be changed while there is one thread
+        output::quiet_encoders();
         return parse_and_run(argc, argv);
     } catch (const UsageError& e) {
         return fail(kUsage, fmt::format("beamcam: {}", e.what()));

@@ -82,6 +82,7 @@ ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound
     const double distance = norm(d);
     c.normal = d * (1 / distance);
     c.tangent = -perp(c.normal);
+    c.side = c.at_end ? 0 : std::copysign(1, cross(at_.r1, d));
     c.gap = distance - cam_.radius - offset_ + shift;   // (S25)
     c.gap_rate = dot(c.normal, at_.v - pose.velocity);  // (S26)
     // χ̇ of the tangent; the touching face lies d below the centre line (S27).

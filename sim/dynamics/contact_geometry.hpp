@@ -10,6 +10,7 @@ struct ContactState {
     double x = 0;  // x_c [m]
     bool at_end = false;
     Vec2 normal, tangent;
+    double side = 0;               // of the beam, where the disc's centre lies: ±1, 0 beyond its ends
     double gap = 0, gap_rate = 0;  // [m], [m/s]
     double slip = 0;               // v_t [m/s]
     double force = 0;              // N [N]

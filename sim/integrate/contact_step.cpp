@@ -217,10 +217,8 @@ void ContactStep::linearize(const StepTable& table) {
     mobility_hub_ = form_.prescribed ? 0 : std::fabs(start.hub) * h / form_.J;
 }
 
-// Vibration that the nodes do not resolve shows in Θ̇, that of the contact force in the force.
 double ContactStep::error(double h) {
-    step_.set_scales(step_.segment.end.data(), step_.next.data());
-    const double smooth = form_.prescribed ? 0 : quadrature_error(step_.segment.spin) * h / step_.scale_theta;
+    const double smooth = step_.forcing_error(h, &load);
     double force = quadrature_error(load.force);
     if (load.rough) force = std::max(force, quadrature_error(load.friction));
     return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,

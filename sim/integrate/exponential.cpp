@@ -32,21 +32,6 @@ std::unique_ptr<Integrator> make_fallback(Method method, System& system, double 
                                  : make_sundials(method, system, kShareOfBdf * rtol, kShareOfBdf * atol);
 }
 
-double flight_error(NodalStep& step, double h) {
-    const ExponentialSegment& s = step.segment;
-    const ModalForm& form = *step.form;
-    double errors = 0;
-    for (std::size_t i = 0; i < step.n; ++i) {
-        const double e = interpolation_error(s.f[i]) * std::min(h, 1 / form.oscillators[i].omega);
-        errors += e * e;
-    }
-    step.set_scales(s.end.data(), step.next.data());
-    const double modal = std::sqrt(errors) / step.scale_modes;
-    if (form.prescribed) return modal;
-    return std::max({modal, interpolation_error(s.push) * h / form.J / step.scale_theta_dot,
-                     interpolation_error(s.spin) * h / step.scale_theta});
-}
-
 // Solves for the nodal forcing; returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
     step.segment.h = table.h;
@@ -63,7 +48,7 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     step.propagate(table);
     step.propagate_rates(table);
     step.arrive(table);
-    return flight_error(step, table.h);
+    return step.forcing_error(table.h, nullptr);
 }
 
 // How many levels a step of an error beyond the tolerance is too long, for a method of this order.

@@ -232,6 +232,23 @@ void NodalStep::set_scales(const double* a, const double* b) {
     scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
 }
 
+double NodalStep::forcing_error(double h, const ContactLoad* load) {
+    const ExponentialSegment& s = segment;
+    set_scales(s.end.data(), next.data());
+    double errors = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Lanes f = load ? s.f[i] - load->modal(i) * (1 / form->mass) : s.f[i];
+        const double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
+        errors += e * e;
+    }
+    const double modal = std::sqrt(errors) / scale_modes;
+    if (form->prescribed) return modal;
+    const double torque_error = interpolation_error(load ? s.push - load->torque() : s.push) * h / form->J;
+    // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.
+    const double turn = load ? quadrature_error(s.spin) : interpolation_error(s.spin);
+    return std::max({modal, torque_error / scale_theta_dot, turn * h / scale_theta});
+}
+
 void NodalStep::finish(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     std::copy_n(next.begin(), system.controlled, s.end.begin());

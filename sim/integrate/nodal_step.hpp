@@ -72,6 +72,8 @@ struct NodalStep {
     void arrive(const StepTable& table);
     // What errors are measured by: modes by their vibration as a whole, (q̇, ωq); the hub by itself.
     void set_scales(const double* a, const double* b);
+    // Error of the forcing but for that of the contact, in units of the tolerance; sets the scales.
+    double forcing_error(double h, const ContactLoad* load);
     // Ledger and end state of the accepted step.
     void finish(const ContactLoad* load);
 

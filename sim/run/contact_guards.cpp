@@ -65,7 +65,7 @@ Event ContactGuards::first_lift(const Segment& segment) {
 
 ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) {
     const ContactState c = probe_.contact(segment, t, false);
-    Guards w{c.normal, {t, -c.gap, -c.gap_rate}, c.factor, 1};
+    Guards w{c.side, {t, -c.gap, -c.gap_rate}, c.factor, 1};
     const FrictionLaw& friction = probe_.system.friction();
     if (!friction.bristle) return w;
     if (state_.phase.grip == Grip::stick) {
@@ -77,6 +77,13 @@ ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) 
         w.grip = sliding_guard(segment, t, c.slip);
     }
     return w;
+}
+
+// An event at the very passage may end a step between two looks.
+void ContactGuards::check_side(const Guards& now) {
+    if (now.side * state_.side < 0 && now.release.value > 0)
+        throw RunStopped(Stop::passed_cam, "the beam passed through the cam");
+    if (now.side != 0) state_.side = now.side;
 }
 
 // The speed of a sliding bristle's foot along its direction, s v_t − μṄ/k.
@@ -109,14 +116,13 @@ Event ContactGuards::first_event(const Segment& segment) {
         if (t && (best.kind == EventKind::none || *t < best.t)) best = {kind, *t};
     };
     Guards a = evaluate(segment, segment.t0);
+    check_side(a);
     grip_.assign(static_cast<std::size_t>(count) + 1, a.grip);
     if (segment.t0 == state_.phase_start) a.release.value = std::max(a.release.value, 0.0);
     int last = 0;
     while (last < time.count && best.kind == EventKind::none) {
         const Guards b = evaluate(segment, time(++last));
-        if (dot(a.normal, b.normal) < 0 && b.release.value > 0) {
-            throw RunStopped(Stop::passed_cam, "the beam passed through the cam");
-        }
+        check_side(b);
         grip_[static_cast<std::size_t>(last)] = b.grip;
         offer(EventKind::release, first_fall(release, a.release, b.release, probe_.gap_rounding()));
         offer(EventKind::clamp, clamp_event(segment, a, b));

@@ -21,12 +21,14 @@ class ContactGuards {
   private:
     // The guards of contact at one instant.
     struct Guards {
-        Vec2 normal;
+        double side;       // of the beam (ContactState)
         Guard release;     // penetration and its rate
         double clamp = 1;  // 1 + D δ̇/δ̇₋: where it changes sign the never-negative force has a kink
         double grip = 1;   // positive while the grip holds (S36)
     };
     Guards evaluate(const Segment& segment, double t);
+    // Throws when the disc's centre has changed sides since the touch.
+    void check_side(const Guards& now);
     double sliding_guard(const Segment& segment, double t, double slip);
     std::optional<double> clamp_event(const Segment& segment, const Guards& a, const Guards& b);
     bool may_change_grip();

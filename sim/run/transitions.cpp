@@ -39,6 +39,7 @@ void Transitions::touch() {
     take_out_gap();
     state_.phase.touching = true;
     state_.clamp_side = 1;
+    state_.side = 0;
     state_.phase_start = state_.t;
     enter_phase();
     const double approach = -contact_now().gap_rate;

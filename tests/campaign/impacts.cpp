@@ -290,15 +290,15 @@ void compare(const Options& options, unsigned seed, Total& total) {
     bool agreed = true, late = false;
     const auto judge = [&](Method method, const Motion& motion, double reserve) {
         if (!motion.stopped.empty() && limits.to_the_end) ++total.not_judged[motion.stopped];
-        const auto compared = [&](const Motion& with) {
+        const auto compared = [&](const Motion& with, const Motion& reference) {
             Judged part = limits;
             if (!with.stopped.empty()) part.growth.resize(std::min(part.growth.size(), with.impacts.size()));
-            return disagreement(problem, part, with, rk8, reserve);
+            return disagreement(problem, part, with, reference, reserve);
         };
-        const std::string found = compared(motion);
+        const std::string found = compared(motion, rk8);
         if (found.empty()) return;
-        const Motion tighter = solve(problem, end, method, 10 * options.seconds, 0.1 * kRtol);
-        const std::string still = compared(tighter);
+        const auto tighter = [&](Method by) { return solve(problem, end, by, 10 * options.seconds, 0.1 * kRtol); };
+        const std::string still = compared(tighter(method), tighter(Method::rk8));
         (still.empty() ? late : agreed) = still.empty();
         fmt::print("{}: {} differs from rk8: {}; at rtol {:g}: {}   [{}]\n", place, name(method), found, 0.1 * kRtol,
                    still.empty() ? "agrees" : still, command);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs every kind of output with less and less memory (ulimit -v): each run must succeed, or end with a message and a documented
-exit code; no signal, no half-written file, no other cause in the message.
+exit code; no signal, no hang, no half-written file, no other cause in the message.
 
 memory.py PROGRAM [--steps MB,MB,…]
 """
@@ -14,6 +14,7 @@ import tempfile
 
 DOCUMENTED = {0, 5, 6}
 STEPS = [20, 40, 60, 80, 100, 130, 160, 200, 250, 300, 350, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
+LONGEST = 120  # [s]
 SIZE = '"size": [1280, 720]'
 FLAT, LIT, SOLID = ('"view": {"style": "%s"}' % style for style in ("flat", "lit", "solid"))
 OUTPUTS = {
@@ -47,10 +48,17 @@ def main():
             with tempfile.TemporaryDirectory() as scratch:
                 folder, limit = pathlib.Path(scratch), megabytes << 20
                 (folder / "s.json").write_text(f'{{"time": {{"end": 0.3}}, "outputs": [{output}]}}', encoding="utf-8")
-                done = subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True, text=True,
-                                      errors="replace", env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
-                                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
-                left = [p.name for p in folder.glob("out/*") if done.returncode and p.name != ".beamcam.json"]
+                try:
+                    done = subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True,
+                                          text=True, errors="replace", timeout=LONGEST,
+                                          env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
+                                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+                except subprocess.TimeoutExpired:
+                    row.append("…")
+                    problems.append(f"{name} with {megabytes} MB: no end within {LONGEST} s")
+                    continue
+                # What starts with a dot are the program's notes for its next run.
+                left = [p.name for p in folder.glob("out/*") if done.returncode and not p.name.startswith(".beamcam.")]
                 loader = done.returncode == 127  # the program itself does not fit
                 row.append("-" if loader else str(done.returncode))
                 if not loader and (done.returncode not in DOCUMENTED or left or (done.returncode and "memory" not in done.stderr)):

@@ -214,6 +214,56 @@ TEST(ShortEvents, ABeamThatIsDrivenThroughTheCamIsReportedByEveryMethod) {
     }
 }
 
+TEST(ShortEvents, AnEventOnThePassageOfTheCentreDoesNotHideIt) {
+    // Where the beam passes the centre of the disc the sense of the contact's rate turns: the force is clamped there.
+    Problem p;
+    p.hub = {-0.1855398947339365, 0, ConstantTorque{-6.574596403998927}};
+    p.beam.modes = 7;
+    p.beam.youngs_modulus = 18829051860.66336;
+    p.beam.damping_ratio = {0.003213720901168375};
+    p.cam = Cam{{0.28655271773146296, -0.044322659900487095},
+                0.08103166730865642,
+                0.0074950983241421874,
+                3.9832144358156283,
+                4.185441948749464,
+                {},
+                0.3};
+    p.contact.stiffness = 2466.6144951472115;
+    p.contact.damping = DampingLaw::hu_guo;
+    p.contact.restitution = 0.4447066819865039;
+    p.contact.friction = StickSlipFriction{0.8646925526821736, {}, {}, {}};
+    p.contact.offset = 0;
+    p.initial = {0.6319131305282734, -3.88974749806564, InitialShape::straight};
+    for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams})
+        EXPECT_THROW(solve_long(p, method, 1e-11, 0.1), SolverError) << name(method);
+}
+
+TEST(ShortEvents, AClampedContactIsAsAccurateAsFlight) {
+    // From 0.075 s to the release the force is zero: nothing but the vibration asks for short steps.
+    Problem p;
+    p.hub = {-0.032045099472637534, 0, {}};
+    p.beam.modes = 5;
+    p.beam.youngs_modulus = 33083797328.544533;
+    p.cam = Cam{{0.543726357420377, -0.002305527334638291},
+                0.0811439299795646,
+                0.016342051365958076,
+                4.597030433126966,
+                26.502337934566278,
+                {},
+                0.3};
+    p.contact.stiffness = 3607.381731723602;
+    p.contact.exponent = 1;
+    p.contact.damping = DampingLaw::hu_guo;
+    p.contact.restitution = 0.8012050347871158;
+    p.contact.friction = CoulombFriction{0.49972926138428253, 0.017758930813802434};
+    p.contact.offset = 0;
+    p.initial = {0.6033461484367368, 0, InitialShape::resting};
+    const Result fast = solve_long(p, Method::automatic, 1e-11, 0.1), rk8 = solve_long(p, Method::rk8, 1e-12, 0.1);
+    ASSERT_EQ(fast.impacts.size(), 1u);
+    EXPECT_NEAR(*fast.impacts[0].t_end, *rk8.impacts[0].t_end, 1e-12);
+    EXPECT_NEAR(*fast.impacts[0].v_n_after, *rk8.impacts[0].v_n_after, 1e-10);
+}
+
 // ---- touches that long steps could pass over -------------------------------------------------------
 
 TEST(ShortEvents, NoSignOfGravityHidesATouchFromLongSteps) {
