@@ -1,6 +1,7 @@
 #include "render/draw/smooth_path.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace beamcam::render {
 namespace {
@@ -8,11 +9,17 @@ namespace {
 constexpr double kMostSteps = 64;
 constexpr double kSame = 1e-9;  // [px]
 
-// The next point that differs from points[i], going by `way`; where there is none, i's neighbour mirrored at it.
-Vec2 beyond(std::span<const Vec2> points, std::size_t i, int way, Vec2 neighbour) {
+// The next point that differs from points[i], going by `way`.
+std::optional<Vec2> beyond(std::span<const Vec2> points, std::size_t i, int way) {
     for (auto k = static_cast<std::ptrdiff_t>(i) + way; k >= 0 && k < std::ssize(points); k += way)
         if (norm(points[static_cast<std::size_t>(k)] - points[i]) > kSame) return points[static_cast<std::size_t>(k)];
-    return points[i] * 2 - neighbour;
+    return std::nullopt;
+}
+
+// p mirrored at the bisector of b and c: how an arc from b to c and p came to b.
+Vec2 mirrored(Vec2 p, Vec2 b, Vec2 c) {
+    const Vec2 along = (c - b) * (1 / norm(c - b));
+    return p - along * (2 * dot(along, p - (b + c) * 0.5));
 }
 
 // Between a at t0 and b at t1, or beyond.
@@ -26,7 +33,9 @@ std::vector<Vec2> smooth_piece(std::span<const Vec2> points, std::size_t i, doub
     const Vec2 b = points[i], c = points[i + 1];
     const double length = norm(c - b);
     if (!(length > step)) return {b, c};
-    const Vec2 a = beyond(points, i, -1, c), d = beyond(points, i + 1, +1, b);
+    const std::optional<Vec2> before = beyond(points, i, -1), after = beyond(points, i + 1, +1);
+    if (!before && !after) return {b, c};
+    const Vec2 a = before ? *before : mirrored(*after, b, c), d = after ? *after : mirrored(*before, b, c);
     // Knots at the square roots of the distances; Barry and Goldman's pyramid.
     const double t1 = std::sqrt(norm(b - a)), t2 = t1 + std::sqrt(length), t3 = t2 + std::sqrt(norm(d - c));
     const int steps = static_cast<int>(std::min(std::ceil(length / step), kMostSteps));

@@ -638,6 +638,47 @@ TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     }
 }
 
+// Twelve rows a turn of a harmonic motion: its portrait is an ellipse, where chords would cut 3 % off.
+TEST(PhasePanel, DrawsCurvesBetweenTheRows) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 960, setup.height = 960;
+    setup.view.style = Style::flat;
+    setup.layout = leaf({.kind = PanelKind::phase});
+    setup.title.clear();
+    setup.chart.channels = {{ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0}};
+    setup.chart.values.assign(3, {});
+    for (int i = 0; i <= 24; ++i) {
+        const double turn = 2 * std::numbers::pi * i / 12;
+        const double row[] = {0.8 * i / 24, std::cos(turn), std::sin(turn)};
+        for (std::size_t c = 0; c < 3; ++c) setup.chart.values[c].push_back(row[c]);
+    }
+    for (sim::Pose& pose : setup.poses) pose.theta = pose.theta_dot = 0;
+    const Color ink = series_color(palette(Theme::light), 0);
+    Film film(std::move(setup));
+    const Image image = drawn(film, film.frames() - 1);
+    std::vector<Vec2> inked;
+    Vec2 low{1e9, 1e9}, high{0, 0};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+            const double off = std::abs((p >> 16 & 255) / 255.0 - ink.r) + std::abs((p >> 8 & 255) / 255.0 - ink.g) +
+                               std::abs((p & 255) / 255.0 - ink.b);
+            if (off > 0.25) continue;
+            inked.push_back({x + 0.5, y + 0.5});
+            low = {std::min(low.x, x + 0.0), std::min(low.y, y + 0.0)};
+            high = {std::max(high.x, x + 1.0), std::max(high.y, y + 1.0)};
+        }
+    const Vec2 half = 0.5 * (high - low), middle = low + half;
+    ASSERT_GT(std::min(half.x, half.y), 150);
+    int beside = 0, on = 0;
+    for (const Vec2& at : inked) {
+        const double radius = std::hypot((at.x - middle.x) / half.x, (at.y - middle.y) / half.y);
+        if (radius > 0.1) (std::abs(radius - 1) < 0.015 ? on : beside) += 1;  // not the point of now
+    }
+    EXPECT_GT(on, 1000);
+    EXPECT_EQ(beside, 0);
+}
+
 // What no typeface has would be drawn as a box: the picture is the one without it.
 TEST(Panels, PictographsLeaveNoBoxes) {
     FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;
