@@ -134,7 +134,7 @@ def main():
             if made.returncode:
                 sys.exit(f"{name}: {made.stderr}")
             os.replace(folder / "b/x.png", picture)
-            judge(name, {**truth, "accepted": [{"renderer": "x", "sha256": [digest(picture)]}]}, exact, loose, "identical")
+            judge(name, {**truth, "accepted": [{**truth["accepted"][0], "sha256": [digest(picture)]}]}, exact, loose, "identical")
         picture.write_bytes(original)
         judge("one frame later (1/60 s)", {**truth, "output": {**truth["output"], "at": AT + 1 / 60}}, True, True, "different")
         for name, scene, motion in MECHANICS:

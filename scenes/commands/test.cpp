@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "output/data/manifest.hpp"
@@ -19,8 +20,21 @@ struct TestArguments {
     std::string baselines;
     std::vector<std::string> update, only, tolerance;
     std::optional<std::string> report, junit;
+    std::string on_new_renderer = "fail";
     bool add_digest = false, strict = false;
 };
+
+const char* name(NewRenderer policy) {
+    switch (policy) {
+        case NewRenderer::fail:
+            return "fail";
+        case NewRenderer::warn:
+            return "warn";
+        case NewRenderer::accept:
+            return "accept";
+    }
+    return "?";
+}
 
 RegressionOptions options_of(const TestArguments& args) {
     if (!args.update.empty() && !args.only.empty())
@@ -32,6 +46,9 @@ RegressionOptions options_of(const TestArguments& args) {
     options.only = args.only;
     options.update = args.update;
     options.add_digest = args.add_digest;
+    options.rule.strict = args.strict;
+    for (const NewRenderer policy : {NewRenderer::fail, NewRenderer::warn, NewRenderer::accept})
+        if (args.on_new_renderer == name(policy)) options.rule.new_renderer = policy;
     for (const std::string& text : args.tolerance) apply_tolerance(options.tolerance, text);
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
@@ -48,9 +65,10 @@ void write_own(output::Manifest& manifest, const fs::path& file, const std::stri
     output::write_file(manifest.target(file), text);
 }
 
-void write_reports(const TestArguments& args, const RegressionResult& result, output::Manifest& manifest) {
+void write_reports(const TestArguments& args, const RegressionResult& result, const PassRule& rule,
+                   output::Manifest& manifest) {
     const std::string title = fs::path(args.baselines).filename().string();
-    if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), args.strict));
+    if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), rule));
     if (args.report) {
         output::ensure_directory(*args.report);
         const fs::path page = fs::path(*args.report) / "index.html";
@@ -60,18 +78,21 @@ void write_reports(const TestArguments& args, const RegressionResult& result, ou
     manifest.save();
 }
 
-void tell(const TestArguments& args, const RegressionResult& result) {
+void tell(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
     if (args.common.json)
         print_json(to_json(result));
     else
-        print_text(to_text(result, args.common.quiet));
-    std::size_t counts[4] = {};
-    for (const EntryResult& entry : result.entries) ++counts[static_cast<std::size_t>(entry.verdict())];
+        print_text(to_text(result, rule, args.common.quiet));
+    std::map<Verdict, std::size_t> counts;
+    for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
+    const std::size_t of_new_renderer = counts[Verdict::new_renderer];
     say(args.common,
-        fmt::format(
-            "{} entries: {} identical, {} equivalent, {} different, {} missing; {} simulations, {} pictures, {:.2f} s",
-            result.entries.size(), counts[0], counts[1], counts[2], counts[3], result.simulations, result.pictures,
-            result.seconds));
+        fmt::format("{} entries: {} identical, {} equivalent, {}{} different, {} missing; {} simulations, {} pictures, "
+                    "{:.2f} s",
+                    result.entries.size(), counts[Verdict::identical], counts[Verdict::equivalent],
+                    of_new_renderer > 0 ? fmt::format("{} of a new renderer, ", of_new_renderer) : "",
+                    counts[Verdict::different], counts[Verdict::missing], result.simulations, result.pictures,
+                    result.seconds));
     if (result.changed)
         say(args.common, fmt::format("{} was changed: look at what it accepts now, and keep it only if it is right",
                                      args.baselines));
@@ -82,13 +103,12 @@ int act(const TestArguments& args) {
     output::Manifest manifest(args.common.force);
     need_room(args, manifest);
     const RegressionResult result = test_regression(args.baselines, options);
-    write_reports(args, result, manifest);
-    tell(args, result);
-    bool fine = !result.changed;
+    write_reports(args, result, options.rule, manifest);
+    tell(args, result, options.rule);
+    bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // for somebody to look
     for (const EntryResult& entry : result.entries)
         if (entry.exit_code != 0 && entry.exit_code != kDiffers) return entry.exit_code;
-    for (const EntryResult& entry : result.entries)
-        fine = fine && entry.verdict() <= (args.strict ? Verdict::identical : Verdict::equivalent);
+    for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry.verdict());
     return fine ? kDone : kDiffers;
 }
 
@@ -106,6 +126,10 @@ void add_test(Grammar& grammar) {
     app.flag("--add-digest", args->add_digest,
              "Accept the digests of this machine beside the others, where pictures are equivalent, or where nothing is "
              "accepted yet of its libraries and fonts (ends with 7)");
+    app.option("--on-new-renderer", &args->on_new_renderer, "WHAT",
+               "Pictures of libraries or fonts of which nothing is accepted yet: fail, warn (they pass when they look "
+               "alike), accept (their digests, from now on) (default: fail)")
+        .one_of({name(NewRenderer::fail), name(NewRenderer::warn), name(NewRenderer::accept)});
     app.flag("--strict", args->strict, "What is only equivalent fails too");
     app.option("--tolerance", &args->tolerance, "KEY=X,...",
                "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")

@@ -32,6 +32,8 @@ const char* name(Verdict verdict) {
             return "identical";
         case Verdict::equivalent:
             return "equivalent";
+        case Verdict::new_renderer:
+            return "new-renderer";
         case Verdict::different:
             return "different";
         case Verdict::missing:

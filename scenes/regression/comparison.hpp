@@ -12,7 +12,8 @@ namespace beamcam::scenes {
 
 enum class Verdict {
     identical,
-    equivalent,  // not identical, but within the tolerance
+    equivalent,    // not identical, but within the tolerance
+    new_renderer,  // drawn by libraries or fonts of which nothing is accepted yet; the pictures look alike
     different,
     missing  // one of the two is not there
 };

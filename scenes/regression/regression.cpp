@@ -25,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// SSIM of pictures of one scene: other versions of the same fonts and libraries leave it above 0.9.
+constexpr double kAlike = 0.8;
+
 enum class Drawn { flat, lit, figure };
 
 Drawn drawn(const Baseline& entry) {
@@ -139,20 +142,26 @@ class EntryTest {
         return false;
     }
 
-    // Nothing is accepted yet of the renderer that drew the pictures, and nothing else is wrong with the entry.
-    bool differs_by_renderer(const std::string& renderer) const {
+    // Is nothing accepted yet of the renderer that drew the pictures, and nothing else wrong with the entry? Then the
+    // verdict is its own where they look alike.
+    void judge_renderer(const std::string& renderer) {
         const auto is_fine = [](const auto& each) { return each.second.reference_accepted; };
-        return result_.picture == Verdict::different && result_.exit_code == 0 &&
-               result_.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
-               std::ranges::all_of(result_.frames, is_fine) && !entry_.accepted.empty() &&
-               entry_.accepted.front().sha256.size() == result_.frames.size() &&
-               std::ranges::none_of(entry_.accepted, [&](const Accepted& a) { return a.renderer == renderer; });
-    }
-    void tell_of_renderer(const std::string& renderer) {
-        if (!options_.add_digest && differs_by_renderer(renderer))
-            result_.picture_lines.push_back(fmt::format(
-                "nothing is accepted yet of this renderer, {} (beamcam doctor); look at the picture, and --add-digest",
-                renderer));
+        is_of_new_renderer_ =
+            result_.picture == Verdict::different && result_.exit_code == 0 &&
+            result_.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
+            std::ranges::all_of(result_.frames, is_fine) && !entry_.accepted.empty() &&
+            entry_.accepted.front().sha256.size() == result_.frames.size() &&
+            std::ranges::none_of(entry_.accepted, [&](const Accepted& a) { return a.renderer == renderer; });
+        if (!is_of_new_renderer_) return;
+        const auto is_alike = [](const auto& each) {
+            const FrameResult& found = each.second;
+            return found.verdict == Verdict::identical ||
+                   (found.compared && found.comparison.same_size() && found.comparison.difference.ssim > kAlike);
+        };
+        if (std::ranges::all_of(result_.frames, is_alike)) result_.picture = Verdict::new_renderer;
+        result_.picture_lines.push_back(fmt::format(
+            "nothing is accepted yet of this renderer, {} (beamcam doctor); look at the picture, and --add-digest",
+            renderer));
     }
 
     // What the baselines file is to say, when this entry changes it.
@@ -165,8 +174,10 @@ class EntryTest {
             result_.updated = true;
             return change;
         }
-        if (!options_.add_digest || (result_.picture != Verdict::equivalent && !differs_by_renderer(renderer)))
-            return std::nullopt;
+        const bool added = options_.add_digest ? is_of_new_renderer_ || result_.picture == Verdict::equivalent
+                                               : result_.picture == Verdict::new_renderer &&
+                                                     options_.rule.new_renderer == NewRenderer::accept;
+        if (!added) return std::nullopt;
         change.accepted.push_back(digests(renderer));
         result_.digest_added = true;
         return change;
@@ -242,6 +253,7 @@ class EntryTest {
     EntryReferences references_;
     EntryPictures pictures_;
     double horizon_ = 0;
+    bool is_of_new_renderer_ = false;
 };
 
 // ---- entries that share one motion ----------------------------------------------------------------------
@@ -366,7 +378,8 @@ class Regression {
 
     RegressionResult go() {
         const auto started = Clock::now();
-        if (path_ == "-" && (!options_.update.empty() || options_.add_digest))
+        if (path_ == "-" &&
+            (!options_.update.empty() || options_.add_digest || options_.rule.new_renderer == NewRenderer::accept))
             throw UsageError("baselines from standard input cannot be changed; name the file");
         choose();
         for (Group& group : groups()) group.run(options_, result_);
@@ -445,7 +458,7 @@ class Regression {
                 id = known[how].id();
                 renderers[id] = known[how].parts;
             }
-            test->tell_of_renderer(id);
+            test->judge_renderer(id);
             if (auto change = test->edit(id)) edits.push_back(std::move(*change));
         }
         if (edits.empty()) return;
@@ -480,6 +493,21 @@ double FrameResult::weight() const {
     if (verdict == Verdict::identical) return -1;
     if (!compared || !comparison.same_size()) return 1e300;
     return static_cast<double>(comparison.difference.changed) + comparison.difference.largest / 256.0;
+}
+
+bool PassRule::passes(Verdict verdict) const {
+    switch (verdict) {
+        case Verdict::identical:
+            return true;
+        case Verdict::equivalent:
+            return !strict;
+        case Verdict::new_renderer:
+            return new_renderer != NewRenderer::fail;
+        case Verdict::different:
+        case Verdict::missing:
+            break;
+    }
+    return false;
 }
 
 Verdict EntryResult::verdict() const {

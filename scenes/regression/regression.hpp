@@ -42,10 +42,21 @@ struct EntryResult {
     std::size_t frames_with(Verdict verdict) const;
 };
 
+// What pictures of a new renderer come to: a failure, a pass that is told, or digests that are accepted from now on.
+enum class NewRenderer { fail, warn, accept };
+
+// Which verdicts pass.
+struct PassRule {
+    bool strict = false;  // only what is identical
+    NewRenderer new_renderer = NewRenderer::fail;
+    bool passes(Verdict verdict) const;
+};
+
 struct RegressionOptions {
-    std::vector<std::string> only;                // names; empty: all
-    std::vector<std::string> update;              // names; only these are run and replaced
-    bool add_digest = false;                      // keep the digests of what is equivalent as accepted ones
+    std::vector<std::string> only;    // names; empty: all
+    std::vector<std::string> update;  // names; only these are run and replaced
+    bool add_digest = false;          // accept the digests of what is equivalent, or of a new renderer
+    PassRule rule;
     Tolerance tolerance;                          // over that of every entry
     std::optional<std::filesystem::path> report;  // folder for actual and difference pictures
     RunOptions run;
@@ -63,9 +74,9 @@ RegressionResult test_regression(const std::string& path, const RegressionOption
 
 // ---- what is told ----------------------------------------------------------------------------------
 
-std::string to_text(const RegressionResult& result, bool failures_only);
+std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only);
 std::string to_json(const RegressionResult& result);
-std::string to_junit(const RegressionResult& result, const std::string& suite, bool strict);
+std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule);
 // One page that needs nothing else: pictures are inside it.
 std::string to_html(const RegressionResult& result, const std::string& title);
 

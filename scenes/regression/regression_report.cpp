@@ -10,10 +10,6 @@
 namespace beamcam::scenes {
 namespace {
 
-bool is_fine(Verdict verdict, bool strict) {
-    return verdict == Verdict::identical || (verdict == Verdict::equivalent && !strict);
-}
-
 std::string part(const char* what, const std::optional<Verdict>& verdict, const std::vector<std::string>& lines) {
     if (!verdict) return {};
     return fmt::format("{} {}{}{}", what, name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; "));
@@ -71,7 +67,7 @@ body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper)
 h1{font-size:1.4rem;margin:0}h2{font-size:1.1rem;margin:0}p{margin:.3rem 0}.soft{color:var(--soft)}
 table{border-collapse:collapse;width:100%;margin:1.2rem 0}td,th{text-align:left;padding:.35rem .7rem;border-bottom:1px solid var(--line);vertical-align:top}
 section{border-top:2px solid var(--line);padding:1rem 0 1.6rem}
-.identical{color:var(--good)}.equivalent{color:var(--near)}.different,.missing{color:var(--bad);font-weight:600}
+.identical{color:var(--good)}.equivalent,.new-renderer{color:var(--near)}.different,.missing{color:var(--bad);font-weight:600}
 .views{display:grid;grid-template-columns:repeat(auto-fit,minmax(22rem,1fr));gap:1.2rem;margin-top:.8rem}
 figure{margin:0}figcaption{color:var(--soft);font-size:.88rem;padding:.2rem 0}
 .slider{position:relative;line-height:0;border:1px solid var(--line)}.slider img{width:100%;display:block}
@@ -131,11 +127,12 @@ std::string entry_html(const EntryResult& entry) {
 }
 
 std::string junit_case(const std::string& suite, const std::string& test, const char* what,
-                       const std::optional<Verdict>& verdict, const std::vector<std::string>& lines, bool strict) {
+                       const std::optional<Verdict>& verdict, const std::vector<std::string>& lines,
+                       const PassRule& rule) {
     if (!verdict) return {};
     std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}: {}\"", escaped_for_xml(suite),
                                   escaped_for_xml(test), what);
-    if (is_fine(*verdict, strict)) return out + "/>\n";
+    if (rule.passes(*verdict)) return out + "/>\n";
     const std::string words =
         escaped_for_xml(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
     return out + fmt::format(">\n    <failure type=\"{0}\" message=\"{1}\">{1}</failure>\n  </testcase>\n",
@@ -144,12 +141,12 @@ std::string junit_case(const std::string& suite, const std::string& test, const 
 
 }  // namespace
 
-std::string to_text(const RegressionResult& result, bool failures_only) {
+std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only) {
     std::size_t width = 0;
     for (const EntryResult& entry : result.entries) width = std::max(width, entry.name.size());
     std::string text;
     for (const EntryResult& entry : result.entries) {
-        if (failures_only && !entry.updated && is_fine(entry.verdict(), false)) continue;
+        if (failures_only && !entry.updated && rule.passes(entry.verdict())) continue;
         text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, both_parts(entry));
         const auto* worst = entry.worst();
         if (worst && entry.picture != Verdict::equivalent) {
@@ -172,16 +169,16 @@ std::string to_text(const RegressionResult& result, bool failures_only) {
     return text;
 }
 
-std::string to_junit(const RegressionResult& result, const std::string& suite, bool strict) {
+std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule) {
     std::string cases;
     std::size_t tests = 0, failures = 0;
     for (const EntryResult& entry : result.entries) {
         for (const auto& verdict : {entry.picture, entry.motion}) {
             tests += verdict ? 1 : 0;
-            failures += verdict && !is_fine(*verdict, strict) ? 1 : 0;
+            failures += verdict && !rule.passes(*verdict) ? 1 : 0;
         }
-        cases += junit_case(suite, entry.name, "picture", entry.picture, entry.picture_lines, strict);
-        cases += junit_case(suite, entry.name, "motion", entry.motion, entry.motion_lines, strict);
+        cases += junit_case(suite, entry.name, "picture", entry.picture, entry.picture_lines, rule);
+        cases += junit_case(suite, entry.name, "motion", entry.motion, entry.motion_lines, rule);
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

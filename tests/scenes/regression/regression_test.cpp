@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "scenes/commands/commands.hpp"
+#include "scenes/motions/fingerprint.hpp"
 #include "scenes/regression/baselines.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
+using ::testing::AllOf;
 using testing::Finished;
 using testing::Folder;
 using ::testing::HasSubstr;
@@ -170,6 +172,48 @@ TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --add-digest").code, 7);
     for (const std::string& each : {own, digest}) EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(each));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+}
+
+// "fast" as if another renderer had drawn it, whose picture is this one filtered.
+void accept_of_another_renderer(const Guarded& folder, const std::string& filter) {
+    shell(folder, "$BEAMCAM test b.json --update fast");
+    const auto digest = [&] { return shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64); };
+    const std::string own = digest();
+    ASSERT_EQ(shell(folder,
+                    "ffmpeg -v error -i b/fast/0000.png -vf '" + filter + "' -y b/x.png && mv b/x.png b/fast/0000.png")
+                  .code,
+              0);
+    folder.swap("b.json", own, digest());
+    folder.swap("b.json", R"("renderer": ")" + flat_fingerprint().id(), R"("renderer": "0123456789ab)");
+}
+
+TEST(Regression, PicturesOfANewRendererPassWhereThatIsAskedForAndTheyLookAlike) {
+    const Guarded folder;
+    accept_of_another_renderer(folder, "lutrgb=r=max(val-9\\,0)");
+    const std::string renderer = flat_fingerprint().id(), accepted = slurp(folder / "b.json");
+    const std::string command = "$BEAMCAM test b.json --only fast";
+    for (const char* policy : {"", " --on-new-renderer fail"}) {
+        const Finished fails = shell(folder, command + policy);
+        EXPECT_EQ(fails.code, 7) << fails.err;
+        EXPECT_THAT(fails.out, AllOf(HasSubstr("new-renderer"), HasSubstr(renderer)));
+    }
+    EXPECT_EQ(shell(folder, command + " --on-new-renderer any").code, 2);
+    const Finished warns = shell(folder, command + " --on-new-renderer warn --junit j.xml");
+    EXPECT_EQ(warns.code, 0) << warns.out;
+    EXPECT_THAT(warns.out, AllOf(HasSubstr("new-renderer"), HasSubstr(renderer)));
+    EXPECT_THAT(slurp(folder / "j.xml"), HasSubstr("failures=\"0\""));
+    EXPECT_EQ(slurp(folder / "b.json"), accepted);
+    EXPECT_EQ(shell(folder, command + " --on-new-renderer accept").code, 0);
+    EXPECT_NE(slurp(folder / "b.json"), accepted);
+    EXPECT_EQ(shell(folder, command + " --strict").code, 0);
+
+    const Guarded other;
+    accept_of_another_renderer(other, "negate");
+    for (const char* policy : {"warn", "accept"}) {
+        const Finished differs = shell(other, command + " --on-new-renderer " + policy);
+        EXPECT_EQ(differs.code, 7);
+        EXPECT_THAT(differs.out, HasSubstr("different   fast"));
+    }
 }
 
 TEST(Regression, ReportsAreWholePagesAndValidXml) {
