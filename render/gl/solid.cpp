@@ -9,7 +9,9 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr int kRound = 160;  // sides of a disc; at a radius of 300 px the corners are 0.06 px off
+constexpr int kMostSides = 160;  // of a disc; at a radius of 300 px the corners are a sixteenth of a pixel off
+
+int sides(double radius) { return std::clamp(static_cast<int>(std::ceil(pi * std::sqrt(8 * radius))), 12, kMostSides); }
 
 Vec3 operator*(Vec3 a, double k) { return {a.x * k, a.y * k, a.z * k}; }
 double dot3(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -40,8 +42,9 @@ class Mesh {
     void disc(Vec2 middle, double radius, double back, double front, double chamfer, Color color, Vec2 hole = {},
               double bore = 0, const std::vector<Color>& rim = {}, double mark = 0) {
         const double inner = radius - chamfer;
-        for (int i = 0; i < kRound; ++i) {
-            const double a = 2 * pi * i / kRound, b = 2 * pi * (i + 1) / kRound;
+        const int count = rim.empty() ? sides(radius) : kMostSides;
+        for (int i = 0; i < count; ++i) {
+            const double a = 2 * pi * i / count, b = 2 * pi * (i + 1) / count;
             const Vec2 u{std::cos(a), std::sin(a)}, v{std::cos(b), std::sin(b)};
             const auto at = [&](Vec2 way, double r, double z) {
                 return Vec3{middle.x + way.x * r, middle.y + way.y * r, z};
@@ -117,6 +120,52 @@ class Mesh {
     std::vector<SolidVertex>& out_;
 };
 
+// Cells of a square of the wall, from −far to far, where the shadows of bodies may fall. Elsewhere the wall is
+// transparent, and its pixels are the dearest of the picture.
+class ShadowedWall {
+  public:
+    ShadowedWall(double z, double reach) : z_(z), far_(reach), blur_(kBlur * reach) {}
+
+    void cast(const std::vector<SolidVertex>& bodies) {
+        for (std::size_t i = 0; i + 2 < bodies.size(); i += 3) {
+            Vec2 low{far_, far_}, high{-far_, -far_};
+            for (std::size_t k = i; k < i + 3; ++k) {
+                const auto& [x, y, z] = bodies[k].place;
+                const double fall = (double(z) - z_) / kLightNear.z;
+                const Vec2 at{double(x) - fall * kLightNear.x, double(y) - fall * kLightNear.y};
+                low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+                high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+            }
+            for (int row = cell(low.y - blur_); row <= cell(high.y + blur_); ++row)
+                for (int column = cell(low.x - blur_); column <= cell(high.x + blur_); ++column)
+                    shadowed_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = true;
+        }
+    }
+
+    // Cell by cell: neighbours share their corners, and leave no cracks.
+    void build(Mesh& mesh) const {
+        for (std::size_t row = 0; row < kCells; ++row)
+            for (std::size_t column = 0; column < kCells; ++column) {
+                if (!shadowed_[row][column]) continue;
+                const double left = edge(column), right = edge(column + 1), low = edge(row), high = edge(row + 1);
+                mesh.quad({left, low, z_}, {right, low, z_}, {right, high, z_}, {left, high, z_}, {0, 0, 1},
+                          {0, 0, 0, 0});
+            }
+    }
+
+  private:
+    static constexpr std::size_t kCells = 128;
+    static constexpr double kBlur = 0.006;  // of the reach: three texels of 1536, seen obliquely
+    int cell(double at) const {
+        const double share = (at + far_) / (2 * far_);
+        return static_cast<int>(std::clamp(share, 0.0, 1.0) * (kCells - 1e-9));
+    }
+    double edge(std::size_t i) const { return far_ * (2 * double(i) / kCells - 1); }
+
+    double z_, far_, blur_;
+    std::array<std::array<bool, kCells>, kCells> shadowed_{};
+};
+
 }  // namespace
 
 Perspective Perspective::looking(Vec2 centre, double distance, double zoom, double yaw, double pitch) {
@@ -143,10 +192,8 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     for (Vec2 p : shape.back) back.push_back(up(p));
     const double half = wide / 2;
     scene.reach = 1.6 * std::max(box.w, box.h);
-    Mesh mesh(scene.triangles);
-    // The wall behind, for the shadow alone.
-    const double wall = -1.55 * wide, far = scene.reach;
-    mesh.quad({-far, -far, wall}, {far, -far, wall}, {far, far, wall}, {-far, far, wall}, {0, 0, 1}, {0, 0, 0, 0});
+    std::vector<SolidVertex> bodies;
+    Mesh mesh(bodies);
     const Color metal = palette.steel;
     const Vec2 hinge = up(shape.hinge);
     // The bearing block, behind the beam, and the shaft through it.
@@ -167,6 +214,12 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     mesh.bar(face, back, shape.colors, half);
     mesh.disc(hinge, shape.hub, -0.7 * wide, 0.7 * wide, 3 * unit, mix(metal, rgb(0xFFFFFF), 0.15));
     mesh.disc(hinge, shape.pin, 0.7 * wide, 0.7 * wide + 4 * unit, 1.5 * unit, palette.pin);
+    ShadowedWall wall(-1.55 * wide, scene.reach);
+    wall.cast(bodies);
+    Mesh behind(scene.triangles);
+    wall.build(behind);
+    scene.wall = scene.triangles.size();
+    scene.triangles.insert(scene.triangles.end(), bodies.begin(), bodies.end());
     return scene;
 }
 

@@ -34,9 +34,14 @@ struct SolidVertex {
     std::array<float, 4> color{};  // alpha 0: a wall that shows shadows and nothing else
 };
 
+// Towards the light, at the upper left and in front, as in the lit view; right and up as it sees.
+inline constexpr Vec3 kLightNear{-0.4096, 0.5898, 0.6962}, kLightRight{0.8619, 0, 0.5071},
+    kLightUp{0.2991, 0.8076, -0.5084};
+
 struct SolidScene {
     Perspective view;
     std::vector<SolidVertex> triangles;  // three each, outside counter-clockwise or not: both sides are lit
+    std::size_t wall = 0;                // of them, the first vertices: where shadows may fall on the wall behind
     double reach = 1;                    // everything lies within this distance of the origin [px]
     double shadow = 0.3;                 // opacity
 };

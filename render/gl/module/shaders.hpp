@@ -117,20 +117,20 @@ void main() {
     lit_at = vec3(dot(light_right, place), dot(light_up, place), -dot(light_near, place)) / reach * 0.5 + 0.5;
 })";
 
-// Shadows are the mean of 5 × 5 comparisons, each of them filtered. Light from the sky above, from the floor below and
-// from the wall behind stands for what bounces around the room.
+// Shadows are the mean of 3 × 3 comparisons, each filtered over two texels a side, two texels apart: of 6 × 6 texels.
+// Light from the sky above, from the floor below and from the wall behind stands for what bounces around the room.
 inline constexpr const char* kSolidFragment = R"(#version 330 core
 in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
-uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, texel; uniform vec2 size;
+uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, apart; uniform vec2 size;
 void main() {
     vec3 n = normalize(normal), eye = normalize(eye_dir);
     if (dot(n, eye) < 0.0) n = -n;
     float facing = dot(n, light_near), bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0));
     float seen = 0.0;
-    for (int y = -2; y <= 2; ++y)
-        for (int x = -2; x <= 2; ++x)
-            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * texel, lit_at.z - bias));
-    seen /= 25.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * apart, lit_at.z - bias));
+    seen /= 9.0;
     if (paint.a == 0.0) {  // fading out before the panel ends
         vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
         color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);

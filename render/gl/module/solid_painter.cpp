@@ -8,13 +8,12 @@
 namespace beamcam::render {
 namespace {
 
-constexpr int kShadowSize = 2048;
+constexpr int kShadowSize = 1536;
 
-// From the upper left and the front, as in the lit view.
 void set_light(GLuint program, double reach) {
-    set(program, "light_near", Vec3{-0.4096, 0.5898, 0.6962});
-    set(program, "light_right", Vec3{0.8619, 0, 0.5071});
-    set(program, "light_up", Vec3{0.2991, 0.8076, -0.5084});
+    set(program, "light_near", kLightNear);
+    set(program, "light_right", kLightRight);
+    set(program, "light_up", kLightUp);
     set(program, "reach", float(reach));
 }
 
@@ -68,11 +67,11 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.triangles.size() * sizeof(SolidVertex)),
                  scene.triangles.data(), GL_STREAM_DRAW);
-    const auto count = static_cast<GLsizei>(scene.triangles.size());
+    const auto wall = static_cast<GLsizei>(scene.wall), bodies = static_cast<GLsizei>(scene.triangles.size()) - wall;
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    draw_depths(scene, count);
-    draw_bodies(scene, count);
+    draw_depths(scene, wall, bodies);
+    draw_bodies(scene, wall, bodies);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
@@ -87,18 +86,18 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     for (int y = 0; y < height_ / 2; ++y) std::swap_ranges(row(y), row(y + 1), row(height_ - 1 - y));
 }
 
-// What the light sees. The wall, the first two triangles, casts no shadow.
-void SolidPainter::draw_depths(const SolidScene& scene, GLsizei vertices) {
+// What the light sees. The wall casts no shadow.
+void SolidPainter::draw_depths(const SolidScene& scene, GLsizei wall, GLsizei bodies) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
     glViewport(0, 0, kShadowSize, kShadowSize);
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(depths_);
     set_light(depths_, scene.reach);
-    glDrawArrays(GL_TRIANGLES, 6, vertices - 6);
+    glDrawArrays(GL_TRIANGLES, wall, bodies);
 }
 
 // What the eye sees.
-void SolidPainter::draw_bodies(const SolidScene& scene, GLsizei vertices) {
+void SolidPainter::draw_bodies(const SolidScene& scene, GLsizei wall, GLsizei bodies) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     glViewport(0, 0, width_, height_);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -106,11 +105,9 @@ void SolidPainter::draw_bodies(const SolidScene& scene, GLsizei vertices) {
     set_light(bodies_, scene.reach);
     set_view(scene.view);
     set(bodies_, "opacity", float(scene.shadow));
-    set(bodies_, "texel", 1.6F / kShadowSize);
-    glDepthMask(GL_FALSE);
-    glDrawArrays(GL_TRIANGLES, 0, 6);
-    glDepthMask(GL_TRUE);
-    glDrawArrays(GL_TRIANGLES, 6, vertices - 6);
+    set(bodies_, "apart", 2.0F / kShadowSize);
+    glDrawArrays(GL_TRIANGLES, wall, bodies);
+    glDrawArrays(GL_TRIANGLES, 0, wall);  // behind them: where they hide it, it costs nothing
 }
 
 void SolidPainter::set_view(const Perspective& view) {

@@ -1,0 +1,60 @@
+// The bodies of the solid view and the wall that shows their shadows.
+#include "render/gl/solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace beamcam::render {
+namespace {
+
+SolidScene example() {
+    MechanismShape shape;
+    for (int i = 0; i <= 40; ++i) {
+        shape.face.push_back({100.0 + 12 * i, 500.0 - 8 * i});
+        shape.back.push_back(shape.face.back() + Vec2{-10, -15});
+        shape.colors.push_back({0.5, 0.5, 0.5, 1});
+    }
+    shape.hinge = {100, 500};
+    shape.hub = 20, shape.pin = 6;
+    shape.disc = DiscShape{{240, 520}, {235, 515}, 50, 10, 0.3, {270, 510}, 5};
+    const Box box{0, 0, 960, 720};
+    return solid_scene(shape, palette(Theme::light), box, Perspective::looking(box.centre(), 3000, 1, 0.3, 0.2), 40, 1,
+                       {});
+}
+
+// Along the light to the wall.
+Vec2 shadow(const std::array<float, 3>& place, double wall) {
+    const double fall = (double(place[2]) - wall) / kLightNear.z;
+    return {double(place[0]) - fall * kLightNear.x, double(place[1]) - fall * kLightNear.y};
+}
+
+bool covers(const SolidScene& scene, Vec2 at) {
+    for (std::size_t i = 0; i < scene.wall; i += 6) {
+        const auto &low = scene.triangles[i].place, &high = scene.triangles[i + 2].place;
+        if (at.x >= low[0] && at.x <= high[0] && at.y >= low[1] && at.y <= high[1]) return true;
+    }
+    return false;
+}
+
+TEST(SolidScene, TheWallIsWhereverAShadowFallsAndNotMuchMore) {
+    const SolidScene scene = example();
+    ASSERT_GT(scene.wall, 0U);
+    ASSERT_EQ(scene.wall % 6, 0U);
+    const double wall = scene.triangles.front().place[2], blur = 0.0056 * scene.reach;
+    for (std::size_t i = scene.wall; i < scene.triangles.size(); ++i) {
+        const Vec2 at = shadow(scene.triangles[i].place, wall);
+        for (const Vec2 edge : {Vec2{0, 0}, Vec2{blur, 0}, Vec2{-blur, 0}, Vec2{0, blur}, Vec2{0, -blur}})
+            ASSERT_TRUE(covers(scene, at + edge)) << at.x << " " << at.y;
+        EXPECT_GE(scene.triangles[i].place[2], wall);  // the wall is drawn behind all
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < scene.wall; i += 6) {
+        const auto &low = scene.triangles[i].place, &high = scene.triangles[i + 2].place;
+        area += double(high[0] - low[0]) * double(high[1] - low[1]);
+    }
+    EXPECT_LT(area, 0.25 * 960 * 720);
+}
+
+}  // namespace
+}  // namespace beamcam::render
