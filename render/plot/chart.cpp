@@ -240,10 +240,6 @@ Image Chart::past(const Fonts& fonts) const {
     return image;
 }
 
-void Chart::draw_past(Canvas& canvas) const {
-    canvas.clip(past_box(), [&] { draw_curves(canvas, whole(), c_.time, true, {}); });
-}
-
 namespace {
 constexpr double kBetweenReadings = 18;
 TextStyle reading_style(double u, Color color) {

@@ -97,7 +97,6 @@ class Chart {
     // window.
     Image past(const Fonts& fonts) const;
     Box past_box() const;
-    void draw_past(Canvas& canvas) const;  // the same drawn directly
     // The first column that is not past yet at t: what lies after t may reach into it by the width of its stroke.
     int past_column(double t) const;
     // What moves: the curves' last columns until t, with a window all of them. `readings`: of each curve where the

@@ -1,0 +1,48 @@
+// A panel that is one chart: what has been is kept, column by column.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "render/film/panel.hpp"
+#include "render/plot/chart.hpp"
+
+namespace beamcam::render {
+
+class ChartPanel : public Panel {
+    struct Shown final : State {
+        double until = 0;  // the picture's first column that shows no past
+    };
+
+  public:
+    ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
+        : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
+        past_ = chart_.past(*facts.fonts);
+    }
+    void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }
+    Box growing() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
+    std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
+    // What has been, column by column.
+    void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
+        if (chart_.windowed()) return;
+        const Box at = chart_.past_box();
+        double& shown = static_cast<Shown*>(state)->until;
+        if (anew) shown = at.x;
+        const double until = std::max(shown, double(chart_.past_column(facts_.at(0, frame))));
+        kept.image_part(past_, static_cast<int>(at.x), static_cast<int>(at.y), {shown - at.x, 0, until - shown, at.h});
+        shown = until;
+    }
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        chart_.draw_moving(canvas, *facts_.palette, facts_.at(0, frame), readings(frame));
+    }
+
+  protected:
+    virtual std::vector<double> readings(int frame) const = 0;
+    const FilmFacts& facts_;
+
+  private:
+    Chart chart_;
+    Image past_;
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,153 @@
+// The energy ledger as stacked bands.
+#include <algorithm>
+#include <cmath>
+
+#include "render/film/chart_panel.hpp"
+#include "render/film/strip_content.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using sim::ChannelKind;
+
+// T + (V − least V) + U + U_c + losses, one upon the other: together they are the energy of the start plus all
+// work done by cam and drive, so the outline of the stack is what was supplied.
+class EnergyPanel final : public ChartPanel {
+  public:
+    EnergyPanel(const FilmFacts& facts, const PanelSlot& slot)
+        : ChartPanel(facts, content(facts, slot), slot.box),
+          box_(slot.box),
+          member_(std::min(slot.spec.member, facts.members() - 1)) {}
+
+    void draw_ground(Canvas& canvas) const override {
+        ChartPanel::draw_ground(canvas);
+        legend(canvas);
+    }
+    void draw(Canvas& canvas, int frame, Style style, State* state) const override {
+        ChartPanel::draw(canvas, frame, style, state);
+        whose(canvas);
+    }
+
+  private:
+    struct Part {
+        const char* label;
+        std::string symbol;  // where words find no room
+        std::vector<ChannelKind> channels;
+        Color color;
+    };
+    static std::vector<Part> parts(const FilmFacts& facts) {
+        const Palette& p = *facts.palette;
+        using K = ChannelKind;
+        const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
+            const Color color = *energy_color(p, channels.front());
+            return Part{label, std::move(symbol), std::move(channels), color};
+        };
+        return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
+                part("bending", math("U"), {K::energy_elastic}),
+                part("contact", math("U") + "<sub>c</sub>", {K::energy_contact}),
+                part("lost", math("D"), {K::loss_structural, K::loss_contact, K::loss_friction})};
+    }
+
+    static ChartContent content(const FilmFacts& facts, const PanelSlot& slot) {
+        const PanelSpec& spec = slot.spec;
+        const int member = std::min(spec.member, facts.members() - 1);
+        ChartContent c = blank_content(facts, spec, member);
+        if (is_wide(facts, slot.box)) c.words = "Energy ";  // else the legend alone stands beside the symbol
+        c.symbol = math("E");
+        c.unit = "J";
+        const sim::Table& table = facts.motion(member).chart;
+        const auto* t = column(table, {ChannelKind::t, 0});
+        if (!t) return c;
+        c.band_times = *t;
+        std::vector<double> base(t->size(), 0.0);
+        double most = 0;
+        for (const Part& part : parts(facts)) {
+            Band band{base, base, part.color};
+            for (ChannelKind kind : part.channels) {
+                const auto* v = column(table, {kind, 0});
+                if (!v || v->empty()) continue;
+                const double zero = zero_of(table, {kind, 0});
+                // Without a cam nothing is lost in a contact: its channels are empty.
+                for (std::size_t i = 0; i < base.size(); ++i)
+                    if (!std::isnan((*v)[i])) band.high[i] += std::max((*v)[i] - zero, 0.0);
+            }
+            base = band.high;
+            for (double v : base)
+                if (v > most) most = v;
+            c.bands.push_back(std::move(band));
+        }
+        c.value = {0, most > 0 ? 1.02 * most : 1};
+        return c;
+    }
+
+    static bool is_wide(const FilmFacts& facts, const Box& box) { return box.w > 600 * facts.unit; }
+
+    // Beside the heading, closer and smaller where it would not find room; below it, whose energy this is.
+    void legend(Canvas& canvas) const {
+        const double u = facts_.unit;
+        const Box plot = plot_area(box_, u);
+        std::vector<Part> shown = parts(facts_);
+        std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
+        const double first = plot.x +
+                             canvas
+                                 .measure(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ",
+                                          {.size = 21 * u, .weight = Weight::semibold})
+                                 .w +
+                             20 * u;
+        struct Step {
+            double size, swatch, gap;
+            bool in_symbols = false;
+        } chosen{};
+        const auto words = [&](const Part& part) { return chosen.in_symbols ? part.symbol : std::string(part.label); };
+        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {16, 19, 12, true}, {16, 17, 6, true}}) {
+            chosen = step;
+            double end = first - step.gap * u;
+            for (const Part& part : shown)
+                end += (step.gap + step.swatch) * u + canvas.measure(words(part), {.size = step.size * u}).w;
+            if (end <= box_.right()) break;
+        }
+        const TextStyle style{.size = chosen.size * u, .color = facts_.palette->muted};
+        const double side = 0.8 * chosen.size * u;
+        double x = first;
+        for (const Part& part : shown) {
+            const double w = canvas.measure(words(part), style).w;
+            if (x + w + chosen.swatch * u > box_.right() + 1) break;
+            canvas.rounded({x, box_.y + 26.5 * u - side, side, side}, 3 * u);
+            canvas.fill(part.color);
+            canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, words(part), style);
+            x += w + (chosen.swatch + chosen.gap) * u;
+        }
+    }
+    // A rigid beam does not bend, impulses store nothing: a colour that is nowhere needs no name.
+    bool is_there(const Part& part) const {
+        const sim::Table& table = facts_.motion(member_).chart;
+        return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
+            const auto* v = column(table, {kind, 0});
+            const double zero = zero_of(table, {kind, 0});
+            return v && std::ranges::any_of(*v, [&](double value) { return value > zero; });
+        });
+    }
+    // Over the bands, which grow beneath it.
+    void whose(Canvas& canvas) const {
+        if (facts_.members() == 1) return;
+        const double u = facts_.unit;
+        const Box plot = plot_area(box_, u);
+        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, escape(canvas.drawable(facts_.motion(member_).label)),
+                    {.size = 18 * u,
+                     .color = facts_.palette->ink,
+                     .weight = Weight::semibold,
+                     .max_width = plot.w - 20 * u,
+                     .halo = facts_.palette->paper});
+    }
+    std::vector<double> readings(int) const override { return {}; }
+    Box box_;
+    int member_;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
+    return std::make_unique<EnergyPanel>(facts, slot);
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,307 @@
+#include "render/film/strip_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::render {
+namespace {
+
+using sim::Channel;
+using sim::ChannelKind;
+
+struct Name {
+    const char *words, *symbol;  // markup is made by `math`, subscripts apart
+    const char* subscript = "";
+    bool rate = false;  // by time
+};
+Name name_of(Channel channel) {
+    switch (channel.kind) {
+        case ChannelKind::t:
+            return {"Time ", "t"};
+        case ChannelKind::theta:
+            return {"Hub angle ", "θ"};
+        case ChannelKind::theta_dot:
+            return {"Hub speed ", "θ", "", true};
+        case ChannelKind::tip_deflection:
+            return {"Tip deflection ", "w"};
+        case ChannelKind::tip_rate:
+            return {"Rate of the tip ", "w", "", true};
+        case ChannelKind::contact_force:
+            return {"Contact force ", "F"};
+        case ChannelKind::friction_force:
+            return {"Friction ", "F", "t"};
+        case ChannelKind::gap:
+            return {"Gap ", "g"};
+        case ChannelKind::contact_x:
+            return {"Contact point on the beam ", "x", "c"};
+        case ChannelKind::contact_s:
+            return {"Contact point on the disc ", "s", "c"};
+        case ChannelKind::cam_angle:
+            return {"Cam angle ", "ψ"};
+        case ChannelKind::q:
+            return {"Modal coordinate ", "q"};
+        case ChannelKind::energy_kinetic:
+            return {"Kinetic energy ", "T"};
+        case ChannelKind::energy_potential:  // above its least value
+            return {"Potential energy ", "V − V", "min"};
+        case ChannelKind::energy_elastic:
+            return {"Bending energy ", "U"};
+        case ChannelKind::energy_contact:
+            return {"Energy in the contact ", "U", "c"};
+        case ChannelKind::loss_structural:
+            return {"Lost in the beam ", "D", "s"};
+        case ChannelKind::loss_contact:
+            return {"Lost in the contact ", "D", "c"};
+        case ChannelKind::loss_friction:
+            return {"Lost to friction ", "D", "f"};
+        case ChannelKind::work_cam:
+            return {"Work of the cam ", "W", "c"};
+        case ChannelKind::work_drive:
+            return {"Work of the drive ", "W", "d"};
+        case ChannelKind::energy_residual:
+            return {"Ledger residual ", "ΔE"};
+        case ChannelKind::separation:
+            return {"Separation ", "a", "n"};
+        case ChannelKind::separation_paper:
+            return {"Separation, printed form ", "a", "p"};
+    }
+    return {"", ""};
+}
+
+std::string symbol_of(Channel channel) {
+    const Name name = name_of(channel);
+    std::string text = math(name.symbol);
+    if (name.rate) text = fmt::format("d{}/d{}", text, math("t"));
+    const std::string below = channel.kind == ChannelKind::q ? std::to_string(channel.index) : name.subscript;
+    return below.empty() ? text : text + "<sub>" + below + "</sub>";
+}
+
+// The symbol in its curve's colour: a legend that needs no room.
+std::string colored(const std::string& markup, Color color) {
+    const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    return fmt::format("<span foreground='#{:02x}{:02x}{:02x}'>{}</span>", byte(color.r), byte(color.g), byte(color.b),
+                       markup);
+}
+
+std::string unit_text(Channel channel, const sim::Problem& problem) {
+    const std::string unit = sim::unit(channel, problem);
+    return unit == "m/s^2" ? "m/s²" : unit;
+}
+
+bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
+
+using ForceRow = std::array<double, 2>;  // instant, force
+
+// Where a force between rows is largest: at the vertex of the parabola through the highest row and its neighbours.
+double instant_of_peak(const ForceRow& before, const ForceRow& highest, const ForceRow& after) {
+    const double left = highest[0] - before[0], right = after[0] - highest[0];
+    const double rise = (highest[1] - before[1]) / left, fall = (after[1] - highest[1]) / right;  // rise >= 0 >= fall
+    const double lean = rise - fall > 0 ? (rise * right + fall * left) / (rise - fall) : 0;
+    const double least = 0.01 * std::min(left, right);
+    double shift = 0.5 * lean;
+    if (std::abs(shift) < least) shift = lean < 0 ? -least : least;  // the row itself keeps its own value
+    return highest[0] + std::clamp(shift, -0.9 * left, 0.9 * right);
+}
+
+// The force from the tables of chart and trace, and the peaks that their rows miss, each beside the row that is nearest
+// it; an impact that no row meets is a triangle. Rows keep their values: they are those of the frames' instants. An
+// impact that is not over within the rows has no peak yet.
+void force_rows(const FilmFacts& facts, int member, Curve& curve) {
+    const Motion& one = facts.motion(member);
+    std::vector<ForceRow> rows;
+    for (const sim::Table* table : {&one.chart, &one.trace}) {
+        const auto *t = column(*table, {ChannelKind::t, 0}), *force = column(*table, {ChannelKind::contact_force, 0});
+        if (!t || !force) continue;
+        for (std::size_t i = 0; i < table->rows(); ++i)
+            if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
+    }
+    const auto by_time = [&] { std::ranges::stable_sort(rows, {}, [](const ForceRow& r) { return r[0]; }); };
+    by_time();
+    const auto same = std::ranges::unique(rows, {}, [](const ForceRow& r) { return r[0]; });
+    rows.erase(same.begin(), same.end());
+    const auto sampled = static_cast<std::ptrdiff_t>(rows.size());
+    for (const sim::Impact& i : one.impacts) {
+        if (!i.force_peak || !i.t_end || sampled == 0 || *i.t_end > rows[static_cast<std::size_t>(sampled) - 1][0])
+            continue;
+        const auto begin = rows.begin(), end = begin + sampled;
+        const auto first = std::ranges::lower_bound(begin, end, i.t_start, {}, [](const ForceRow& r) { return r[0]; });
+        const auto last = std::ranges::upper_bound(first, end, *i.t_end, {}, [](const ForceRow& r) { return r[0]; });
+        const auto highest = std::max_element(first, last, [](const auto& p, const auto& q) { return p[1] < q[1]; });
+        if (highest == last || !((*highest)[1] > 0)) {
+            const ForceRow touch{i.t_start, 0}, peak{(i.t_start + *i.t_end) / 2, *i.force_peak}, release{*i.t_end, 0};
+            rows.insert(rows.end(), {touch, peak, release});
+        } else if (*i.force_peak > (*highest)[1] && highest != begin && highest + 1 != end) {
+            const double at = instant_of_peak(*(highest - 1), *highest, *(highest + 1));
+            rows.push_back({at, *i.force_peak});
+        }
+    }
+    std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });
+    by_time();
+    for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
+}
+
+Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
+    Curve curve;
+    if (is_force(channel)) {
+        force_rows(facts, member, curve);
+        return curve;
+    }
+    const Motion& one = facts.motion(member);
+    const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
+    if (t && v) curve.t = *t, curve.v = *v;
+    for (double& value : curve.v) value -= zero_of(one.chart, channel);
+    return curve;
+}
+
+Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel channel) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const auto see = [&](double v) {
+        if (!std::isnan(v)) low = std::min(low, v), high = std::max(high, v);
+    };
+    for (const Curve& curve : curves)
+        for (double v : curve.v) see(v);
+    for (int m = 0; channel.kind == ChannelKind::theta && m < facts.members(); ++m) {
+        const Motion& one = facts.motion(m);
+        const bool still = facts.frames() == 1;  // it shows its past alone, which is the chart's
+        for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
+            see(still ? one.pose(0).theta : one.surveyed(k).theta);
+    }
+    if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
+    if (!(low <= high)) return {0, 1};
+    // A constant still needs an axis: a twentieth of it either way, or of one unit.
+    const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
+    if (high - low <= least) {
+        const double half = channel.kind == ChannelKind::theta || low == 0 ? 0.05 : 0.05 * std::abs(low);
+        return {low - half, high + half};
+    }
+    return {low, high};
+}
+
+// What curves of several channels, or motions, are told apart by.
+Color curve_color(const FilmFacts& facts, Channel channel, std::size_t i, int member) {
+    if (facts.members() > 1) return facts.member_color(member);
+    return energy_color(*facts.palette, channel.kind).value_or(series_color(*facts.palette, i));
+}
+
+// The places of contact as dots.
+void add_places(const FilmFacts& facts, ChartContent& c) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int m = 0; m < facts.members(); ++m)
+        for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
+            low = std::min(low, s.x), high = std::max(high, s.x);
+            if (s.t < c.time.low || s.t > c.time.high) continue;
+            const Palette& p = *facts.palette;
+            if (facts.members() > 1)
+                c.dots.push_back({s.t, s.x, facts.member_color(m), mix(p.paper, facts.member_color(m), 0.25)});
+            else
+                c.dots.push_back({s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)),
+                                  mix(p.paper, p.contact_faint, 0.9)});
+        }
+    const double length = facts.setup->problem.beam.length;
+    if (!(low <= high)) {
+        c.value = {0, length};
+        return;
+    }
+    const double around = std::max(0.05 * (high - low), 1e-3 * length);
+    c.value = {low - around, high + around};
+}
+
+}  // namespace
+
+std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
+    switch (kind) {
+        case ChannelKind::energy_potential:
+            return mix(p.paper, p.motion, 0.45);
+        case ChannelKind::energy_kinetic:
+            return p.motion;
+        case ChannelKind::energy_elastic:
+            return series_color(p, 1);
+        case ChannelKind::energy_contact:
+            return p.contact;
+        case ChannelKind::loss_structural:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+            return mix(p.paper, p.muted, 0.55);
+        default:
+            return {};
+    }
+}
+
+double zero_of(const sim::Table& table, Channel channel) {
+    const auto* v = channel.kind == ChannelKind::energy_potential ? column(table, channel) : nullptr;
+    return v && !v->empty() ? *std::ranges::min_element(*v) : 0;
+}
+
+ChartContent blank_content(const FilmFacts& facts, const PanelSpec& spec, int member) {
+    ChartContent c;
+    c.time = facts.span;
+    c.window = spec.window;
+    c.time_unit = facts.time.unit;
+    c.time_label = math("t") + " / " + facts.time.symbol;
+    const auto mark = [&](int whose, ChartMark at) {
+        for (const sim::Impact& i : facts.motion(whose).impacts)
+            if (i.t_start >= c.time.low && i.t_start <= c.time.high) at.t = i.t_start, c.marks.push_back(at);
+    };
+    if (member >= 0) {
+        mark(member, {.color = facts.palette->contact});
+    } else {
+        for (int m = 0; m < facts.members(); ++m)
+            mark(m, {.color = facts.member_color(m), .lane = m, .lanes = facts.members()});
+    }
+    return c;
+}
+
+double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
+    const sim::Pose& pose = facts.pose(member, frame);
+    if (channel.kind == ChannelKind::theta) return pose.theta;
+    if (channel.kind == ChannelKind::theta_dot) return pose.theta_dot;
+    if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
+    if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
+    const sim::Table& table = facts.motion(member).chart;
+    const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
+    return t && v ? value_at(*t, *v, pose.t) - zero_of(table, channel) : kNan;
+}
+
+ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
+    const Channel first = spec.channels.front();
+    const Palette& p = *facts.palette;
+    ChartContent c = blank_content(facts, spec, facts.members() > 1 ? -1 : 0);
+    const bool single = spec.channels.size() == 1;
+    const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
+    c.words = single ? name_of(first).words : "";
+    c.unit = unit_text(first, facts.setup->problem);
+    for (std::size_t i = 0; i < spec.channels.size(); ++i) {
+        std::string symbol = symbol_of(spec.channels[i]);
+        if (!single && facts.members() == 1)
+            symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
+        c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
+        for (int m = 0; m < facts.members(); ++m) {
+            Curve curve = dotted ? Curve{} : curve_of(facts, m, spec.channels[i]);
+            const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
+            const bool alone = single && facts.members() == 1;
+            curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
+            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
+            if (facts.members() > 1)
+                curve.label = escape(facts.motion(m).label) + ":";  // "ω = 0: 12"
+            else if (!single)
+                curve.label = symbol_of(spec.channels[i]);
+            // Colour alone does not tell curves apart for everybody.
+            const std::size_t dashes = facts.members() > 1 ? static_cast<std::size_t>(m) : i;
+            if (dashes % 3 == 1) curve.dash = {9, 4};
+            if (dashes % 3 == 2) curve.dash = {3, 3};
+            if (is_force(first)) curve.dash.clear();
+            c.curves.push_back(std::move(curve));
+        }
+    }
+    c.filled = single && is_force(first) && facts.members() == 1;
+    if (is_force(first)) c.reading_unit = c.unit;
+    c.value = range_of(facts, c.curves, first);
+    if (single && dotted) add_places(facts, c);
+    return c;
+}
+
+}  // namespace beamcam::render
