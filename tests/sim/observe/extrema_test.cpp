@@ -74,6 +74,7 @@ TEST(Extrema, OfEightModesExceedEverySample) {
 }
 
 TEST(Extrema, OfFortyModesExceedEverySample) {
+    SKIP_UNDER_SANITIZERS();
     expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 4'000);
 }
 
