@@ -2,8 +2,8 @@
 // not its chord.
 //
 // Centripetal Catmull–Rom splines (Yuksel, Schaefer and Keyser, Computer-Aided Design 43, 747, 2011): through every
-// point, without loops or cusps within a piece however unevenly the points are spaced, as in slow motion. The first and the
-// last piece bend as their neighbours do.
+// point, without loops or cusps within a piece however unevenly the points are spaced, as in slow motion. The first and
+// the last piece bend as their neighbours do.
 #pragma once
 
 #include <span>

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/regression/regression.hpp"
+#include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -20,21 +23,12 @@ struct TestArguments {
     std::string baselines;
     std::vector<std::string> update, only, tolerance;
     std::optional<std::string> report, junit;
-    std::string on_new_renderer = "fail";
+    std::string on_new_renderer = "fail", annotate = "auto";
     bool add_digest = false, strict = false;
 };
 
-const char* name(NewRenderer policy) {
-    switch (policy) {
-        case NewRenderer::fail:
-            return "fail";
-        case NewRenderer::warn:
-            return "warn";
-        case NewRenderer::accept:
-            return "accept";
-    }
-    return "?";
-}
+const std::map<std::string, NewRenderer> kOnNewRenderer = {
+    {"fail", NewRenderer::fail}, {"warn", NewRenderer::warn}, {"accept", NewRenderer::accept}};
 
 RegressionOptions options_of(const TestArguments& args) {
     if (!args.update.empty() && !args.only.empty())
@@ -47,8 +41,7 @@ RegressionOptions options_of(const TestArguments& args) {
     options.update = args.update;
     options.add_digest = args.add_digest;
     options.rule.strict = args.strict;
-    for (const NewRenderer policy : {NewRenderer::fail, NewRenderer::warn, NewRenderer::accept})
-        if (args.on_new_renderer == name(policy)) options.rule.new_renderer = policy;
+    options.rule.new_renderer = kOnNewRenderer.at(args.on_new_renderer);
     for (const std::string& text : args.tolerance) apply_tolerance(options.tolerance, text);
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
@@ -70,12 +63,34 @@ void write_reports(const TestArguments& args, const RegressionResult& result, co
     const std::string title = fs::path(args.baselines).filename().string();
     if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), rule));
     if (args.report) {
-        output::ensure_directory(*args.report);
-        const fs::path page = fs::path(*args.report) / "index.html";
-        write_own(manifest, page, to_html(result, title));
-        say(args.common, fmt::format("wrote {}", page.string()));
+        write_page(*args.report, result, title, rule, manifest);
+        say(args.common, fmt::format("wrote {}", (fs::path(*args.report) / "index.html").string()));
     }
     manifest.save();
+}
+
+// GitHub Actions names a file to which steps append their summaries.
+void tell_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
+    const char* actions = std::getenv("GITHUB_ACTIONS");
+    if (args.annotate == "none" || (args.annotate == "auto" && !(actions && *actions))) return;
+    output::tell("{}", to_annotations(result, rule));
+    const char* summary = std::getenv("GITHUB_STEP_SUMMARY");
+    if (!summary || !*summary) return;
+    std::ofstream file(summary, std::ios::app);
+    file << to_markdown(result, fs::path(args.baselines).filename().string(), rule);
+    if (!file.flush()) throw output::IoError(fmt::format("cannot write {}, the summary of the step", summary));
+}
+
+// Names in place of the words `all` and `failed`.
+std::vector<std::string> to_update(const TestArguments& args, RegressionOptions options) {
+    if (args.update == std::vector<std::string>{"all"}) return {"*"};
+    if (args.update != std::vector<std::string>{"failed"}) return args.update;
+    options.update.clear();
+    options.report.reset();
+    std::vector<std::string> failed;
+    for (const EntryResult& entry : test_regression(args.baselines, options).entries)
+        if (!options.rule.passes(entry)) failed.push_back(entry.name);
+    return failed;
 }
 
 void tell(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
@@ -99,16 +114,22 @@ void tell(const TestArguments& args, const RegressionResult& result, const PassR
 }
 
 int act(const TestArguments& args) {
-    const RegressionOptions options = options_of(args);
+    RegressionOptions options = options_of(args);
     output::Manifest manifest(args.common.force);
     need_room(args, manifest);
+    options.update = to_update(args, options);
+    if (options.update.empty() && !args.update.empty()) {
+        say(args.common, "no entry fails; nothing is updated");
+        return kDone;
+    }
     const RegressionResult result = test_regression(args.baselines, options);
     write_reports(args, result, options.rule, manifest);
     tell(args, result, options.rule);
+    tell_github(args, result, options.rule);
     bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // for somebody to look
     for (const EntryResult& entry : result.entries)
         if (entry.exit_code != 0 && entry.exit_code != kDiffers) return entry.exit_code;
-    for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry.verdict());
+    for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry);
     return fine ? kDone : kDiffers;
 }
 
@@ -119,9 +140,11 @@ void add_test(Grammar& grammar) {
     Command& app = grammar.command(
         "test", "Render and simulate again what a file of baselines lists; ends with 7 when something differs");
     app.positional("BASELINES", &args->baselines, "The baselines, a JSON file; - is standard input").required();
-    app.option("--only", &args->only, "NAME...", "Test these entries only").several();
+    app.option("--only,--filter", &args->only, "NAME...", "Test these entries only; patterns such as 'fall-*' too")
+        .several();
     app.option("--update", &args->update, "NAME...",
-               "Replace what these entries expect by what they are now (ends with 7, for somebody to look)")
+               "Replace what these entries expect by what they are now (ends with 7, for somebody to look); patterns "
+               "too, and the words all and failed")
         .several();
     app.flag("--add-digest", args->add_digest,
              "Accept the digests of this machine beside the others, where pictures are equivalent, or where nothing is "
@@ -129,13 +152,17 @@ void add_test(Grammar& grammar) {
     app.option("--on-new-renderer", &args->on_new_renderer, "WHAT",
                "Pictures of libraries or fonts of which nothing is accepted yet: fail, warn (they pass when they look "
                "alike), accept (their digests, from now on) (default: fail)")
-        .one_of({name(NewRenderer::fail), name(NewRenderer::warn), name(NewRenderer::accept)});
+        .one_of({"fail", "warn", "accept"});
     app.flag("--strict", args->strict, "What is only equivalent fails too");
     app.option("--tolerance", &args->tolerance, "KEY=X,...",
                "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
         .separated_by(',');
     app.option("--report", &args->report, "DIR", "Folder for a page with actual and difference pictures");
     app.option("--junit", &args->junit, "FILE", "Report for continuous integration, .xml");
+    app.option("--annotate", &args->annotate, "SERVICE",
+               "Tell failures as annotations, and a table as the step's summary: auto, github or none (default: auto, "
+               "where GITHUB_ACTIONS is set)")
+        .one_of({"auto", "github", "none"});
     app.option("-j,--jobs", &args->common.threads, "N", "Threads that draw, at most (default: one for each core)")
         .range(1, 1024);
     app.option("--progress", &args->common.progress, "STYLE",

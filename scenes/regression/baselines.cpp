@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <set>
@@ -365,6 +366,25 @@ Tolerance Tolerance::overridden_by(const Tolerance& over) const {
 bool Baseline::has_pictures() const { return !is_data(output()); }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }
+
+std::vector<const Baseline*> chosen_entries(const Baselines& baselines, const std::string& path,
+                                            const std::vector<std::string>& patterns) {
+    const auto is_meant = [](const Baseline& entry, const std::string& pattern) {
+        return fnmatch(pattern.c_str(), entry.name.c_str(), 0) == 0;
+    };
+    std::vector<std::string> known;
+    for (const Baseline& entry : baselines.entries) known.push_back(entry.name);
+    for (const std::string& pattern : patterns)
+        if (std::ranges::none_of(baselines.entries, [&](const auto& entry) { return is_meant(entry, pattern); }))
+            throw UsageError(
+                fmt::format("{} has no entry {}{}", path, in_quotes(pattern), suggestion_or_list(pattern, known)));
+    std::vector<const Baseline*> chosen;
+    for (const Baseline& entry : baselines.entries)
+        if (patterns.empty() ||
+            std::ranges::any_of(patterns, [&](const auto& pattern) { return is_meant(entry, pattern); }))
+            chosen.push_back(&entry);
+    return chosen;
+}
 
 void apply_tolerance(Tolerance& tolerance, const std::string& text) {
     const std::size_t equals = text.find('=');

@@ -66,6 +66,11 @@ struct Baselines {
 // Throws SceneError with every issue at once, UnreadableFile.
 Baselines read_baselines(const std::string& path);
 
+// The entries that are meant by names or patterns such as "fall-*"; all if there are none. Throws UsageError for a
+// pattern that means nothing.
+std::vector<const Baseline*> chosen_entries(const Baselines& baselines, const std::string& path,
+                                            const std::vector<std::string>& patterns);
+
 // `key=value` of --tolerance. Throws UsageError.
 void apply_tolerance(Tolerance& tolerance, const std::string& text);
 

@@ -15,6 +15,10 @@ namespace fs = std::filesystem;
 
 std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
+fs::path report_picture(const std::string& entry, long frame, const char* what) {
+    return fs::path(entry) / fmt::format("{:04}-{}.png", frame, what);
+}
+
 // Folders that were made before there were markers tell nothing.
 bool EntryReferences::is_as_marked(const std::string& name) const {
     const ReferenceFile* file = marked(name);
@@ -77,19 +81,23 @@ void EntryPictures::write_difference(long frame, const output::Raster& expected,
                                      FrameResult& found) {
     if (!report_) return;
     found.actual = put(frame, "actual", actual);
+    put(frame, "expected", expected);
     if (!found.comparison.same_size()) return;
     const int threshold = found.comparison.difference.changed > 0 ? tolerance_.channel.value_or(0) : 0;
     found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
 }
 fs::path EntryPictures::put(long frame, const char* what, const output::Raster& picture) {
-    fs::path file = *report_ / entry_.name / fmt::format("{:04}-{}.png", frame, what);
-    const std::string bytes = output::encode_png(output::to_image(picture));
+    const output::Target target = report_file(report_picture(entry_.name, frame, what).filename().string());
+    output::write_file(target, output::encode_png(output::to_image(picture)), output::Durability::buffered);
+    return target.path;
+}
+output::Target EntryPictures::report_file(const std::string& name) const {
+    const fs::path file = *report_ / entry_.name / name;
     output::require_within(file, *report_);
     output::ensure_directory(file.parent_path());
     output::Target target = report_files_.target(file);
     target.within = *report_;
-    output::write_file(target, bytes, output::Durability::buffered);
-    return file;
+    return target;
 }
 
 void EntryPictures::conclude() {

@@ -14,6 +14,8 @@
 
 namespace beamcam::scenes {
 
+// Of a report, below its folder; `what`: "actual", "expected", "difference".
+std::filesystem::path report_picture(const std::string& entry, long frame, const char* what);
 std::string picture_name(long frame);  // "0012.png"
 
 // The folder of an entry's references, and where new ones go.
@@ -57,8 +59,9 @@ class EntryPictures {
           report_files_(report_files),
           result_(result) {}
 
-    void judge(long frame, const render::Image& image);  // from any thread
-    void conclude();                                     // all are judged
+    void judge(long frame, const render::Image& image);         // from any thread
+    void conclude();                                            // all are judged
+    output::Target report_file(const std::string& name) const;  // in the folder of the entry; there must be a report
 
   private:
     bool is_accepted(long frame, const std::string& digest) const;

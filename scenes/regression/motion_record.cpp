@@ -151,10 +151,10 @@ class Comparer {
             const double share = scale > 0 ? std::abs(*actual - *expected) / scale : INFINITY;
             if (share / std::max(*tolerance_.impacts, 1e-300) <= excess) continue;
             excess = share / std::max(*tolerance_.impacts, 1e-300);
-            worst = is_time(key)
-                        ? fmt::format("{} {:.9g} → {:.9g} s ({:+.2g} s)", key, *expected, *actual, *actual - *expected)
-                        : fmt::format("{} {:.6g} → {:.6g} ({:+.2g} %)", key, *expected, *actual,
-                                      100 * (*actual - *expected) / scale);
+            const double change = *actual - *expected;
+            worst = is_time(key) ? fmt::format("{} {:.9g} → {:.9g} s ({:+.2g} s)", key, *expected, *actual, change)
+                                 : fmt::format("{} {:.6g} → {:.6g}", key, *expected, *actual);
+            if (!is_time(key) && scale > 0) worst += fmt::format(" ({:+.2g} %)", 100 * change / scale);
         }
         if (excess > 0)
             find(excess, fmt::format("impact {} of {} at {:.6g} s: {}", index + 1, count,
@@ -191,10 +191,10 @@ RecordNames::RecordNames(std::size_t motion)
     : table(motion == 0 ? "motion.csv" : fmt::format("motion-{}.csv", motion)),
       impacts(motion == 0 ? "impacts.json" : fmt::format("impacts-{}.json", motion)) {}
 
-void write_record(const fs::path& folder, const RecordNames& names, const sim::Table& table,
-                  const std::vector<sim::Impact>& impacts, double until) {
-    output::write_csv(folder / names.table, table);
-    output::write_file(folder / names.impacts, impacts_text(impacts, until));
+void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
+                  const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
+    output::write_csv(target(names.table), table);
+    output::write_file(target(names.impacts), impacts_text(impacts, until));
 }
 
 std::optional<MotionRecord> read_record(const fs::path& folder, const RecordNames& names) {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "output/data/table_reader.hpp"
+#include "output/files/target.hpp"
 #include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "sim/run/simulate.hpp"
@@ -33,8 +35,9 @@ struct RecordNames {
     explicit RecordNames(std::size_t motion);
     std::string table, impacts;  // motion.csv, impacts.json; motion-1.csv, impacts-1.json
 };
-void write_record(const std::filesystem::path& folder, const RecordNames& names, const sim::Table& table,
-                  const std::vector<sim::Impact>& impacts, double until);
+// `target`: where a file of this name goes.
+void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
+                  const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
 // Nothing when the folder has none. Throws IoError when what it has is damaged.
 std::optional<MotionRecord> read_record(const std::filesystem::path& folder, const RecordNames& names);
 

@@ -11,7 +11,6 @@
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
-#include "scenes/format/suggest.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/outputs/capture.hpp"
 #include "scenes/regression/entry_pictures.hpp"
@@ -84,10 +83,21 @@ class EntryTest {
                       std::optional<double> reproducible_until) {
         const sim::Table table = without_residuals(all);
         if (references_.fresh) {
-            write_record(*references_.fresh, RecordNames(0), table, impacts, until);
+            write_record(fresh_files(), RecordNames(0), table, impacts, until);
             horizon_ = std::min(until, reproducible_until.value_or(until));
         }
         judge_record(RecordNames(0), "", record_of(table, impacts, until), entry_.reproducible_until.value_or(until));
+        report_record(RecordNames(0), table, impacts, until);
+    }
+
+    // Another processor would draw other pixels of a motion whose last digits have grown.
+    void require_reproducible(const sim::Result& motion, double until) const {
+        const std::vector<sim::Interval>& lost = motion.not_reproducible;
+        if (!is_updated() || !result_.picture || lost.empty() || lost.front().from >= until) return;
+        throw render::PictureError(fmt::format(
+            "not accepted: it shows the motion until {:.6g} s, and {}; look no further than that, or guard a "
+            "trajectory",
+            until, motion.reproducibility));
     }
 
     // What is recorded of a motion that the picture compares: as far as it was reproducible when it was accepted.
@@ -103,10 +113,11 @@ class EntryTest {
         const RecordNames names(index + 1);
         if (references_.fresh) {
             if (reproducible_until) cut(table, *reproducible_until);
-            write_record(*references_.fresh, names, table, impacts, table.values.front().back());
+            write_record(fresh_files(), names, table, impacts, table.values.front().back());
         }
         const double until = table.values.front().back();
         judge_record(names, label + ": ", record_of(table, impacts, until), until);
+        report_record(names, table, impacts, until);
     }
 
     // From any thread.
@@ -159,6 +170,7 @@ class EntryTest {
                    (found.compared && found.comparison.same_size() && found.comparison.difference.ssim > kAlike);
         };
         if (std::ranges::all_of(result_.frames, is_alike)) result_.picture = Verdict::new_renderer;
+        if (options_.add_digest) return;
         result_.picture_lines.push_back(fmt::format(
             "nothing is accepted yet of this renderer, {} (beamcam doctor); look at the picture, and --add-digest",
             renderer));
@@ -202,6 +214,18 @@ class EntryTest {
                 kept.values.push_back(table.values[i]);
             }
         return kept;
+    }
+
+    std::function<output::Target(const std::string& name)> fresh_files() const {
+        return [this](const std::string& name) { return *references_.fresh / name; };
+    }
+
+    // What moved is in the report, for `beamcam accept`.
+    void report_record(const RecordNames& names, const sim::Table& table, const std::vector<sim::Impact>& impacts,
+                       double until) {
+        if (!options_.report || *result_.motion <= Verdict::equivalent) return;
+        write_record([&](const std::string& name) { return pictures_.report_file(name); }, names, table, impacts,
+                     until);
     }
 
     // The rows up to `until`; the first one stays.
@@ -286,10 +310,12 @@ class Group {
         auto next = results.begin();
         for (Job& job : jobs_) {
             const auto last = next + static_cast<std::ptrdiff_t>(requests_of(job.plan).size());
+            const auto started = Clock::now();
             job.test->attempt([&] {
                 judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options);
             });
             next = last;
+            job.test->result().seconds = seconds_since(started);
             all.pictures += job.test->result().frames.size();
         }
     }
@@ -342,6 +368,7 @@ class Group {
 
     static void judge(Job& job, std::vector<sim::Result> results, const RegressionOptions& options) {
         const sim::Result& run = results.front();
+        job.test->require_reproducible(run, job.until);
         if (job.test->asks_for_motion())
             job.test->judge_motion(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
         Capture capture{
@@ -351,8 +378,10 @@ class Group {
             {}};
         if (job.test->asks_for_motion())
             capture.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
-                job.test->judge_compared(index, job.plan.pictures[picture].compared[index].label, result.tables.back(),
-                                         result.impacts, result.reproducible_until);
+                const Pictures& shown = job.plan.pictures[picture];
+                job.test->require_reproducible(result, shown.end_time);
+                job.test->judge_compared(index, shown.compared[index].label, result.tables.back(), result.impacts,
+                                         result.reproducible_until);
             };
         RunOptions run_options = options.run;
         run_options.no_cache = true;  // what is tested is what this program does now
@@ -378,6 +407,7 @@ class Regression {
 
     RegressionResult go() {
         const auto started = Clock::now();
+        result_.baselines = path_;
         if (path_ == "-" &&
             (!options_.update.empty() || options_.add_digest || options_.rule.new_renderer == NewRenderer::accept))
             throw UsageError("baselines from standard input cannot be changed; name the file");
@@ -391,17 +421,8 @@ class Regression {
 
   private:
     void choose() {
-        std::vector<std::string> known;
-        for (const Baseline& entry : baselines_.entries) known.push_back(entry.name);
-        const std::vector<std::string>& names = options_.update.empty() ? options_.only : options_.update;
-        for (const std::string& name : names)
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                throw UsageError(
-                    fmt::format("{} has no entry {}{}", path_, in_quotes(name), suggestion_or_list(name, known)));
-        std::vector<const Baseline*> chosen;
-        for (const Baseline& entry : baselines_.entries)
-            if (names.empty() || std::find(names.begin(), names.end(), entry.name) != names.end())
-                chosen.push_back(&entry);
+        const std::vector<const Baseline*> chosen =
+            chosen_entries(baselines_, path_, options_.update.empty() ? options_.only : options_.update);
         result_.entries.resize(chosen.size());
         if (!options_.update.empty())
             update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
@@ -447,17 +468,18 @@ class Regression {
 
     void write_changes() {
         std::vector<BaselineEdit> edits;
-        std::map<std::string, RendererParts> renderers;
+        std::map<std::string, RendererParts>& renderers = result_.renderers;
         std::map<Drawn, Fingerprint> known;
         for (const auto& test : tests_) {
             std::string id;
-            const bool differs = test->result().picture == Verdict::different && test->result().exit_code == 0;
-            if (test->entry().has_pictures() && (test->is_updated() || options_.add_digest || differs)) {
+            const bool differs = test->result().picture > Verdict::identical && test->result().exit_code == 0;
+            if (test->entry().has_pictures() && (test->is_updated() || differs)) {
                 const Drawn how = drawn(test->entry());
                 if (!known.contains(how)) known[how] = fingerprint_of(how);
                 id = known[how].id();
                 renderers[id] = known[how].parts;
             }
+            test->result().renderer = id;
             test->judge_renderer(id);
             if (auto change = test->edit(id)) edits.push_back(std::move(*change));
         }
@@ -508,6 +530,10 @@ bool PassRule::passes(Verdict verdict) const {
             break;
     }
     return false;
+}
+
+bool PassRule::passes(const EntryResult& entry) const {
+    return passes(entry.picture.value_or(Verdict::identical)) && passes(entry.motion.value_or(Verdict::identical));
 }
 
 Verdict EntryResult::verdict() const {

@@ -34,7 +34,9 @@ struct EntryResult {
     std::vector<std::string> picture_lines, motion_lines;  // what there is to say
     std::string old_digest, new_digest;                    // of the first picture that is another, on --update
     bool updated = false, digest_added = false;
-    int exit_code = 0;  // what the program is to end with when there was nothing to judge; 0: judged
+    std::string renderer;  // the fingerprint of what drew the pictures, where they are not identical
+    double seconds = 0;    // of drawing and judging it
+    int exit_code = 0;     // what the program is to end with when there was nothing to judge; 0: judged
 
     Verdict verdict() const;
     // The frame that changed most, when one changed.
@@ -50,11 +52,12 @@ struct PassRule {
     bool strict = false;  // only what is identical
     NewRenderer new_renderer = NewRenderer::fail;
     bool passes(Verdict verdict) const;
+    bool passes(const EntryResult& entry) const;  // its picture and its motion, each by itself
 };
 
 struct RegressionOptions {
-    std::vector<std::string> only;    // names; empty: all
-    std::vector<std::string> update;  // names; only these are run and replaced
+    std::vector<std::string> only;    // names or patterns such as "fall-*"; empty: all
+    std::vector<std::string> update;  // the same; only these are run and replaced
     bool add_digest = false;          // accept the digests of what is equivalent, or of a new renderer
     PassRule rule;
     Tolerance tolerance;                          // over that of every entry
@@ -63,6 +66,8 @@ struct RegressionOptions {
 };
 
 struct RegressionResult {
+    std::string baselines;                           // the file, as it was named
+    std::map<std::string, RendererParts> renderers;  // those of the entries
     std::vector<EntryResult> entries;
     std::size_t simulations = 0, pictures = 0;
     double seconds = 0;
@@ -71,13 +76,5 @@ struct RegressionResult {
 
 // Throws UsageError for unknown names, and what runs and files throw. A solver that fails is a verdict.
 RegressionResult test_regression(const std::string& path, const RegressionOptions& options);
-
-// ---- what is told ----------------------------------------------------------------------------------
-
-std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only);
-std::string to_json(const RegressionResult& result);
-std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule);
-// One page that needs nothing else: pictures are inside it.
-std::string to_html(const RegressionResult& result, const std::string& title);
 
 }  // namespace beamcam::scenes

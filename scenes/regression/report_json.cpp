@@ -4,7 +4,7 @@
 
 #include "scenes/regression/comparison.hpp"
 #include "scenes/regression/provenance.hpp"
-#include "scenes/regression/regression.hpp"
+#include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -75,11 +75,18 @@ std::string to_json(const RegressionResult& result) {
             }
         }
         if (entry.motion) out["motion"] = {{"verdict", name(*entry.motion)}, {"words", entry.motion_lines}};
+        if (!entry.renderer.empty()) {
+            out["renderer"] = entry.renderer;
+            out["sha256"] = Json::array();  // of all its pictures
+            for (const auto& [number, frame] : entry.frames) out["sha256"].push_back(frame.sha256);
+        }
         if (entry.updated) out["updated"] = true;
         if (entry.digest_added) out["digest_added"] = true;
         entries[entry.name] = std::move(out);
     }
-    return text_of({{"entries", std::move(entries)},
+    return text_of({{"baselines", result.baselines},
+                    {"entries", std::move(entries)},
+                    {"renderers", result.renderers},
                     {"simulations", result.simulations},
                     {"pictures", result.pictures},
                     {"seconds", result.seconds},

@@ -7,6 +7,7 @@ memory.py PROGRAM [--steps MB,MB,…]
 import argparse
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import tempfile
 DOCUMENTED = {0, 5, 6}
 STEPS = [20, 40, 60, 80, 100, 130, 160, 200, 250, 300, 350, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
 LONGEST = 120  # [s]
+NOTES = re.compile(r"\.beamcam\.(json|[0-9a-f]+\.journal)")  # of the program, for its next run
 SIZE = '"size": [1280, 720]'
 FLAT, LIT, SOLID = ('"view": {"style": "%s"}' % style for style in ("flat", "lit", "solid"))
 OUTPUTS = {
@@ -57,8 +59,7 @@ def main():
                     row.append("…")
                     problems.append(f"{name} with {megabytes} MB: no end within {LONGEST} s")
                     continue
-                # What starts with a dot are the program's notes for its next run.
-                left = [p.name for p in folder.glob("out/*") if done.returncode and not p.name.startswith(".beamcam.")]
+                left = [p.name for p in folder.glob("out/*") if done.returncode and not NOTES.fullmatch(p.name)]
                 loader = done.returncode == 127  # the program itself does not fit
                 row.append("-" if loader else str(done.returncode))
                 if not loader and (done.returncode not in DOCUMENTED or left or (done.returncode and "memory" not in done.stderr)):

@@ -17,6 +17,11 @@ void set_light(GLuint program, double reach) {
     set(program, "reach", float(reach));
 }
 
+// Of the buffer's vertices, those from `first` until before `end`.
+void draw_triangles(std::size_t first, std::size_t end) {
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(end - first));
+}
+
 }  // namespace
 
 SolidPainter::SolidPainter(int width, int height) : width_(width), height_(height) {
@@ -67,11 +72,10 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.triangles.size() * sizeof(SolidVertex)),
                  scene.triangles.data(), GL_STREAM_DRAW);
-    const auto wall = static_cast<GLsizei>(scene.wall), bodies = static_cast<GLsizei>(scene.triangles.size()) - wall;
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    draw_depths(scene, wall, bodies);
-    draw_bodies(scene, wall, bodies);
+    draw_depths(scene);
+    draw_bodies(scene);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
@@ -87,17 +91,17 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
 }
 
 // What the light sees. The wall casts no shadow.
-void SolidPainter::draw_depths(const SolidScene& scene, GLsizei wall, GLsizei bodies) {
+void SolidPainter::draw_depths(const SolidScene& scene) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
     glViewport(0, 0, kShadowSize, kShadowSize);
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(depths_);
     set_light(depths_, scene.reach);
-    glDrawArrays(GL_TRIANGLES, wall, bodies);
+    draw_triangles(scene.wall, scene.triangles.size());
 }
 
 // What the eye sees.
-void SolidPainter::draw_bodies(const SolidScene& scene, GLsizei wall, GLsizei bodies) {
+void SolidPainter::draw_bodies(const SolidScene& scene) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     glViewport(0, 0, width_, height_);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -106,8 +110,8 @@ void SolidPainter::draw_bodies(const SolidScene& scene, GLsizei wall, GLsizei bo
     set_view(scene.view);
     set(bodies_, "opacity", float(scene.shadow));
     set(bodies_, "apart", 2.0F / kShadowSize);
-    glDrawArrays(GL_TRIANGLES, wall, bodies);
-    glDrawArrays(GL_TRIANGLES, 0, wall);  // behind them: where they hide it, it costs nothing
+    draw_triangles(scene.wall, scene.triangles.size());
+    draw_triangles(0, scene.wall);  // behind them: where they hide it, it costs nothing
 }
 
 void SolidPainter::set_view(const Perspective& view) {

@@ -13,8 +13,8 @@ class SolidPainter {
 
   private:
     void make_shadow_target();
-    void draw_depths(const SolidScene& scene, GLsizei wall, GLsizei bodies);
-    void draw_bodies(const SolidScene& scene, GLsizei wall, GLsizei bodies);
+    void draw_depths(const SolidScene& scene);
+    void draw_bodies(const SolidScene& scene);
     void set_view(const Perspective& view);
 
     int width_, height_;

@@ -600,8 +600,8 @@ TEST(Findings, ReboundsDeclineInTrendWithoutRegularity) {
 // The gallery's own files. Figures of long sensitive runs are compared over their reproducible first 1.2 s instead
 // (tests/scenes/golden), because beyond it another CPU's last bits make another picture.
 
-// The libraries and fonts that drew them, as `beamcam doctor` names them: Debian 12's. With those of Debian 13 up to 2.2 %
-// of the pixels differ, and the similarity (SSIM) is 0.979 at least.
+// The libraries and fonts that drew them, as `beamcam doctor` names them: Debian 12's. With those of Debian 13 up
+// to 2.2 % of the pixels differ, and the similarity (SSIM) is 0.979 at least.
 constexpr const char* kDrawnWith = "4ba4f67ed916";
 constexpr double kLeastSimilarity = 0.97;
 

@@ -1,11 +1,13 @@
 // `beamcam test`: what it catches, what it lets pass, what it touches.
+#include "scenes/regression/regression.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/regression/baselines.hpp"
-#include "tests/scenes/support.hpp"
+#include "tests/scenes/regression/guarded.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -13,37 +15,12 @@ namespace {
 using ::testing::AllOf;
 using testing::Finished;
 using testing::Folder;
+using testing::Guarded;
 using ::testing::HasSubstr;
+using testing::kBaselines;
 using ::testing::Not;
 using testing::shell;
 using testing::slurp;
-
-// Two pictures and a table of one motion, and one of another; written as people write it.
-constexpr const char* kBaselines = R"({
-  // guarded since the beginning
-  "entries": {
-    "fall": {"scene": "s.json", "output": {"type": "still", "at": "0.2 s", "size": [480, 270], "view": {"style": "flat"}}},
-    "hit": {"scene": "s.json", "output": {"type": "frames", "from": 0.25, "to": 0.35, "fps": 20, "size": [480, 270],
-            "view": {"style": "flat"}}, /* the first touch */},
-    "motion": {"scene": "s.json", "output": {"type": "trajectory", "rate": 50, "channels": ["theta"]}},
-    "fast": {"scene": {"time": {"end": 0.1}}, "set": ["cam.speed=5"], "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}},
-  },
-}
-)";
-
-struct Guarded : Folder {
-    Guarded() {
-        write("b.json", kBaselines);
-        write("s.json", R"({"time": {"end": 0.35}})");
-    }
-    Finished update() const { return shell(*this, "$BEAMCAM test b.json --update fall hit motion fast"); }
-    void swap(const std::string& file, const std::string& from, const std::string& to) const {
-        std::string text = slurp(*this / file);
-        const std::size_t at = text.find(from);
-        ASSERT_NE(at, std::string::npos) << text;
-        write(file, text.replace(at, from.size(), to));
-    }
-};
 
 TEST(Regression, WhatWasNeverAcceptedIsMissingAndFails) {
     const Guarded folder;
@@ -203,6 +180,7 @@ TEST(Regression, PicturesOfANewRendererPassWhereThatIsAskedForAndTheyLookAlike) 
     EXPECT_THAT(warns.out, AllOf(HasSubstr("new-renderer"), HasSubstr(renderer)));
     EXPECT_THAT(slurp(folder / "j.xml"), HasSubstr("failures=\"0\""));
     EXPECT_EQ(slurp(folder / "b.json"), accepted);
+    EXPECT_EQ(shell(folder, command + " --on-new-renderer warn --strict").code, 0);
     EXPECT_EQ(shell(folder, command + " --on-new-renderer accept").code, 0);
     EXPECT_NE(slurp(folder / "b.json"), accepted);
     EXPECT_EQ(shell(folder, command + " --strict").code, 0);
@@ -216,26 +194,12 @@ TEST(Regression, PicturesOfANewRendererPassWhereThatIsAskedForAndTheyLookAlike) 
     }
 }
 
-TEST(Regression, ReportsAreWholePagesAndValidXml) {
-    const Guarded folder;
-    folder.update();
-    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "a <b> & \"c\""})");
-    const Finished finished = shell(folder, "$BEAMCAM test b.json --report r --junit j.xml --json");
-    EXPECT_EQ(finished.code, 7) << finished.err;
-    EXPECT_TRUE(std::filesystem::exists(folder / "r/fall/0000-difference.png"));
-    const std::string page = slurp(folder / "r/index.html");
-    EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
-    EXPECT_THAT(page, HasSubstr("type=\"range\""));
-    EXPECT_THAT(page, Not(HasSubstr("http")));  // nothing from elsewhere
-    const Finished xml =
-        shell(folder,
-              "/usr/bin/python3 -c \"import xml.dom.minidom as m, json; d = m.parse('j.xml').documentElement; "
-              "print(d.getAttribute('tests'), d.getAttribute('failures'), len(d.getElementsByTagName('failure')))\"");
-    EXPECT_EQ(xml.out, "7 2 2\n") << xml.err;
-    EXPECT_THAT(finished.out, HasSubstr("\"verdict\": \"different\""));
-    folder.write("mine.xml", "mine");
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit mine.xml").code, 6);
-    EXPECT_EQ(slurp(folder / "mine.xml"), "mine");
+TEST(Regression, ANewRendererExcusesNoMotion) {
+    EntryResult entry;
+    entry.picture = Verdict::new_renderer;
+    entry.motion = Verdict::equivalent;
+    EXPECT_TRUE((PassRule{.strict = false, .new_renderer = NewRenderer::warn}.passes(entry)));
+    EXPECT_FALSE((PassRule{.strict = true, .new_renderer = NewRenderer::warn}.passes(entry)));
 }
 
 TEST(Regression, ReadsOnlyAsFarAsTheEntryLooks) {
@@ -245,6 +209,38 @@ TEST(Regression, ReadsOnlyAsFarAsTheEntryLooks) {
         R"({"entries": {"e": {"scene": {"time": {"end": 1000}}, "output": {"type": "still", "at": 0.05, "size": [64, 64], "view": {"style": "flat"}}}}})");
     EXPECT_EQ(shell(folder, "timeout 20 $BEAMCAM test b.json --update e").code, 7);
     EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("\"reproducible_until\": 0.05"));
+}
+
+TEST(Regression, EntriesAreMeantByPatterns) {
+    const Guarded folder;
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update 'f*'").code, 7);
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter '*a*'").err, HasSubstr("2 entries: 2 identical"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --only hit 'm*'").err, HasSubstr("2 entries: 0 identical"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only 'x*'").code, 2);
+    const Finished failed = shell(folder, "$BEAMCAM test b.json --update failed");
+    EXPECT_EQ(failed.code, 7);
+    EXPECT_THAT(failed.err, HasSubstr("2 entries"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+    const Finished none = shell(folder, "$BEAMCAM test b.json --update failed");
+    EXPECT_EQ(none.code, 0);
+    EXPECT_THAT(none.err, HasSubstr("no entry fails"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --update all").err, HasSubstr("4 entries"));
+}
+
+// After 4 s the motion of the default scene is another one on another processor.
+TEST(Regression, PicturesOfWhatIsNotReproducibleAreRefused) {
+    const Folder folder;
+    folder.write("b.json", R"({"entries": {
+  "late": {"scene": {"time": {"end": 8}}, "output": {"type": "still", "at": 8, "size": [64, 64], "view": {"style": "flat"}}},
+  "early": {"scene": {"time": {"end": 8}}, "output": {"type": "still", "at": 1, "size": [64, 64], "view": {"style": "flat"}}},
+  "table": {"scene": {"time": {"end": 8}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
+    const Finished updated = shell(folder, "$BEAMCAM test b.json --update all");
+    EXPECT_EQ(updated.code, 7);
+    EXPECT_THAT(updated.out,
+                AllOf(HasSubstr("not accepted: it shows the motion until 8 s"), HasSubstr(" s, not from ")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/late"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only early table").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only late").code, 7);
 }
 
 TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {

@@ -65,9 +65,7 @@ Problem turning_cam(ModelKind model, int modes, double speed = 10) {
     return p;
 }
 
-TEST(Extrema, OfTwoModesExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::first_order, 2), 0.5, 12'000);
-}
+TEST(Extrema, OfTwoModesExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::first_order, 2), 0.5, 12'000); }
 
 TEST(Extrema, OfEightModesExceedEverySample) {
     expect_true_extrema(turning_cam(ModelKind::first_order, 8), 0.4, 8'000);
@@ -86,9 +84,7 @@ TEST(Extrema, OfADampedBeamExceedEverySample) {
     expect_true_extrema(p, 0.5, 12'000);
 }
 
-TEST(Extrema, OfThePapersModelExceedEverySample) {
-    expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 12'000);
-}
+TEST(Extrema, OfThePapersModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 12'000); }
 
 TEST(Extrema, OfTheSecondOrderModelExceedEverySample) {
     expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 6'000);

@@ -1,0 +1,135 @@
+// What `beamcam test` tells: pages, JUnit, annotations; and `beamcam accept`, which takes what a report holds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/regression/guarded.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::AllOf;
+using testing::Finished;
+using testing::Guarded;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::shell;
+using testing::slurp;
+
+// Servers show pages of CI runs under a policy that forbids scripts and everything inline.
+TEST(Report, IsAPageWithoutScriptsOrAnythingInline) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "a <b> & \"c\""})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --report r --json");
+    EXPECT_EQ(finished.code, 7) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("\"verdict\": \"different\""));
+    for (const char* file : {"actual", "expected", "difference"})
+        EXPECT_TRUE(std::filesystem::exists(folder / ("r/fall/0000-" + std::string(file) + ".png"))) << file;
+    const std::string page = slurp(folder / "r/index.html");
+    for (const char* forbidden : {"<style", "style=", "<script", "javascript:", "data:", "http", " on"})
+        EXPECT_THAT(page, Not(HasSubstr(std::string(forbidden) + (forbidden[0] == ' ' ? "input=" : ""))));
+    for (const char* view : {"fall-0-actual", "fall-0-expected", "fall-0-blink", "fall-0-difference", "show-failed"})
+        EXPECT_THAT(page, HasSubstr("id=\"" + std::string(view) + "\""));
+    EXPECT_THAT(slurp(folder / "r/report.css"), HasSubstr("#show-failed:checked ~ main .passes"));
+}
+
+TEST(Report, JUnitHasACaseForEachPictureAndMotion) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "a <b> & \"c\""})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit j.xml").code, 7);
+    const Finished xml =
+        shell(folder,
+              "/usr/bin/python3 -c \"import xml.dom.minidom as m; d = m.parse('j.xml').documentElement; "
+              "cases = d.getElementsByTagName('testcase'); "
+              "print(d.getAttribute('tests'), d.getAttribute('failures'), len(cases), "
+              "len(d.getElementsByTagName('failure')), cases[0].getAttribute('classname'), "
+              "cases[0].getAttribute('name'), float(cases[0].getAttribute('time')) > 0)\"");
+    EXPECT_EQ(xml.out, "7 2 7 2 b.fall picture True\n") << xml.err;
+    folder.write("mine.xml", "mine");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit mine.xml").code, 6);
+    EXPECT_EQ(slurp(folder / "mine.xml"), "mine");
+}
+
+TEST(Report, GitHubIsToldWhereItRuns) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "100 %"})");
+    const std::string command = "$BEAMCAM test b.json -q --only fall motion";
+    EXPECT_THAT(shell(folder, command).err, Not(HasSubstr("::error")));
+    const Finished told = shell(folder, "export GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY=summary.md; " + command);
+    EXPECT_EQ(told.code, 7);
+    EXPECT_THAT(told.err, HasSubstr("::error file=b.json,title=fall: different::picture different: "));
+    EXPECT_THAT(told.err, HasSubstr("%25)"));  // a share of the pixels, its sign escaped
+    EXPECT_THAT(slurp(folder / "summary.md"),
+                AllOf(HasSubstr("1 of 2 entries identical"), HasSubstr("| **fails** | fall | different | picture ")));
+    EXPECT_THAT(shell(folder, "export GITHUB_ACTIONS=true; " + command + " --annotate none").err,
+                Not(HasSubstr("::error")));
+    EXPECT_THAT(shell(folder, command + " --annotate github").err, HasSubstr("::error"));
+}
+
+TEST(Report, SaysWhyAnEntryIsNotStrictlyTheSame) {
+    const Guarded folder;
+    folder.update();
+    const std::string command = "$BEAMCAM test b.json -q --only motion --tolerance motion=1e-3";
+    folder.write("s.json", R"({"time": {"end": 0.35}, "solver": {"rtol": 1e-9}})");
+    EXPECT_EQ(shell(folder, command).code, 0);
+    const Finished strict = shell(folder, command + " --strict");
+    EXPECT_EQ(strict.code, 7);
+    EXPECT_THAT(strict.out, HasSubstr("equivalent  motion"));
+}
+
+TEST(Accept, TakesPicturesAndMotionsOfAReport) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "gravity": 9.7, "title": "other"})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --report run/r --junit j.xml").code, 7);
+    const Finished accepted = shell(folder, "$BEAMCAM accept run");  // as services unpack it
+    EXPECT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_EQ(accepted.out, "replaced  fall\nreplaced  hit\nreplaced  motion\n");
+    const Finished again = shell(folder, "$BEAMCAM test b.json --strict");
+    EXPECT_EQ(again.code, 0) << again.out;
+    EXPECT_EQ(shell(folder, "$BEAMCAM hash b/fall/0000.png").out.substr(0, 64),
+              shell(folder, "$BEAMCAM hash run/r/fall/0000-actual.png").out.substr(0, 64));
+}
+
+TEST(Accept, TakesTheNamedEntriesOnly) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "other"})");
+    shell(folder, "$BEAMCAM test b.json --report r");
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept r 'f*' --baselines b.json").out, "replaced  fall\n");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --strict").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only hit").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept r nothing").code, 2);
+}
+
+TEST(Accept, RefusesWhatIsDamagedAndChangesNothing) {
+    const Guarded folder;
+    folder.update();
+    const std::string before = slurp(folder / "b.json");
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "other"})");
+    shell(folder, "$BEAMCAM test b.json --report r");
+    shell(folder, "cp b/fast/0000.png r/hit/0001-actual.png");
+    const Finished exchanged = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(exchanged.code, 6);
+    EXPECT_THAT(exchanged.err, HasSubstr("r/hit/0001-actual.png is not the picture that was tested"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept b").code, 6);
+    folder.write("r/report.json", "{");
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept r").code, 6);
+    EXPECT_EQ(slurp(folder / "b.json"), before);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
+}
+
+TEST(Accept, HasNothingToTakeWhereTheSolverFailed) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "solver": {"max_steps": 1}})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only motion --report r").code, 7);
+    const Finished refused = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(refused.code, 6);
+    EXPECT_THAT(refused.err, HasSubstr("has nothing of motion to accept: the solver failed"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
