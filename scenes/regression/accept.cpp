@@ -3,90 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/sha256.hpp"
 #include "output/image/digest.hpp"
 #include "output/image/png_reader.hpp"
 #include "scenes/regression/baselines.hpp"
-#include "scenes/regression/comparison.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/motion_record.hpp"
 #include "scenes/regression/references.hpp"
+#include "scenes/regression/report.hpp"
 #include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-constexpr const char* kReport = "report.json";
-
-// What the report says of one entry.
-struct Reported {
-    std::string renderer;
-    std::vector<std::string> sha256;  // of all its pictures; empty: it has none, or they are identical
-    std::vector<long> changed;        // their numbers
-    bool differs = false;             // its pictures or its motion: digests alone will not do
-    std::string words;                // why
-};
-
-struct Report {
-    fs::path folder;
-    std::string baselines;
-    std::map<std::string, Reported> entries;  // those that are not identical
-    std::map<std::string, RendererParts> renderers;
-};
-
-bool verdict_is(const Json& part, std::initializer_list<Verdict> verdicts) {
-    return std::ranges::any_of(verdicts, [&](Verdict v) { return part.at("verdict") == name(v); });
-}
-
-Reported reported(const Json& entry) {
-    Reported out;
-    out.renderer = entry.value("renderer", "");
-    out.sha256 = entry.value("sha256", std::vector<std::string>());
-    for (const char* part : {"picture", "motion"})
-        if (entry.contains(part) && verdict_is(entry.at(part), {Verdict::different, Verdict::missing})) {
-            out.differs = true;
-            for (const Json& line : entry.at(part).at("words")) out.words = line.get<std::string>();
-        }
-    if (entry.contains("picture"))
-        for (const auto& [number, frame] : entry.at("picture").at("changed").items())
-            out.changed.push_back(std::stol(number));
-    return out;
-}
-
-// CI services put what they kept into a folder of its own.
-fs::path folder_of_report(const fs::path& given) {
-    if (output::is_there(given / kReport)) return given;
-    std::vector<fs::path> found;
-    if (fs::is_directory(given))
-        for (const fs::directory_entry& inner : fs::directory_iterator(given))
-            if (output::is_there(inner.path() / kReport)) found.push_back(inner.path());
-    if (found.size() == 1) return found.front();
-    throw output::IoError(
-        fmt::format("{} holds no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
-                    given.string(), kReport));
-}
-
-Report read_report(const fs::path& given) {
-    Report report{folder_of_report(given), {}, {}, {}};
-    const fs::path file = report.folder / kReport;
-    try {
-        const Json json = Json::parse(output::read_file(file));
-        report.baselines = json.at("baselines").get<std::string>();
-        report.renderers = json.at("renderers").get<std::map<std::string, RendererParts>>();
-        for (const auto& [name, entry] : json.at("entries").items())
-            if (!verdict_is(entry, {Verdict::identical})) report.entries[name] = reported(entry);
-    } catch (const std::exception& error) {
-        throw output::IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
-    }
-    return report;
-}
-
 class Acceptance {
   public:
     Acceptance(const AcceptOptions& options, const Report& report, const std::string& path)
@@ -106,7 +38,7 @@ class Acceptance {
     }
 
   private:
-    void take(const Baseline& entry, const Reported& found) {
+    void take(const Baseline& entry, const ReportedEntry& found) {
         if (!entry.problem.empty() || (found.sha256.empty() && !found.differs)) return;
         BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
         if (found.differs) edit.accepted.clear();
@@ -119,7 +51,7 @@ class Acceptance {
         accepted_.push_back({entry.name, found.differs});
     }
 
-    void replace_references(const Baseline& entry, const Reported& found) {
+    void replace_references(const Baseline& entry, const ReportedEntry& found) {
         if (!update_) update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.force);
         const fs::path fresh = update_->begin(entry.name), old = baselines_.references / entry.name,
                        reported = report_.folder / entry.name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +25,33 @@ std::string to_annotations(const RegressionResult& result, const PassRule& rule)
 // A table in Markdown, for the summary of a step.
 std::string to_markdown(const RegressionResult& result, const std::string& title, const PassRule& rule);
 
+inline constexpr const char* kReportFile = "report.json";
+
 // Writes a page about the entries into a folder that holds their pictures already (RegressionOptions::report):
 // index.html, report.css and report.json, which `beamcam accept` reads. The page works without scripts and without
 // anything inline, as servers with a strict content policy demand.
 void write_page(const std::filesystem::path& folder, const RegressionResult& result, const std::string& title,
                 const PassRule& rule, output::Manifest& manifest);
+
+// ---- read again -----------------------------------------------------------------------------------
+
+// What the report says of one entry.
+struct ReportedEntry {
+    std::string renderer;
+    std::vector<std::string> sha256;  // of all its pictures; empty: it has none, or they are identical
+    std::vector<long> changed;        // their numbers
+    bool differs = false;             // its pictures or its motion: digests alone will not do
+    std::string words;                // why
+};
+
+struct Report {
+    std::filesystem::path folder;
+    std::string baselines;
+    std::map<std::string, ReportedEntry> entries;  // those that are not identical
+    std::map<std::string, RendererParts> renderers;
+};
+
+// From the folder that `write_page` wrote to, or one that holds only that. Throws IoError.
+Report read_report(const std::filesystem::path& folder);
 
 }  // namespace beamcam::scenes

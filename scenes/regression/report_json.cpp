@@ -1,7 +1,10 @@
 // JSON of what the commands around regression tests find.
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "output/files/atomic_file.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/regression/provenance.hpp"
 #include "scenes/regression/report.hpp"
@@ -9,6 +12,7 @@
 namespace beamcam::scenes {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // File names need not be UTF-8; what is not becomes U+FFFD.
@@ -41,6 +45,40 @@ Json table(const output::TableDifference& d) {
                            {"range", c.range},         {"share", c.share},     {"undefined", c.undefined}};
     return {{"rows_a", d.rows_a},       {"rows_b", d.rows_b},       {"rows_compared", d.rows_compared},
             {"only_in_a", d.only_in_a}, {"only_in_b", d.only_in_b}, {"columns", columns}};
+}
+
+// ---- reading ----------------------------------------------------------------------------------------
+
+bool verdict_is(const nlohmann::json& part, std::initializer_list<Verdict> verdicts) {
+    return std::ranges::any_of(verdicts, [&](Verdict v) { return part.at("verdict") == name(v); });
+}
+
+ReportedEntry reported_entry(const nlohmann::json& entry) {
+    ReportedEntry out;
+    out.renderer = entry.value("renderer", "");
+    out.sha256 = entry.value("sha256", std::vector<std::string>());
+    for (const char* part : {"picture", "motion"})
+        if (entry.contains(part) && verdict_is(entry.at(part), {Verdict::different, Verdict::missing})) {
+            out.differs = true;
+            for (const nlohmann::json& line : entry.at(part).at("words")) out.words = line.get<std::string>();
+        }
+    if (entry.contains("picture"))
+        for (const auto& [number, frame] : entry.at("picture").at("changed").items())
+            out.changed.push_back(std::stol(number));
+    return out;
+}
+
+// CI services put what they kept into a folder of its own.
+fs::path folder_of_report(const fs::path& given) {
+    if (output::is_there(given / kReportFile)) return given;
+    std::vector<fs::path> found;
+    if (fs::is_directory(given))
+        for (const fs::directory_entry& inner : fs::directory_iterator(given))
+            if (output::is_there(inner.path() / kReportFile)) found.push_back(inner.path());
+    if (found.size() == 1) return found.front();
+    throw output::IoError(
+        fmt::format("{} holds no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
+                    given.string(), kReportFile));
 }
 
 }  // namespace
@@ -91,6 +129,21 @@ std::string to_json(const RegressionResult& result) {
                     {"pictures", result.pictures},
                     {"seconds", result.seconds},
                     {"changed", result.changed}});
+}
+
+Report read_report(const std::filesystem::path& given) {
+    Report report{folder_of_report(given), {}, {}, {}};
+    const fs::path file = report.folder / kReportFile;
+    try {
+        const auto json = nlohmann::json::parse(output::read_file(file));
+        report.baselines = json.at("baselines").get<std::string>();
+        report.renderers = json.at("renderers").get<std::map<std::string, RendererParts>>();
+        for (const auto& [name, entry] : json.at("entries").items())
+            if (!verdict_is(entry, {Verdict::identical})) report.entries[name] = reported_entry(entry);
+    } catch (const std::exception& error) {
+        throw output::IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
+    }
+    return report;
 }
 
 std::string to_json(const Provenance& p) {

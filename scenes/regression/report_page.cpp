@@ -143,7 +143,7 @@ void write_page(const fs::path& folder, const RegressionResult& result, const st
                 output::Manifest& manifest) {
     output::ensure_directory(folder);
     output::write_file(manifest.target(folder / "report.css"), std::string(kStyle));
-    output::write_file(manifest.target(folder / "report.json"), to_json(result));
+    output::write_file(manifest.target(folder / kReportFile), to_json(result));
     output::write_file(manifest.target(folder / "index.html"), to_html(result, title, rule));
 }
 
