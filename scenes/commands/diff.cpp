@@ -23,7 +23,7 @@ struct DiffArguments {
     Common common;
     std::string a, b;
     std::optional<std::string> picture;
-    std::optional<double> tolerance;
+    std::optional<double> tolerance, ssim;
 };
 
 bool is_table(const std::string& file) { return file.ends_with(".csv") || file.ends_with(".npz"); }
@@ -96,6 +96,8 @@ Comparison compare_pictures(const DiffArguments& args) {
             continue;
         }
         PictureComparison found = compare(left, right, tolerance);
+        if (args.ssim && found.same_size() && found.difference.ssim >= *args.ssim)
+            found.verdict = std::min(found.verdict, Verdict::equivalent);
         found.a = name_a;
         found.b = name_b;
         pictures.add(static_cast<long>(all.pictures_a) - 1, left, right, found);
@@ -108,6 +110,7 @@ Comparison compare_pictures(const DiffArguments& args) {
 
 Comparison compare_tables(const DiffArguments& args) {
     if (args.picture) throw UsageError("-o draws how pictures differ; tables are compared in numbers");
+    if (args.ssim) throw UsageError("--ssim is for pictures; tables are compared in numbers");
     if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
     all.table = output::difference(output::read_table(args.a), output::read_table(args.b));
@@ -141,6 +144,8 @@ void add_diff(Grammar& grammar) {
                "Picture of the difference, .png; with #### in its name one for each picture that changed");
     app.option("--tolerance", &args->tolerance, "X",
                "Differences up to this are equivalent: of colour, 0 … 255; of tables, a share of a column's range");
+    app.option("--ssim", &args->ssim, "X", "Pictures at least so similar are equivalent (structural similarity, 0 … 1)")
+        .range(0, 1);
     app.flag("--json", args->common.json, "As JSON");
     app.flag("--force", args->common.force, "Replace a picture that beamcam did not make");
     add_quiet(app, args->common);

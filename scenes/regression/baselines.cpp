@@ -105,6 +105,8 @@ class Reader {
         f.whole("channel", tolerance.channel, 0, 255, "Of a pixel's channel, in levels.");
         f.number("share", tolerance.share, dimension::kNone, sim::between(0, 1),
                  "Of the pixels that may differ by more.");
+        f.number("ssim", tolerance.ssim, dimension::kNone, sim::between(0, 1),
+                 "Pictures at least so similar are equivalent.");
         f.number("motion", tolerance.motion, dimension::kNone, sim::between(0, 1), "Of a channel's range.");
         f.number("impacts", tolerance.impacts, dimension::kNone, sim::between(0, 1), "Of an impact's quantities.");
         f.finish();
@@ -142,8 +144,12 @@ class Reader {
         entry.name = member.key;
         std::vector<std::string> overrides;
         if (const Node* set = f.take("set")) read_overrides(*set, path + ".set", overrides);
-        const Node* scene = f.take(sim::required("scene", "\"fall.json\""));
-        const Node* output = f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}"));
+        f.text("file", entry.file, "Pictures of another tool, instead of a scene.");
+        f.text("expected", entry.expected, "Pictures that are expected, instead of accepted digests.");
+        const bool drawn_here = entry.file.empty();
+        const Node* scene = drawn_here ? f.take(sim::required("scene", "\"fall.json\"")) : nullptr;
+        const Node* output =
+            drawn_here ? f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}")) : nullptr;
         f.truth("physics", entry.physics, "Whether the motion is compared, and no picture.");
         Tolerance own;
         if (const Node* tolerance = f.take("tolerance")) read_tolerance(*tolerance, path + ".tolerance", own);
@@ -151,6 +157,13 @@ class Reader {
         f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kAny,
                  "Until when the motion is reproducible.");
         f.finish();
+        for (std::string* file : {&entry.file, &entry.expected})
+            if (!file->empty()) *file = beside(*file);
+        if (!drawn_here) {
+            entry.tolerance = Tolerance{0, 0.0, {}, {}, {}}.overridden_by(defaults_).overridden_by(own);
+            all_.entries.push_back(std::move(entry));
+            return;
+        }
         if (!scene || !output) return;
         // What is wrong with a scene costs its own entry alone.
         if (read_scene_of(*scene, overrides, path, entry) &&
@@ -201,7 +214,10 @@ class Reader {
     // The file that an entry's scene stands in.
     std::string scene_file(const Node& node) const {
         if (node.kind != Node::Kind::string) return all_.source.name;
-        return fs::path(node.text).is_absolute() ? node.text : (folder() / node.text).string();
+        return beside(node.text);
+    }
+    std::string beside(const std::string& file) const {
+        return fs::path(file).is_absolute() ? file : (folder() / file).string();
     }
 
     // A file beside this one, or a scene that stands here.
@@ -278,7 +294,7 @@ class Reader {
         // Flat views are the same everywhere with the same libraries; OpenGL differs in the last levels by processor.
         // Motion and impacts: between what another tolerance of the solver changes up to the horizon (7e-6, 5e-5) and
         // what a thousandth of the contact's stiffness changes in one impact (1e-4, 5e-4).
-        return {lit ? 2 : 0, 0.0, 2e-5, 1e-4};
+        return {lit ? 2 : 0, 0.0, {}, 2e-5, 1e-4};
     }
 
     std::string path_;
@@ -359,11 +375,11 @@ std::string renderers_text(const std::map<std::string, RendererParts>& renderers
 }  // namespace
 
 Tolerance Tolerance::overridden_by(const Tolerance& over) const {
-    return {over.channel ? over.channel : channel, over.share ? over.share : share, over.motion ? over.motion : motion,
-            over.impacts ? over.impacts : impacts};
+    return {over.channel ? over.channel : channel, over.share ? over.share : share, over.ssim ? over.ssim : ssim,
+            over.motion ? over.motion : motion, over.impacts ? over.impacts : impacts};
 }
 
-bool Baseline::has_pictures() const { return !is_data(output()); }
+bool Baseline::has_pictures() const { return !file.empty() || !is_data(output()); }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }
 
@@ -391,7 +407,8 @@ void apply_tolerance(Tolerance& tolerance, const std::string& text) {
     const std::string key = text.substr(0, equals);
     const auto number = output::number_in<double>(equals == std::string::npos ? "" : text.substr(equals + 1));
     if (!number)
-        throw UsageError(fmt::format("--tolerance {}: write channel=2, share=1e-4, motion=1e-5 or impacts=1e-4", text));
+        throw UsageError(
+            fmt::format("--tolerance {}: write channel=2, share=1e-4, ssim=0.98, motion=1e-5 or impacts=1e-4", text));
     const double value = *number;
     if (key == "channel") {
         if (!(value >= 0 && value <= 255 && value == static_cast<int>(value)))
@@ -402,13 +419,15 @@ void apply_tolerance(Tolerance& tolerance, const std::string& text) {
     if (!(value >= 0 && value <= 1)) throw UsageError(fmt::format("--tolerance {}: must lie in 0 … 1", text));
     if (key == "share")
         tolerance.share = value;
+    else if (key == "ssim")
+        tolerance.ssim = value;
     else if (key == "motion")
         tolerance.motion = value;
     else if (key == "impacts")
         tolerance.impacts = value;
     else
         throw UsageError(fmt::format("--tolerance {}: unknown tolerance {}{}", text, in_quotes(key),
-                                     suggestion_or_list(key, {"channel", "share", "motion", "impacts"})));
+                                     suggestion_or_list(key, {"channel", "share", "ssim", "motion", "impacts"})));
 }
 
 std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& changes,
@@ -426,7 +445,7 @@ std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& 
             used.insert(one.renderer);
         if (change == changes.end()) continue;
         const Node& object = entries.find(entry.name)->value;
-        if (entry.has_pictures())
+        if (entry.has_pictures() && entry.expected.empty())
             set_member(plain, object, "accepted", accepted_text(change->accepted), "\n      ", edits);
         if (change->reproducible_until) {
             std::string number;

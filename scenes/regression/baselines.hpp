@@ -27,6 +27,7 @@ namespace beamcam::scenes {
 struct Tolerance {
     std::optional<int> channel;     // of a pixel, 0…255; default 0 for flat views and figures, 2 for lit views
     std::optional<double> share;    // of the pixels that may differ by more, 0…1; default 0
+    std::optional<double> ssim;     // or pictures that are at least so similar, 0…1; default: none
     std::optional<double> motion;   // of a channel's range, up to the reproducible horizon; default 2e-5
     std::optional<double> impacts;  // of an impact's quantities; its times to that share of a millisecond; default 1e-4
 
@@ -42,7 +43,10 @@ struct Accepted {
 
 struct Baseline {
     std::string name;  // also of its folder among the references
-    Scene scene;       // with the one output of the entry
+    Scene scene;       // with the one output of the entry; of no meaning where there is a file
+    // Pictures that another tool made, to be judged instead of a scene: a PNG file, a folder, a sequence or a film.
+    std::string file;
+    std::string expected;  // the same: pictures that somebody accepted, instead of digests and references
     Tolerance tolerance;
     bool physics = true;  // false: only the picture is guarded
     std::vector<Accepted> accepted;
@@ -51,6 +55,7 @@ struct Baseline {
     std::string problem;
 
     bool has_pictures() const;
+    bool has_motion() const { return file.empty() && (physics || !has_pictures()); }
     const Output& output() const { return scene.outputs.front(); }
 };
 

@@ -13,6 +13,25 @@ namespace beamcam::scenes {
 
 namespace fs = std::filesystem;
 
+std::optional<output::Raster> ExpectedPictures::take(long frame) {
+    const std::lock_guard lock(mutex_);
+    output::Raster picture;
+    std::string name;
+    for (; next_ <= frame && source_.next(picture, name); ++next_) ahead_[next_] = picture;
+    const auto found = ahead_.find(frame);
+    if (found == ahead_.end()) return std::nullopt;
+    std::optional<output::Raster> taken = std::move(found->second);
+    ahead_.erase(found);
+    return taken;
+}
+
+bool ExpectedPictures::has_more() {
+    const std::lock_guard lock(mutex_);
+    output::Raster picture;
+    std::string name;
+    return !ahead_.empty() || source_.next(picture, name);
+}
+
 std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
 fs::path report_picture(const std::string& entry, long frame, const char* what) {
@@ -28,19 +47,54 @@ bool EntryReferences::is_as_marked(const std::string& name) const {
 void EntryPictures::judge(long frame, const render::Image& image) {
     thread_local output::Raster raster;
     output::to_raster(image, raster);
+    judge(frame, raster);
+}
+
+void EntryPictures::judge(long frame, const output::Raster& picture) {
     FrameResult found;
-    found.sha256 = output::digest(raster);
+    found.sha256 = output::digest(picture);
+    if (!entry_.expected.empty())
+        compare_with_expected(frame, picture, found);
+    else
+        compare_with_accepted(frame, picture, found);
+    const std::lock_guard lock(mutex_);
+    result_.frames[frame] = std::move(found);
+}
+
+void EntryPictures::compare_with_expected(long frame, const output::Raster& actual, FrameResult& found) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!expected_) expected_ = std::make_unique<ExpectedPictures>(entry_.expected);
+    }
+    const std::optional<output::Raster> expected = expected_->take(frame);
+    found.expected = entry_.expected;
+    if (!expected) {
+        found.verdict = Verdict::different;
+        return write_actual(frame, actual, found);
+    }
+    found.compared = true;
+    if (output::digest(*expected) == found.sha256) return;
+    found.comparison = compare(*expected, actual, tolerance_.channel.value_or(0));
+    found.verdict = is_near(found.comparison) ? Verdict::equivalent : Verdict::different;
+    write_difference(frame, *expected, actual, found);
+}
+
+void EntryPictures::compare_with_accepted(long frame, const output::Raster& actual, FrameResult& found) {
     const bool accepted = is_accepted(frame, found.sha256);
     if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
     references_.read([&] {
         if (!accepted)
-            compare_with_reference(frame, raster, found);
+            compare_with_reference(frame, actual, found);
         else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
             found.verdict = Verdict::different;
     });
-    if (references_.fresh) output::write_png(*references_.fresh / picture_name(frame), image);
-    const std::lock_guard lock(mutex_);
-    result_.frames[frame] = std::move(found);
+    if (references_.fresh) output::write_png(*references_.fresh / picture_name(frame), output::to_image(actual));
+}
+
+bool EntryPictures::is_near(const PictureComparison& comparison) const {
+    const output::PictureDifference& difference = comparison.difference;
+    return comparison.same_size() && (difference.share() <= tolerance_.share.value_or(0) ||
+                                      (tolerance_.ssim && difference.ssim >= *tolerance_.ssim));
 }
 
 bool EntryPictures::is_accepted(long frame, const std::string& digest) const {
@@ -67,9 +121,8 @@ void EntryPictures::compare_with_reference(long frame, const output::Raster& act
     found.compared = true;
     found.reference_accepted = entry_.accepted.empty() || is_accepted(frame, output::digest(expected));
     found.comparison = compare(expected, actual, tolerance_.channel.value_or(0));
-    const bool near =
-        found.comparison.same_size() && found.comparison.difference.share() <= tolerance_.share.value_or(0);
-    if (near && found.reference_accepted && !entry_.accepted.empty()) found.verdict = Verdict::equivalent;
+    if (is_near(found.comparison) && found.reference_accepted && !entry_.accepted.empty())
+        found.verdict = Verdict::equivalent;
     write_difference(frame, expected, actual, found);
 }
 
@@ -103,7 +156,16 @@ output::Target EntryPictures::report_file(const std::string& name) const {
 void EntryPictures::conclude() {
     Verdict verdict = Verdict::identical;
     for (const auto& [frame, found] : result_.frames) verdict = worse(verdict, found.verdict);
-    if (entry_.accepted.empty()) {
+    const auto in_expected = [this] {
+        return fmt::format("{} pictures were drawn; {} has more", result_.frames.size(), entry_.expected);
+    };
+    if (!entry_.expected.empty()) {
+        if (const auto* worst = result_.worst()) result_.picture_lines = {in_words(*worst)};
+        if (expected_ && expected_->has_more()) {
+            result_.picture_lines = {in_expected()};
+            verdict = Verdict::different;
+        }
+    } else if (entry_.accepted.empty()) {
         result_.picture_lines = {
             fmt::format("no digest is accepted yet; look at the picture and --update {}", entry_.name)};
         verdict = Verdict::missing;
@@ -133,6 +195,8 @@ std::string EntryPictures::in_words(const std::pair<const long, FrameResult>& wo
         result_.frames.size() > 1
             ? fmt::format("{} of {} pictures changed, most number {}: ", changed, result_.frames.size(), worst.first)
             : "";
+    if (!worst.second.compared && !entry_.expected.empty())
+        return which + fmt::format("{} has no picture {}", entry_.expected, worst.first);
     if (!worst.second.compared)
         return which +
                fmt::format("the reference {} is not there", (references_.folder / picture_name(worst.first)).string());

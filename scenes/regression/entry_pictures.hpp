@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include "output/data/manifest.hpp"
+#include "output/film/picture_source.hpp"
 #include "scenes/regression/references.hpp"
 #include "scenes/regression/regression.hpp"
 
@@ -46,6 +49,22 @@ class EntryReferences {
     const ReferenceFiles marked_;
 };
 
+// The pictures of a file that somebody accepted, taken in about the order of their numbers, from any thread.
+class ExpectedPictures {
+  public:
+    // Throws IoError, MissingCodec.
+    explicit ExpectedPictures(const std::string& file) : source_(file) {}
+
+    std::optional<output::Raster> take(long frame);
+    bool has_more();  // than were taken
+
+  private:
+    output::PictureSource source_;
+    std::map<long, output::Raster> ahead_;  // read, and not taken yet
+    long next_ = 0;
+    std::mutex mutex_;
+};
+
 class EntryPictures {
   public:
     // `report`: folder for actual and difference pictures. All must outlive this.
@@ -59,11 +78,16 @@ class EntryPictures {
           report_files_(report_files),
           result_(result) {}
 
-    void judge(long frame, const render::Image& image);         // from any thread
+    // From any thread.
+    void judge(long frame, const render::Image& image);
+    void judge(long frame, const output::Raster& picture);
     void conclude();                                            // all are judged
     output::Target report_file(const std::string& name) const;  // in the folder of the entry; there must be a report
 
   private:
+    void compare_with_expected(long frame, const output::Raster& actual, FrameResult& found);
+    void compare_with_accepted(long frame, const output::Raster& actual, FrameResult& found);
+    bool is_near(const PictureComparison& comparison) const;
     bool is_accepted(long frame, const std::string& digest) const;
     bool is_reference_accepted(long frame) const;
     void compare_with_reference(long frame, const output::Raster& actual, FrameResult& found);
@@ -78,7 +102,8 @@ class EntryPictures {
     const std::optional<std::filesystem::path>& report_;
     output::Manifest& report_files_;
     EntryResult& result_;
-    std::mutex mutex_;  // of result_.frames
+    std::mutex mutex_;  // of what follows, and of result_.frames
+    std::unique_ptr<ExpectedPictures> expected_;
 };
 
 }  // namespace beamcam::scenes

@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
+#include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/outputs/capture.hpp"
+#include "scenes/outputs/run_context.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/motion_record.hpp"
 #include "scenes/regression/references.hpp"
@@ -27,12 +30,13 @@ namespace fs = std::filesystem;
 // SSIM of pictures of one scene: other versions of the same fonts and libraries leave it above 0.9.
 constexpr double kAlike = 0.8;
 
-enum class Drawn { flat, lit, figure };
+enum class Drawn { flat, lit, figure, elsewhere };
 
 Drawn drawn(const Baseline& entry) {
     const auto by_style = [](const render::View& view) {
         return view.style == render::Style::flat ? Drawn::flat : Drawn::lit;
     };
+    if (!entry.file.empty()) return Drawn::elsewhere;
     if (const auto* still = std::get_if<StillOutput>(&entry.output())) return by_style(still->view);
     if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) return by_style(frames->view);
     return std::holds_alternative<FigureOutput>(entry.output()) ? Drawn::figure : Drawn::flat;
@@ -46,6 +50,8 @@ Fingerprint fingerprint_of(Drawn how) {
             return lit_fingerprint();
         case Drawn::figure:
             return figure_fingerprint();
+        case Drawn::elsewhere:
+            return {{{"pictures", "of another tool"}}};
     }
     throw std::logic_error("a way of drawing that has no fingerprint");
 }
@@ -69,7 +75,7 @@ class EntryTest {
           references_(baselines.references / entry.name),
           pictures_(entry, tolerance_, references_, options.report, report_files, result) {
         if (entry.has_pictures()) result_.picture = Verdict::identical;
-        if (entry.physics || !entry.has_pictures()) result_.motion = Verdict::identical;
+        if (entry.has_motion()) result_.motion = Verdict::identical;
         if (update_) references_.fresh = update_->begin(entry.name);
     }
 
@@ -122,6 +128,15 @@ class EntryTest {
 
     // From any thread.
     void judge_picture(long frame, const render::Image& image) { pictures_.judge(frame, image); }
+    void judge_file() {
+        output::PictureSource source(entry_.file);
+        output::Raster picture;
+        std::string name;
+        for (long frame = 0; source.next(picture, name); ++frame) {
+            stop_if_interrupted();
+            pictures_.judge(frame, picture);
+        }
+    }
     void finish() {
         if (result_.picture) pictures_.conclude();
     }
@@ -181,11 +196,12 @@ class EntryTest {
         BaselineEdit change{entry_.name, entry_.accepted, entry_.reproducible_until};
         if (references_.fresh) {
             change.accepted.clear();
-            if (result_.picture) change.accepted.push_back(digests(renderer));
+            if (result_.picture && entry_.expected.empty()) change.accepted.push_back(digests(renderer));
             if (result_.motion) change.reproducible_until = horizon_;
             result_.updated = true;
             return change;
         }
+        if (!entry_.expected.empty()) return std::nullopt;
         const bool added = options_.add_digest ? is_of_new_renderer_ || result_.picture == Verdict::equivalent
                                                : result_.picture == Verdict::new_renderer &&
                                                      options_.rule.new_renderer == NewRenderer::accept;
@@ -412,7 +428,7 @@ class Regression {
             (!options_.update.empty() || options_.add_digest || options_.rule.new_renderer == NewRenderer::accept))
             throw UsageError("baselines from standard input cannot be changed; name the file");
         choose();
-        for (Group& group : groups()) group.run(options_, result_);
+        run_groups();
         write_changes();
         report_files_.save();
         result_.seconds = seconds_since(started);
@@ -451,10 +467,46 @@ class Regression {
         result.exit_code = exit_code;
     }
 
+    // Side by side: as many threads as there are groups for, and those that are left draw.
+    void run_groups() {
+        std::vector<Group> all = groups();
+        const auto count = static_cast<long>(all.size());
+        const int threads = thread_count(options_.run.threads);
+        RegressionOptions each = options_;
+        each.run.threads = std::max(1, threads / static_cast<int>(std::max(1L, count)));
+        std::mutex mutex;
+        Gate gate;
+        fan_out(
+            count, threads,
+            [&] {
+                return [&](long k) {
+                    RegressionResult counts;
+                    all[static_cast<std::size_t>(k)].run(each, counts);
+                    const std::lock_guard lock(mutex);
+                    result_.simulations += counts.simulations;
+                    result_.pictures += counts.pictures;
+                };
+            },
+            gate);
+        for (const auto& test : tests_)
+            if (!test->entry().file.empty()) judge_file(*test);
+    }
+
+    void judge_file(EntryTest& test) {
+        const auto started = Clock::now();
+        test.attempt([&] {
+            test.judge_file();
+            test.finish();
+        });
+        test.result().seconds = seconds_since(started);
+        result_.pictures += test.result().frames.size();
+    }
+
     std::vector<Group> groups() {
         std::map<std::string, std::size_t> index;
         std::vector<Group> all;
         for (const auto& test : tests_) {
+            if (!test->entry().file.empty()) continue;
             Scene physics = test->entry().scene;  // all that the motion depends on
             physics.outputs.clear();
             physics.title.clear();

@@ -79,6 +79,64 @@ TEST(Report, SaysWhyAnEntryIsNotStrictlyTheSame) {
     EXPECT_THAT(strict.out, HasSubstr("equivalent  motion"));
 }
 
+// Entries whose pictures another tool made, and entries that are held to a file.
+TEST(Foreign, PicturesOfAnotherToolAreJudgedByDigestOrTolerance) {
+    const Guarded folder;
+    shell(folder, "ffmpeg -v error -f lavfi -i testsrc=size=64x48:rate=5:duration=1 t-%04d.png");
+    folder.write("f.json", R"({"entries": {"one": {"file": "t-0001.png"}, "all": {"file": "t-####.png"}}})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --update all").code, 7);
+    const Finished same = shell(folder, "$BEAMCAM test f.json --strict");
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_THAT(same.err, HasSubstr("2 identical, 0 equivalent, 0 different, 0 missing; 0 simulations, 6 pictures"));
+    shell(folder, "ffmpeg -v error -i t-0002.png -vf 'lutrgb=r=min(val+3\\,255)' -y x.png && mv x.png t-0002.png");
+    const Finished other = shell(folder, "$BEAMCAM test f.json");
+    EXPECT_EQ(other.code, 7);
+    EXPECT_THAT(other.out, AllOf(HasSubstr("identical   one"), HasSubstr("different   all"),
+                                 HasSubstr("1 of 5 pictures changed, most number 1")));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance channel=3").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=0.9").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=1").code, 7);
+    shell(folder, "rm t-0005.png");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test f.json --only all").out,
+                HasSubstr("5 pictures were expected, 4 were drawn"));
+    shell(folder, "rm t-*.png");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json").code, 6);
+}
+
+TEST(Foreign, AnAcceptedFilmIsWhatASceneIsHeldTo) {
+    const Guarded folder;
+    folder.write("film.json", R"({"time": {"end": 0.4}, "outputs": [
+  {"type": "video", "file": "film.mp4", "fps": 10, "size": [320, 180], "view": {"style": "flat"}}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run film.json").code, 0);
+    folder.write("f.json",
+                 R"({"entries": {"film": {"scene": {"time": {"end": 0.4}}, "expected": "film.mp4", "physics": false,
+  "output": {"type": "frames", "fps": 10, "size": [320, 180], "view": {"style": "flat"}}, "tolerance": {"ssim": 0.97}}}})");
+    const std::string accepted = slurp(folder / "f.json");
+    const Finished alike = shell(folder, "$BEAMCAM test f.json");
+    EXPECT_EQ(alike.code, 0) << alike.out;
+    EXPECT_THAT(alike.out, HasSubstr("equivalent  film"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=1").code, 7);
+    EXPECT_EQ(slurp(folder / "f.json"), accepted);
+    shell(folder, "sed -i 's/\"time\": {\"end\": 0.4}/\"time\": {\"end\": 0.4}, \"gravity\": 5/' f.json");
+    const Finished other = shell(folder, "$BEAMCAM test f.json");
+    EXPECT_EQ(other.code, 7);
+    EXPECT_THAT(other.out, HasSubstr("SSIM"));
+    shell(folder, "sed -i 's/, \"gravity\": 5//; s/0.4}}/0.3}}/' f.json");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test f.json").out, HasSubstr("film.mp4 has more"));
+}
+
+TEST(Foreign, DifferencesAreMeasuredBySimilarityToo) {
+    const Guarded folder;
+    shell(folder,
+          "ffmpeg -v error -f lavfi -i testsrc=size=64x48:duration=1 -frames:v 1 a.png; "
+          "ffmpeg -v error -i a.png -vf 'lutrgb=r=min(val+3\\,255)' b.png");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 0.9").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 1").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 2").code, 2);
+}
+
 TEST(Accept, TakesPicturesAndMotionsOfAReport) {
     const Guarded folder;
     folder.update();
