@@ -57,6 +57,16 @@ DRAWING = [  # name, filter, seen exactly, seen beyond two levels
     ("a dot of the contact missing", "drawbox=x=202:y=152:w=4:h=4:color=0xc3c7d1:t=fill", True, True),
     ("outline of the beam wider", region(150, 72, 200, 100, "erosion=coordinates=2"), True, True),
     ("slightly blurred", "gblur=sigma=0.35", True, True),
+    ("brightness by a gamma of 1.02", "eq=gamma=1.02", True, True),
+    ("hues turned by two degrees", "hue=h=2", True, True),
+    ("a row of pixels fewer", "crop=480:269:0:0", True, True),
+    ("upside down", "vflip", True, True),
+]
+
+SHOWN = [  # name, scene, output: what is looked at, the motion stays
+    ("one letter of the title", {"title": "A small chance"}, {}),
+    ("deflection drawn 1 % larger", {}, {"view": {"style": "flat", "exaggeration": 5.05}}),
+    ("colours for print", {}, {"theme": "print"}),
 ]
 
 MECHANICS = [  # name, scene, motion verdict
@@ -72,6 +82,10 @@ MECHANICS = [  # name, scene, motion verdict
     ("cam 0.1 % faster", {"cam": {"speed": 1.001}}, "different"),
     ("cam 0.1 mm lower", {"cam": {"centre": [0.25, -0.0001]}}, "different"),
     ("first-order theory exchanged for zeroth", {"beam": {"model": "zeroth-order"}}, "different"),
+    ("initial angle +1 µrad", {"initial": {"angle": 0.785399163397}}, "different"),
+    ("damping ratio 0 → 0.0001", {"beam": {"damping_ratio": 0.0001}}, "different"),
+    ("hub inertia 0 → 1e-5 kg m²", {"hub": {"inertia": 1e-5}}, "different"),
+    ("contact offset 0 → 1 µm", {"contact": {"offset": 1e-6}}, "different"),
     ("solver's tolerance ten times tighter", {"solver": {"rtol": 1e-9, "atol": 1e-12}}, "equivalent"),
     ("another integrator, same tolerance", {"solver": {"method": "cvode-adams", "rtol": 1e-10, "atol": 1e-13}}, "equivalent"),
 ]
@@ -137,8 +151,10 @@ def main():
             judge(name, {**truth, "accepted": [{**truth["accepted"][0], "sha256": [digest(picture)]}]}, exact, loose, "identical")
         picture.write_bytes(original)
         judge("one frame later (1/60 s)", {**truth, "output": {**truth["output"], "at": AT + 1 / 60}}, True, True, "different")
+        for name, scene, output in SHOWN:
+            judge(name, {**truth, "scene": entry(scene)["scene"], "output": {**truth["output"], **output}}, True, True, "identical")
         for name, scene, motion in MECHANICS:
-            judge(name, {**truth, **{"scene": entry(scene)["scene"]}}, None, None, motion)
+            judge(name, {**truth, "scene": entry(scene)["scene"]}, None, None, motion)
 
         # One impact lost: the table of expected impacts has one more than there is.
         impacts = folder / "b/e/impacts.json"
