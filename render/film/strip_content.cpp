@@ -7,76 +7,19 @@
 #include <cmath>
 #include <limits>
 
+#include "render/plot/channel_label.hpp"
+
 namespace beamcam::render {
 namespace {
 
 using sim::Channel;
 using sim::ChannelKind;
 
-struct Name {
-    const char *words, *symbol;  // markup is made by `math`, subscripts apart
-    const char* subscript = "";
-    bool rate = false;  // by time
-};
-Name name_of(Channel channel) {
-    switch (channel.kind) {
-        case ChannelKind::t:
-            return {"Time ", "t"};
-        case ChannelKind::theta:
-            return {"Hub angle ", "θ"};
-        case ChannelKind::theta_dot:
-            return {"Hub speed ", "θ", "", true};
-        case ChannelKind::tip_deflection:
-            return {"Tip deflection ", "w"};
-        case ChannelKind::tip_rate:
-            return {"Rate of the tip ", "w", "", true};
-        case ChannelKind::contact_force:
-            return {"Contact force ", "F"};
-        case ChannelKind::friction_force:
-            return {"Friction ", "F", "t"};
-        case ChannelKind::gap:
-            return {"Gap ", "g"};
-        case ChannelKind::contact_x:
-            return {"Contact point on the beam ", "x", "c"};
-        case ChannelKind::contact_s:
-            return {"Contact point on the disc ", "s", "c"};
-        case ChannelKind::cam_angle:
-            return {"Cam angle ", "ψ"};
-        case ChannelKind::q:
-            return {"Modal coordinate ", "q"};
-        case ChannelKind::energy_kinetic:
-            return {"Kinetic energy ", "T"};
-        case ChannelKind::energy_potential:  // above its least value
-            return {"Potential energy ", "V − V", "min"};
-        case ChannelKind::energy_elastic:
-            return {"Bending energy ", "U"};
-        case ChannelKind::energy_contact:
-            return {"Energy in the contact ", "U", "c"};
-        case ChannelKind::loss_structural:
-            return {"Lost in the beam ", "D", "s"};
-        case ChannelKind::loss_contact:
-            return {"Lost in the contact ", "D", "c"};
-        case ChannelKind::loss_friction:
-            return {"Lost to friction ", "D", "f"};
-        case ChannelKind::work_cam:
-            return {"Work of the cam ", "W", "c"};
-        case ChannelKind::work_drive:
-            return {"Work of the drive ", "W", "d"};
-        case ChannelKind::energy_residual:
-            return {"Ledger residual ", "ΔE"};
-        case ChannelKind::separation:
-            return {"Separation ", "a", "n"};
-        case ChannelKind::separation_paper:
-            return {"Separation, printed form ", "a", "p"};
-    }
-    return {"", ""};
-}
-
 std::string symbol_of(Channel channel) {
-    const Name name = name_of(channel);
-    std::string text = math(name.symbol);
-    if (name.rate) text = fmt::format("d{}/d{}", text, math("t"));
-    const std::string below = channel.kind == ChannelKind::q ? std::to_string(channel.index) : name.subscript;
+    const ChannelLabel& label = label_of(channel.kind);
+    std::string text = math(label.symbol);
+    if (label.rate) text = fmt::format("d{}/d{}", text, math("t"));
+    const std::string below = label.below(channel);
     return below.empty() ? text : text + "<sub>" + below + "</sub>";
 }
 
@@ -272,7 +215,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     ChartContent c = blank_content(facts, spec, facts.members() > 1 ? -1 : 0);
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
-    c.words = single ? name_of(first).words : "";
+    c.words = single ? fmt::format("{} ", label_of(first.kind).words) : "";
     c.unit = unit_text(first, facts.setup->problem);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);

@@ -209,6 +209,10 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
     const double flat = std::min(1.0, std::sqrt(90 / std::max(wide, 1.0)));
     double aspect = figure.aspect;
     if (grid.columns > 1) aspect *= static_cast<double>(grid.rows) / static_cast<double>(figure.panels.size()) * 1.1;
+    if (figure.height) {
+        page.height = *figure.height;
+        return page;
+    }
     page.height = column.height > 0 && !width ? column.height : wide * aspect * (column.height > 0 ? 1 : flat);
     return page;
 }

@@ -116,8 +116,9 @@ struct Figure {
     bool stack = false;    // panels above each other however wide the page; else side by side where there is room
     bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
     double aspect = 0.66;  // height by width of one column
-    std::string caption;   // markup
-    std::string accuracy;  // markup: how far the numbers can be trusted; ends the caption
+    std::optional<double> height = {};  // [mm]; instead of what follows from the aspect
+    std::string caption;                // markup
+    std::string accuracy;               // markup: how far the numbers can be trusted; ends the caption
 };
 
 struct Page {

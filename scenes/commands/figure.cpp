@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <optional>
 
+#include "output/files/numbers.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/format/object_reader.hpp"
+#include "scenes/format/reader.hpp"
 #include "scenes/format/source.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/outputs/run.hpp"
@@ -19,6 +22,9 @@ struct FigureArguments {
     std::string scene, figure, file, column = "elsevier", lang = "en";
     std::optional<std::string> width, data, caption;
     double dpi = 300;
+    std::vector<std::string> channels;
+    std::optional<std::string> against, from, to, height;
+    bool impacts = false;
 };
 
 // Names that the scene has, and why it has not the others.
@@ -32,12 +38,50 @@ std::string list(const Scene& scene, Lang lang) {
     return text;
 }
 
-FigureOutput wanted(const FigureArguments& args, const Recipe& recipe) {
+Node value_node(const std::string& text) {
+    const auto number = output::number_in<double>(text);
+    return number ? number_node(*number) : text_node(text);
+}
+
+// The keys of "series" that options name, read as if the scene said so.
+SeriesKeys series_keys(const FigureArguments& args, const Scene& scene) {
+    if (args.channels.empty())
+        throw UsageError("figure series: name its --channels, for example theta,contact_force");
+    Node output = object_node();
+    add(output, "type", text_node(FigureOutput::kType));
+    add(output, "figure", text_node("series"));
+    Node channels = array_node();
+    for (const std::string& channel : args.channels) channels.items.push_back(text_node(channel));
+    add(output, "channels", std::move(channels));
+    const std::pair<const char*, const std::optional<std::string>&> options[] = {
+        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}};
+    for (const auto& [key, text] : options)
+        if (text) add(output, key, value_node(*text));
+    if (args.impacts) add(output, "impacts", truth_node(true));
+
+    const Source source{args.scene, to_json(scene), true};
+    const Parsed parsed = parse(source.text);
+    SceneFiles files;
+    Findings found;
+    Scene read = scene;
+    read.set_outputs({});
+    read_outputs({scene, parsed.root, source, files}, found, array_node({output}), read);
+    for (Message& message : found.take()) {
+        if (!message.fatal) continue;
+        std::string& text = message.text;
+        for (std::size_t at = 0; (at = text.find("outputs.0.", at)) != std::string::npos;) text.replace(at, 10, "--");
+        throw UsageError(text);
+    }
+    return std::get<FigureOutput>(read.outputs.front()).series;
+}
+
+FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
     if (args.file == "-") throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg or .png");
     need_ending("-o", args.file, {".pdf", ".svg", ".png"});
     FigureOutput figure;
     figure.file = args.file;
     figure.figure = recipe.name;
+    if (figure.figure == "series") figure.series = series_keys(args, scene);
     figure.column = args.column;
     figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
     figure.dpi = args.dpi;
@@ -62,8 +106,16 @@ FigureOutput wanted(const FigureArguments& args, const Recipe& recipe) {
     return figure;
 }
 
-int act(const FigureArguments& args) {
+bool asks_for_series(const FigureArguments& args) {
+    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.impacts;
+}
+
+int act(const FigureArguments& given) {
+    FigureArguments args = given;
     Scene scene = read_or_refuse(args.scene, args.common);
+    if (args.figure.empty() && asks_for_series(args)) args.figure = "series";
+    if (args.figure != "series" && asks_for_series(args))
+        throw UsageError("--channels, --x, --from, --to, --height and --impacts belong to the figure series");
     if (args.figure.empty()) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
@@ -78,7 +130,7 @@ int act(const FigureArguments& args) {
         throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
     if (const auto refusal = refusal_of(*recipe, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
-    scene.set_outputs({wanted(args, *recipe)});
+    scene.set_outputs({wanted(args, *recipe, scene)});
     const RunOptions options = run_options(args.common, "");
     run_or_plan({&scene, 1}, options, args.common);
     return 0;
@@ -99,6 +151,14 @@ void add_figure(Grammar& grammar) {
     app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png").range(50, 2400);
     app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
     app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
+    app.option("--channels", &args->channels, "A,B,…",
+               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit")
+        .separated_by(',');
+    app.option("--x", &args->against, "CHANNEL", "Of series: against what; t, turns (of the cam) or a channel");
+    app.option("--from", &args->from, "T", "Of series: from this instant");
+    app.option("--to", &args->to, "T", "Of series: until this instant");
+    app.option("--height", &args->height, "H", "Of series: its height, for example 60mm");
+    app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
     add_work(app, args->common);
     app.bind(args, act);
 }

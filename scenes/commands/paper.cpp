@@ -60,7 +60,7 @@ std::vector<Job> jobs_of(const PaperArguments& args, Studies& studies) {
             Scene alone = *reading.scene;
             alone.outputs = {output};
             const Recipe* recipe = recipe_named(how.figure);
-            jobs.push_back({alone, how, recipe->prepare(*reading.scene, how.lang, studies)});
+            jobs.push_back({alone, how, recipe->prepare(*reading.scene, how, studies)});
         }
     }
     std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.how.file < b.how.file; });

@@ -52,7 +52,8 @@ std::string collision_caption(const sim::Problem& problem, const sim::Collision&
     return text + digits_stated(problem, lang);
 }
 
-FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "collision");
     std::optional<std::size_t> check;
@@ -145,7 +146,8 @@ FigureMaker prepare_collision(const Scene& scene, Lang lang, Studies& studies) {
     };
 }
 
-FigureMaker prepare_energy(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "energy");
     const std::size_t table = studies.table(
@@ -308,7 +310,8 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     return figure;
 }
 
-FigureMaker prepare_places(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "contact-places");
     if (scene.problem.contact.model != sim::ContactModel::compliant)

@@ -127,7 +127,8 @@ std::string fall_caption(const Beams& beams, const Results& results, double end,
     return text;
 }
 
-FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     Beams beams;
     beams.own = without_cam(scene.problem);
@@ -197,7 +198,8 @@ FigureMaker prepare_fall(const Scene& scene, Lang lang, Studies& studies) {
     };
 }
 
-FigureMaker prepare_tip(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "tip-vibration");
     const std::size_t table = studies.table(study, {0, end, kVibration}, {ChannelKind::t, ChannelKind::tip_deflection});

@@ -33,7 +33,8 @@ std::optional<double> rebound(const sim::Result& result) {
     return best;
 }
 
-FigureMaker prepare_apex(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     struct Run {
         Basis basis;
         int modes;
@@ -181,7 +182,8 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
     return text;
 }
 
-FigureMaker prepare_models(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     std::vector<Rung> all = rungs(scene, lang);
     for (Rung& rung : all) {
         rung.study = studies.of(rung.problem, scene.end_time, "models");

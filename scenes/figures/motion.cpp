@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/reproducible.hpp"
 #include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
@@ -20,35 +21,6 @@ using sim::ChannelKind;
 
 constexpr int kMotionPoints = 8001;
 
-// Within it θ is not reproducible [s].
-struct Interval {
-    double from, to;
-    bool holds(double t) const { return t > from && t <= to; }
-};
-std::vector<Interval> unreliable(const sim::Result& result, double end) {
-    const double until = result.reproducible_until.value_or(end);
-    if (!(until < end)) return {};
-    return {{until, end}};
-}
-
-// The curve outside of the intervals, and within them; neighbouring pieces share a point.
-std::array<Series, 2> split(const Series& whole, const std::vector<Interval>& intervals) {
-    std::array<Series, 2> parts{whole, whole};
-    for (Series& part : parts) part.x.clear(), part.y.clear();
-    std::optional<bool> before;
-    for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const bool unsure = std::ranges::any_of(intervals, [&](const Interval& v) { return v.holds(whole.x[i]); });
-        Series& part = parts[unsure ? 1 : 0];
-        if (before && *before != unsure) {
-            if (!part.x.empty()) part.x.push_back(whole.x[i - 1]), part.y.push_back(std::nan(""));
-            part.x.push_back(whole.x[i - 1]), part.y.push_back(whole.y[i - 1]);
-        }
-        part.x.push_back(whole.x[i]), part.y.push_back(whole.y[i]);
-        before = unsure;
-    }
-    return parts;
-}
-
 Panel angle_panel(const sim::Result& result, std::size_t table, double end) {
     Panel panel;
     panel.x.label = "$t$ / s";
@@ -58,36 +30,16 @@ Panel angle_panel(const sim::Result& result, std::size_t table, double end) {
     whole.x = column(result.tables[table], ChannelKind::t);
     whole.y = column(result.tables[table], ChannelKind::theta);
     whole.weight = 0.9;
-    const std::vector<Interval> intervals = unreliable(result, end);
-    auto [sure, unsure] = split(whole, intervals);
+    const std::vector<Lost> intervals = unreliable(result, end);
+    auto [sure, unsure] = split(whole, whole.x, intervals);
     unsure.faded = true;
     if (!unsure.x.empty()) panel.series.push_back(std::move(unsure));
     if (!sure.x.empty()) panel.series.push_back(std::move(sure));
-    for (const Interval& v : intervals) {
+    for (const Lost& v : intervals) {
         panel.rules.push_back({.at = v.from, .vertical = true});
         if (v.to < end) panel.rules.push_back({.at = v.to, .vertical = true});
     }
     return panel;
-}
-
-// Where θ is not reproducible, if anywhere.
-std::string horizon_words(const std::vector<const sim::Result*>& results, double end, Lang lang) {
-    const bool en = lang == Lang::en;
-    std::vector<std::string> times;
-    for (std::size_t k = 0; k < results.size(); ++k)
-        for (const Interval& v : unreliable(*results[k], end)) {
-            const std::string panel =
-                results.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + k)) : std::string();
-            times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", panel, number(v.from, 3),
-                                                number(v.to, 3))
-                                       : filled(en ? "{}from {} s on" : "{}{} s 之后", panel, number(v.from, 3)));
-        }
-    if (times.empty()) return {};
-    return filled(en ? "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "
-                       "differs by more, because impacts multiply small differences. "
-                     : "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
-                       "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
-                  fmt::format("{}", fmt::join(times, en ? ", " : "，")));
 }
 
 // The run may go on for other figures.
@@ -102,7 +54,8 @@ std::string impacts_words(std::ptrdiff_t count, Lang lang) {
     return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
 }
 
-FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "angle");
     const std::size_t table = studies.table(study, {0, end, kMotionPoints}, {ChannelKind::t, ChannelKind::theta});
@@ -121,7 +74,8 @@ FigureMaker prepare_angle(const Scene& scene, Lang lang, Studies& studies) {
     };
 }
 
-FigureMaker prepare_speeds(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     std::vector<sim::Problem> problems;
     std::vector<std::size_t> where, tables;
@@ -192,7 +146,8 @@ std::vector<double> mean(const std::vector<double>& values, int rows) {
     return out;
 }
 
-FigureMaker prepare_phase(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "phase");
     const std::size_t table =

@@ -8,8 +8,8 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{&kSchematic, &kFreeFall, &kTipVibration,  &kDeflection, &kDistance,  &kAngle, &kSpeeds,
-                          &kCollision, &kEnergy,   &kContactPlaces, &kPhase,      &kApexModes, &kModels};
+const std::array kRecipes{&kSeries, &kSchematic, &kFreeFall, &kTipVibration,  &kDeflection, &kDistance,  &kAngle,
+                          &kSpeeds, &kCollision, &kEnergy,   &kContactPlaces, &kPhase,      &kApexModes, &kModels};
 
 const std::vector<Recipe>& table() {
     static const std::vector<Recipe> all = [] {
@@ -38,7 +38,7 @@ const Recipe* recipe_named(std::string_view name) {
 std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene) {
     if (auto why = recipe.refusal(scene)) return why;
     Studies studies;
-    recipe.prepare(scene, Lang::en, studies);
+    recipe.prepare(scene, {}, studies);
     for (const Study& study : studies.take()) {
         if (study.may_fail) continue;
         for (const sim::Finding& finding : sim::validate(study.problem))

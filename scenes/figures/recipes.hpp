@@ -25,8 +25,8 @@ struct Recipe {
     Words title;
     // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` asks for more.
     std::optional<std::string> (*refusal)(const Scene& scene);
-    // Adds the needs; the maker remembers where they are.
-    FigureMaker (*prepare)(const Scene& scene, Lang lang, Studies& studies);
+    // Adds the needs; the maker remembers where they are. `how`: the language, and what keys of the figure's own say.
+    FigureMaker (*prepare)(const Scene& scene, const FigureOutput& how, Studies& studies);
 };
 
 std::span<const Recipe> recipes();
@@ -38,7 +38,7 @@ std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
 
 // The recipes of each file of this folder.
 extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
-    kContactPlaces, kPhase, kApexModes, kModels;
+    kContactPlaces, kPhase, kApexModes, kModels, kSeries;
 
 // ---- what they share ------------------------------------------------------------------------------
 

@@ -218,7 +218,8 @@ std::string schematic_caption(const sim::Problem& p, Lang lang) {
     return text + facts(p, lang);
 }
 
-FigureMaker prepare_schematic(const Scene& scene, Lang lang, Studies&) {
+FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studies&) {
+    const Lang lang = how.lang;
     return [problem = scene.problem, lang](const Results&) {
         Figure figure;
         figure.name = "schematic";

@@ -92,7 +92,8 @@ std::string deflection_caption(const sim::Problem& problem, const Inclination& a
     return text + beam_facts(problem, lang);
 }
 
-FigureMaker prepare_deflection(const Scene& scene, Lang lang, Studies&) {
+FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {
+    const Lang lang = how.lang;
     return [problem = scene.problem, lang](const Results&) {
         const bool en = lang == Lang::en;
         const Inclination at = inclination(problem);

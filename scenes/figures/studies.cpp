@@ -54,6 +54,16 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
     return known->second;
 }
 
+std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y) {
+    const sim::Channel time{};
+    constexpr double kStray = 0.002;  // a quarter of a line's width in a column
+    sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray};
+    if (x != time) table.channels.push_back(x);
+    table.channels.push_back(y);
+    request(study).tables.push_back(std::move(table));
+    return request(study).tables.size() - 1;
+}
+
 std::size_t Studies::point(std::size_t study, double x, const Instants& at) {
     std::vector<sim::PointRequest>& points = request(study).points;
     points.push_back({x, instants(at)});

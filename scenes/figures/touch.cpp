@@ -79,7 +79,8 @@ std::string located(const sim::Problem& problem, const sim::Result& result, cons
            digits_stated(problem, lang);
 }
 
-FigureMaker prepare_distance(const Scene& scene, Lang lang, Studies& studies) {
+FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Lang lang = how.lang;
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time, "distance");

@@ -8,6 +8,7 @@
 
 #include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
+#include "render/plot/text.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"
@@ -163,8 +164,67 @@ void judge_video(ObjectReader& r, VideoOutput& video) {
 
 // ---- figures, tables, files --------------------------------------------------------------------
 
+namespace {
+
+// Labels and titles of figures are markup.
+void judge_markup(ObjectReader& r, const std::string& key, const std::string& text) {
+    try {
+        render::figure::parse_markup(text);
+    } catch (const std::invalid_argument& error) {
+        r.fail(r.place(key), key,
+               fmt::format("{} = {}: {}; \\$ \\_ \\^ \\\\ stand for themselves", r.path(key), in_quotes(text),
+                           error.what()));
+    }
+}
+
+void refuse_mixed_units(ObjectReader& r, const char* key, const std::vector<sim::Channel>& channels) {
+    const sim::Problem& problem = r.context().scene.problem;
+    for (const sim::Channel& channel : channels)
+        if (std::string_view(unit(channel, problem)) != unit(channels.front(), problem))
+            return r.fail(r.place(key), key,
+                          fmt::format("{}: {} is measured in {}, {} in {}; one axis has one unit: use \"right\", or "
+                                      "another panel",
+                                      r.path(key), name(channel), unit(channel, problem), name(channels.front()),
+                                      unit(channels.front(), problem)));
+}
+
+void judge_series(ObjectReader& r, FigureOutput& figure) {
+    SeriesKeys& series = figure.series;
+    if (figure.figure != "series") {
+        for (const char* key : {"channels", "panels", "x", "from", "to", "impacts", "height", "compare"})
+            if (r.has(key)) r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"series\"", r.path(key)));
+        return;
+    }
+    if (series.panels.empty() && !r.findings().any())
+        r.fail(
+            *r.node(), "channels",
+            fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]", r.what()));
+    const double end = series.to.value_or(r.context().scene.end_time);
+    if (!(series.from < end))
+        r.fail(r.place("from"), "from",
+               fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
+    for (std::size_t i = 0; i < series.compare.size(); ++i) {
+        std::string& label = series.compare[i].label;
+        if (label.empty()) label = std::to_string(i + 1);
+        judge_markup(r, "compare", label);
+    }
+}
+
+}  // namespace
+
+void judge_series_panel(ObjectReader& r, const SeriesPanel& panel) {
+    refuse_mixed_units(r, "channels", panel.channels);
+    refuse_mixed_units(r, "right", panel.right);
+    judge_markup(r, "title", panel.title);
+    if (panel.low && panel.high && !(*panel.low < *panel.high))
+        r.fail(r.place("high"), "high", fmt::format("{} must be above \"low\"", r.path("high")));
+    if (panel.logarithmic && panel.low && !(*panel.low > 0))
+        r.fail(r.place("low"), "low", fmt::format("{}: a logarithmic axis begins above 0", r.path("low")));
+}
+
 void judge_figure(ObjectReader& r, FigureOutput& figure) {
     if (figure.file.empty()) figure.file = figure.figure + ".pdf";
+    judge_series(r, figure);
     if (!r.has("figure") || r.findings().any()) return;  // judged when the physics is known
     if (const auto refusal = refusal_of(*recipe_named(figure.figure), r.context().scene))
         r.fail(r.place("figure"), "figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));

@@ -23,6 +23,7 @@ void judge_span(ObjectReader& r, const FrameSpan& span);
 void take_usual_codec(ObjectReader& r, VideoOutput& video);
 void judge_video(ObjectReader& r, VideoOutput& video);
 void judge_figure(ObjectReader& r, FigureOutput& figure);
+void judge_series_panel(ObjectReader& r, const SeriesPanel& panel);
 void judge_table(ObjectReader& r, TrajectoryOutput& table);
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
 void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands

@@ -255,4 +255,44 @@ Form channels_form(std::vector<sim::Channel>& channels) {
             write};
 }
 
+std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem) {
+    std::vector<SeriesPanel> panels;
+    for (const sim::Channel& channel : channels) {
+        const std::string_view wanted = unit(channel, problem);
+        const auto same = std::ranges::find_if(
+            panels, [&](const SeriesPanel& panel) { return wanted == unit(panel.channels.front(), problem); });
+        if (same == panels.end())
+            panels.push_back({.channels = {channel}});
+        else
+            same->channels.push_back(channel);
+    }
+    return panels;
+}
+
+Form grouped_channels_form(std::vector<SeriesPanel>& panels) {
+    static std::vector<sim::Channel> none;
+    Form form = channels_form(none);
+    form.read = [&panels](ObjectReader& r, const Node& node, const std::string& key) {
+        std::vector<sim::Channel> channels;
+        channels_form(channels).read(r, node, key);
+        panels = panels_by_unit(channels, r.context().scene.problem);
+    };
+    form.write = [] { return std::nullopt; };  // the panels tell
+    return form;
+}
+
+Form abscissa_form(std::string& against) {
+    const auto read = [&against](ObjectReader& r, const Node& node, const std::string& key) {
+        std::vector<std::string> known{"turns"};
+        for (const sim::Channel& channel : all_channels(r.context().scene.problem)) known.push_back(name(channel));
+        if (node.kind != Node::Kind::string || std::ranges::find(known, node.text) == known.end())
+            return r.fail(node, key,
+                          fmt::format("{} = {} is neither \"turns\" nor a channel{}", r.path(key), shown(node),
+                                      suggestion_or_list(node.text, known)));
+        against = node.text;
+    };
+    return {"channel or \"turns\"", R"({"anyOf": [{"const": "turns"}, {"$ref": "#/$defs/channel"}]})", read,
+            [&against] { return text_node(against); }};
+}
+
 }  // namespace beamcam::scenes

@@ -19,6 +19,11 @@ Form instant_form(Instant& at);
 Form instant_form(std::optional<Instant>& at);
 Form speed_form(Speed& speed);
 Form channels_form(std::vector<sim::Channel>& channels);
+Form grouped_channels_form(std::vector<SeriesPanel>& panels);  // a panel for each unit
+Form abscissa_form(std::string& against);                      // of a series: "t", "turns", or a channel
+
+// A panel for each unit, in the order in which they come.
+std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem);
 
 std::optional<Size> parse_size(std::string_view text);             // "1280x720"
 std::optional<FrameRate> parse_frame_rate(std::string_view text);  // "60", "29.97", "30000/1001"

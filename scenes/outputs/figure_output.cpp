@@ -12,6 +12,44 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 using sim::between, sim::required;
 
+static void visit(SceneVisitor& v, SeriesPanel& panel) {
+    v.form(sim::required("channels", "[\"theta\"]"), channels_form(panel.channels), "Curves of one unit.");
+    v.form("right", channels_form(panel.right), "Curves of another unit, on an axis at the right.");
+    v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}}, "Of the axis at the left.");
+    v.number("low", panel.low, sim::kPlainNumber, sim::kAny, "Lower end of the axis at the left, in SI units.");
+    v.number("high", panel.high, sim::kPlainNumber, sim::kAny, "Its upper end.");
+    v.text("title", panel.title, "Above the panel; $θ$ is set as mathematics.");
+    v.check([&panel](ObjectReader& r) { judge_series_panel(r, panel); });
+}
+
+// Of the figure "series"; others have content of their own.
+static void visit_series(SceneVisitor& v, SeriesKeys& series, bool written) {
+    const auto key = [written](const char* name) { return sim::written_if(written, name); };
+    v.form("channels", grouped_channels_form(series.panels),
+           "Of the figure \"series\": what it shows, a panel for each unit; or \"panels\".");
+    List panels = SceneVisitor::items_of(series.panels);
+    panels.most = 8, panels.of = "panels";
+    panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
+    v.list(key("panels"), panels, "Of \"series\": its panels, above each other.");
+    v.exclude("channels", "panels");
+    v.form(key("x"), abscissa_form(series.against),
+           "Of \"series\": what the curves are drawn against: \"t\", \"turns\" of the cam, or a channel.");
+    v.number(key("from"), series.from, dim::kTime, kFromStart, "Of \"series\": when its curves begin.");
+    v.number(key("to"), series.to, dim::kTime, kFromStart, "When they end; with the scene when left out.");
+    v.truth(key("impacts"), series.impacts, "Of \"series\": lines where impacts begin.");
+    v.number(key("height"), series.height, dim::kLength,
+             between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
+             "Of \"series\": its height; what suits its panels when left out.");
+    List compare = SceneVisitor::items_of(series.compare);
+    compare.least = 2, compare.most = kMostCompared, compare.of = "motions";
+    compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
+    v.restrict(R"({"if": {"properties": {"figure": {"const": "series"}}, "required": ["figure"]},
+        "then": {"anyOf": [{"required": ["channels"]}, {"required": ["panels"]}]},
+        "else": {"properties": {"channels": false, "panels": false, "x": false, "from": false, "to": false,
+                                "impacts": false, "height": false, "compare": false}}})");
+    v.list(key("compare"), compare, "Of \"series\": the motions whose curves it shows, as pictures compare them.");
+}
+
 void FigureOutput::visit(SceneVisitor& v) {
     v.form("file", file_form(file, {".pdf", ".svg", ".png"}),
            "Name of the file; the figure's name with .pdf when left out.");
@@ -23,6 +61,7 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Another width than the column's.");
+    visit_series(v, series, figure == "series");
     v.check([this](ObjectReader& r) { judge_figure(r, *this); });
 }
 
@@ -30,7 +69,7 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     const Recipe* recipe = recipe_named(figure);
     if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure);
     Studies studies;
-    FigureFile planned{output, file, figure, {}, recipe->prepare(planner.scene(), lang, studies), {}};
+    FigureFile planned{output, file, figure, {}, recipe->prepare(planner.scene(), *this, studies), {}};
     planned.studies = studies.take();
     planner.add(std::move(planned));
 }

@@ -172,6 +172,23 @@ struct SummaryOutput {
     void plan(Planner& planner, std::size_t output) const;
 };
 enum class Lang { en, zh };
+// One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
+struct SeriesPanel {
+    std::vector<sim::Channel> channels = {}, right = {};
+    bool logarithmic = false;
+    std::optional<double> low = {}, high = {};  // of the axis at the left, in SI units
+    std::string title = {};
+};
+// What the figure "series" shows; other figures have content of their own.
+struct SeriesKeys {
+    std::vector<SeriesPanel> panels;
+    std::string against = "t";      // "t", "turns" of the cam, or a channel
+    double from = 0;                // [s]
+    std::optional<double> to;       // [s]; absent: the end of the scene
+    std::vector<Compared> compare;  // absent: this motion alone
+    bool impacts = false;           // lines where impacts begin
+    std::optional<double> height;   // [m]; absent: what suits the panels
+};
 struct FigureOutput {
     static constexpr const char *kType = "figure",
                                 *kMeaning = "A figure for print: one of those that `beamcam figure SCENE` lists.";
@@ -181,10 +198,11 @@ struct FigureOutput {
     std::string column = "elsevier";  // a journal's, see render/plot/style.hpp
     std::optional<double> width;      // [m]; absent: the column's
     Lang lang = Lang::en;
-    double dpi = 300;                     // of .png
+    double dpi = 300;  // of .png
+    SeriesKeys series;
     std::string data_file, caption_file;  // beside it; only the command line asks for them
 
-    Extent extent() const { return Extent::scene; }
+    Extent extent() const { return series.to ? Extent::keys : Extent::scene; }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };

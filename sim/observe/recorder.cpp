@@ -138,7 +138,7 @@ void Recorder::refine_curves(const SegmentInterval& s, const std::vector<std::si
         for (std::size_t k = before[i]; k <= cursor.next; ++k) {
             const double t = k < cursor.next ? std::clamp(table.times[cursor.order[k]], from, to) : to;
             if (!(t > reached)) continue;
-            refined.refiner.refine(reached, t, at, keep);
+            refined.refiner.refine(reached, t, table.stray, at, keep);
             reached = t;
         }
         keep(to);

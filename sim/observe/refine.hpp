@@ -13,14 +13,14 @@ namespace beamcam::sim {
 class CurveRefiner {
   public:
     // Between the instants a < b. `at(t)` is the curve; `keep(t)` takes the instants to be added, in order.
+    // `stray`: how far from a piece, in shares of the range so far.
     template <class At, class Keep>
-    void refine(double a, double b, At&& at, Keep&& keep) {
+    void refine(double a, double b, double stray, At&& at, Keep&& keep) {
+        most_ = stray;
         halve(a, seen(at(a)), b, seen(at(b)), kMostHalvings, at, keep);
     }
 
   private:
-    static constexpr double kStray =
-        0.01;  // of the range so far, from the piece; a spline through the rows strays less
     static constexpr int kMostHalvings = 8;
     static constexpr long kMostAdded = 400'000;  // 10 MB of three channels; more would be solid ink
     static constexpr double kAside = 0.31;       // beside the middle: no vibration has a node at both
@@ -30,7 +30,8 @@ class CurveRefiner {
         const double middle = 0.5 * (a + b);
         if (halvings == 0 || added_ >= kMostAdded || !(middle > a && middle < b)) return;
         const Vec2 aside = seen(at(a + kAside * (b - a))), centre = seen(at(middle));
-        if (std::max(stray(centre, from, to), stray(aside, from, to)) <= kStray) return;
+        // Where the curve has no value the distance is NaN, and nothing is to be refined.
+        if (!(std::max(stray(centre, from, to), stray(aside, from, to)) > most_)) return;
         halve(a, from, middle, centre, halvings - 1, at, keep);
         ++added_;
         keep(middle);
@@ -57,6 +58,7 @@ class CurveRefiner {
 
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec2 low_{kInfinity, kInfinity}, high_{-kInfinity, -kInfinity};
+    double most_ = 0;
     long added_ = 0;
 };
 

@@ -20,6 +20,7 @@ struct TableRequest {
     // Abscissa and ordinate of a curve that is to be drawn: rows are added between the times until pieces between
     // neighbouring rows follow it. All rows then come in the order of time.
     std::optional<std::pair<Channel, Channel>> curve = {};
+    double stray = 0.01;  // of the curve from the pieces, in its range; splines through the rows stray less
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]

@@ -183,13 +183,14 @@ struct Identities {
     std::vector<std::string> outputs;
 };
 
-const Picture* picture_of(const Output& output) {
+std::vector<Compared> compared_in(const Output& output) {
+    if (const auto* figure = std::get_if<FigureOutput>(&output)) return figure->series.compare;
     return std::visit(
-        [](const auto& o) -> const Picture* {
+        [](const auto& o) -> std::vector<Compared> {
             if constexpr (std::is_base_of_v<Picture, std::decay_t<decltype(o)>>)
-                return &o;
+                return o.compare;
             else
-                return nullptr;
+                return {};
         },
         output);
 }
@@ -199,10 +200,9 @@ Identities identities(const Scene& scene) {
     all.motion.insert("scene " + motion_key(scene.problem));
     for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
         all.outputs.push_back(inputs_key(scene, i, scene.end_time, ""));
-        if (const Picture* picture = picture_of(scene.outputs[i]))
-            for (std::size_t k = 0; k < picture->compare.size(); ++k)
-                all.motion.insert(
-                    fmt::format("outputs.{}.compare.{} {}", i, k, motion_key(picture->compare[k].problem)));
+        const std::vector<Compared> compared = compared_in(scene.outputs[i]);
+        for (std::size_t k = 0; k < compared.size(); ++k)
+            all.motion.insert(fmt::format("outputs.{}.compare.{} {}", i, k, motion_key(compared[k].problem)));
     }
     return all;
 }
@@ -235,6 +235,7 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (const auto* frames = std::get_if<FramesOutput>(&any)) return !frames->span.to;
     if (const auto* still = std::get_if<StillOutput>(&any)) return still->at.kind != Instant::Kind::time;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
+    if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;
     return true;
 }
 

@@ -1,0 +1,21 @@
+// What the channels of a motion are called in pictures, films and print alike.
+#pragma once
+
+#include <string>
+
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::render {
+
+struct ChannelLabel {
+    const char *words, *chinese;  // "Hub angle"
+    const char *symbol, *subscript = "";
+    bool rate = false;                              // the symbol's rate by time
+    std::string below(sim::Channel channel) const;  // the subscript; of a modal coordinate its number
+};
+const ChannelLabel& label_of(sim::ChannelKind kind);
+
+// Markup of figures (text.hpp): "$\dot{θ}$", "$q_{1}$".
+std::string print_symbol(sim::Channel channel);
+
+}  // namespace beamcam::render
