@@ -41,14 +41,14 @@ double mismatch(const Scale& scale, Strobes s, std::size_t n) {
     return most;
 }
 
-// The smallest period of the states; 0: none fits kRepeats times.                                            (S77)
+// The smallest period of the states; 0: none fits kRepeats times.                                            (S87)
 std::size_t period_of(const Scale& scale, Strobes s) {
     for (std::size_t n = 1; n * kRepeats < s.size(); ++n)
         if (mismatch(scale, s, n) < kSameState) return n;
     return 0;
 }
 
-// The later states are nearer to some period than the earlier ones, and near it.                             (S78)
+// The later states are nearer to some period than the earlier ones, and near it.                             (S88)
 bool settles(const Scale& scale, Strobes s) {
     const Strobes early = s.first(s.size() / 2), late = s.last(s.size() / 2);
     for (std::size_t n = 1; n * kRepeats < late.size(); ++n) {
@@ -83,7 +83,7 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     return out;
 }
 
-// Where no period is found. Without an exponent: aperiodic.                                                  (S79)
+// Where no period is found. Without an exponent: aperiodic.                                                  (S89)
 AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool settling) {
     if (settling) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;

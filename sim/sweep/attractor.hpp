@@ -34,7 +34,7 @@ struct Attractor {
     LargestExponent exponent;  // NaN where it is not known; −∞ where lasting contact forgets every difference
 };
 
-// (S76)–(S79)
+// (S86)–(S89)
 Attractor classify(const Problem& problem, const SampledMotion& motion);
 
 }  // namespace beamcam::sim

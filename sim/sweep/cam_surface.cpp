@@ -41,7 +41,7 @@ CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
     find_lifts();
 }
 
-// With B = C + e(cos ψ, sin ψ), ρ = |B|, ℓ² = ρ² − R'²:                                                      (S71)
+// With B = C + e(cos ψ, sin ψ), ρ = |B|, ℓ² = ρ² − R'²:                                                      (S81)
 //   θ_c = atan2(B_y, B_x) + asin(R'/ρ),   θ_c′ = B×B′/ρ² − R' B·B′/(ρ²ℓ),
 //   θ_c″ = (B×B″ − 2 (B×B′)(B·B′)/ρ²)/ρ² − R' [(B′·B′ + B·B″)/(ρ²ℓ) − (B·B′)²(2ℓ² + ρ²)/(ρ⁴ℓ³)]
 SurfaceAngle CamSurface::at_angle(double psi) const {

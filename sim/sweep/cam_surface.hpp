@@ -1,4 +1,4 @@
-// The angle at which a straight beam lies on the cam, and where the cam pushes such a beam. MODEL.md §18, (S71), (S72).
+// The angle at which a straight beam lies on the cam, and where the cam pushes such a beam. MODEL.md §18, (S81), (S82).
 // The beam lies on the counter-clockwise side of the disc; RigidMotion mirrors the other one.
 #pragma once
 

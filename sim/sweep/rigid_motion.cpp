@@ -136,7 +136,7 @@ void RigidMotion::fly() {
 }
 
 // By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and
-// |k| + α − min θ̈_c.                                                                                       (S74)
+// |k| + α − min θ̈_c.                                                                                       (S84)
 std::optional<double> RigidMotion::first_touch(double h) {
     const double most = std::fabs(mirrored_.k) - mirrored_.alpha + surface_.highest_acceleration();
     const double least = std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration();
@@ -206,7 +206,7 @@ void RigidMotion::strike() {
         return rest_on(c);
     }
     sample_impact(c, after);
-    // The saltation matrix [[−e, 0], [(1 + e)(θ̈ − θ̈_c)/w, −e]].                                             (S75)
+    // The saltation matrix [[−e, 0], [(1 + e)(θ̈ − θ̈_c)/w, −e]].                                             (S85)
     const double fall = series_.acceleration(c.angle) - surface_.acceleration(c);
     swing_.d_rate = (1 + kept) * fall / w * swing_.d_theta - kept * swing_.d_rate;
     swing_.d_theta *= -kept;

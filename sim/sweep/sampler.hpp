@@ -57,7 +57,7 @@ SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, co
 // inside, and to its surface if it lasts on it.
 InitialState carried(const Problem& problem, const InitialState& end);
 
-// The beam points away from the cam: no contact until it comes back.                                        (S70)
+// The beam points away from the cam: no contact until it comes back.                                        (S80)
 bool points_away(const Problem& problem, double theta);
 
 }  // namespace beamcam::sim

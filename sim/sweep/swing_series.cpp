@@ -14,7 +14,7 @@ constexpr double kLongestTurn = 1;   // [rad] of a stretch without gravity, whos
 }  // namespace
 
 // With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0};
-// a difference obeys δ̈ = k s δ.                                                                              (S73)
+// a difference obeys δ̈ = k s δ.                                                                              (S83)
 void SwingSeries::expand(const Swing& from, bool difference) {
     difference_ = difference;
     double s[kOrder], c[kOrder], turn[kOrder + 1];  // turn[i] = i a_i

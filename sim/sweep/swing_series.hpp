@@ -1,5 +1,5 @@
 // A stretch of the rigid beam's flight, θ̈ = α − k cos θ, as its Taylor series: exact to rounding over `length`, known
-// everywhere inside. Also the motion of a small difference beside it. MODEL.md §18, (S73).
+// everywhere inside. Also the motion of a small difference beside it. MODEL.md §18, (S83).
 #pragma once
 
 namespace beamcam::sim {
