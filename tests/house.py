@@ -30,6 +30,7 @@ PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
+    ("libnetcdf", re.compile(r"^netcdf"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
     ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 1, "scenes": 3}),

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "output/data/npz.hpp"
+#include "output/data/sweep_library.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
@@ -124,36 +125,6 @@ void npz(const Target& file, const SweepData& data) {
 
 }  // namespace
 
-std::uint64_t SweepData::points() const {
-    std::uint64_t all = seeds;
-    for (const SweepAxis& axis : axes) all *= axis.values.size();
-    return all;
-}
-
-std::uint64_t SweepData::rows_in_all() const {
-    std::uint64_t all = 0;
-    for (std::uint64_t k = 0; k < points(); ++k)
-        if (has(k)) all += std::max<std::uint64_t>(rows(k), 1);
-    return all;
-}
-
-std::uint64_t SweepData::most_rows() const {
-    std::uint64_t most = 0;
-    for (std::uint64_t k = 0; k < points(); ++k)
-        if (has(k)) most = std::max(most, rows(k));
-    return most;
-}
-
-std::vector<double> SweepData::place(std::uint64_t point) const {
-    std::uint64_t rest = point / seeds;
-    std::vector<double> values;
-    for (const SweepAxis& axis : axes) {
-        values.push_back(axis.values[rest % axis.values.size()]);
-        rest /= axis.values.size();
-    }
-    return values;
-}
-
 void write_sweep_csv(std::ostream& out, const SweepData& data) {
     csv(data, [&out](const std::string& text) {
         if (!out.write(text.data(), static_cast<std::streamsize>(text.size())))
@@ -165,6 +136,12 @@ void write_sweep_csv(std::ostream& out, const SweepData& data) {
 void write_sweep(const Target& file, const SweepData& data) {
     const std::string ending = file.path.extension().string();
     if (ending == ".npz") return npz(file, data);
+    if (ending == ".nc") {
+        AtomicFile atomic(file);
+        sweep_library().write(atomic.temporary_path(), file.path, data);
+        atomic.commit();
+        return;
+    }
     if (ending != ".csv")
         throw UnsupportedOption("cannot write " + file.path.string() + ": tables of sweeps end in .csv, .npz or .nc");
     AtomicFile atomic(file);

@@ -2,6 +2,7 @@
 // memory stays flat however many there are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -37,6 +38,37 @@ struct SweepData {
     std::uint64_t most_rows() const;                       // samples of one point
     std::vector<double> place(std::uint64_t point) const;  // values of the axes
 };
+
+// Here, because the module of NetCDF uses them too.
+inline std::uint64_t SweepData::points() const {
+    std::uint64_t all = seeds;
+    for (const SweepAxis& axis : axes) all *= axis.values.size();
+    return all;
+}
+
+inline std::uint64_t SweepData::rows_in_all() const {
+    std::uint64_t all = 0;
+    for (std::uint64_t k = 0; k < points(); ++k)
+        if (has(k)) all += std::max<std::uint64_t>(rows(k), 1);
+    return all;
+}
+
+inline std::uint64_t SweepData::most_rows() const {
+    std::uint64_t most = 0;
+    for (std::uint64_t k = 0; k < points(); ++k)
+        if (has(k)) most = std::max(most, rows(k));
+    return most;
+}
+
+inline std::vector<double> SweepData::place(std::uint64_t point) const {
+    std::uint64_t rest = point / seeds;
+    std::vector<double> values;
+    for (const SweepAxis& axis : axes) {
+        values.push_back(axis.values[rest % axis.values.size()]);
+        rest /= axis.values.size();
+    }
+    return values;
+}
 
 // By the name's ending: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
 void write_sweep(const Target& file, const SweepData& data);

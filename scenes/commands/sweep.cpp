@@ -175,7 +175,7 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
 }
 
 int act(const SweepArguments& args) {
-    if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz"});
+    if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
     const Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
     const RunOptions options = run_options(args.common, "");
     const SweepGrid grid(scene);
@@ -201,7 +201,7 @@ void add_sweep(Grammar& grammar) {
     app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are kept (50)");
     app.option("--seed", &args->seed, "WHICH",
                "Starts: same, carry-up, carry-down, both by a comma, or random:N (default: same)");
-    app.option("-o,--output", &args->file, "FILE", "Table of the samples, .csv or .npz; none: CSV on standard output");
+    app.option("-o,--output", &args->file, "FILE", "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
     add_work(app, args->common);
     app.bind(args, act);
 }
