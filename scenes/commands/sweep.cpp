@@ -9,10 +9,13 @@
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/sha256.hpp"
+#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/figures/make.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
+#include "scenes/sweep/diagram.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
 #include "sim/base/clock.hpp"
@@ -26,7 +29,9 @@ struct SweepArguments {
     Common common;
     std::string scene, file;
     std::vector<std::string> over;
-    std::optional<std::string> sample, transient, keep, seed, diagram;
+    std::optional<std::string> sample, transient, keep, seed;
+    std::optional<std::string> diagram, figure, ordinate, caption;
+    std::string column = "elsevier";
 };
 
 double number_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
@@ -144,31 +149,58 @@ std::string summary(const SweepGrid& grid, const output::PointStore& store, cons
     return text;
 }
 
+// Throws WouldOverwrite where it is not beamcam's own.
+bool is_made(output::Manifest& manifest, const std::string& file, const std::string& inputs) {
+    manifest.require_replaceable(file);
+    return manifest.is_made_from(file, inputs);
+}
+
+FigureOutput picture(const SweepArguments& args, const std::string& name) {
+    FigureOutput how;
+    how.file = *args.diagram;
+    how.figure = name;
+    how.column = args.column;
+    how.caption_file = args.caption.value_or("");
+    return how;
+}
+
+void write_diagram(const SweepArguments& args, const SweepGrid& grid, const output::SweepData& data,
+                   output::Manifest& manifest, const output::Origin& origin) {
+    const std::string name = args.figure.value_or(diagram_names(grid).front());
+    const render::figure::Figure figure = diagram(name, grid, data, args.ordinate.value_or(usual_ordinate(grid)));
+    for (const auto& [file, bytes] : figure_files(figure, picture(args, name), to_json(grid.scene())))
+        output::write_file(manifest.target(file, origin), bytes);
+}
+
 void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOptions& options) {
     const SweepPart part;
     std::vector<std::string> files;
     if (!args.file.empty() && args.file != "-") files.push_back(args.file);
+    std::vector<std::string> pictures;
+    if (args.diagram) pictures.push_back(*args.diagram);
+    if (args.diagram && args.caption) pictures.push_back(*args.caption);
     const std::string inputs = output::sha256("sweep files\n" + grid.identity());
+    const std::string drawn = output::sha256(
+        fmt::format("{}\n{}\n{}\n{}", inputs, args.figure.value_or(""), args.ordinate.value_or(""), args.column));
     output::Manifest manifest(options.force);
-    bool made = !files.empty() && !options.force;
-    for (const std::string& file : files) {
-        manifest.require_replaceable(file);
-        made = made && manifest.is_made_from(file, inputs);
-    }
-    if (made) return say(args.common, fmt::format("{} is up to date", files.front()));
+    bool made = files.size() + pictures.size() > 0 && !options.force;
+    for (const std::string& file : files) made = made && is_made(manifest, file, inputs);
+    for (const std::string& file : pictures) made = made && is_made(manifest, file, drawn);
+    if (made) return say(args.common, fmt::format("{} is up to date", (files.empty() ? pictures : files).front()));
 
     const auto started = Clock::now();
-    output::PointStore store(store_of(files), grid.points(), grid.identity());
+    output::PointStore store(store_of(files.empty() ? pictures : files), grid.points(), grid.identity());
     Progress progress(options.progress);
     if (store.count() > 0) say(args.common, fmt::format("{} points are there already", store.count()));
     make_points(grid, part, options.threads, progress, store);
     const output::SweepData data = data_of(grid, store, part);
-    if (files.empty()) {
+    if (files.empty() && pictures.empty()) {
         output::write_sweep_csv(std::cout, data);
         output::flush_data();
     }
-    for (const std::string& file : files)
-        output::write_sweep(manifest.target(file, {inputs, program_identity(), to_json(grid.scene())}), data);
+    const output::Origin origin{inputs, program_identity(), to_json(grid.scene())};
+    for (const std::string& file : files) output::write_sweep(manifest.target(file, origin), data);
+    if (args.diagram) write_diagram(args, grid, data, manifest, {drawn, origin.version, origin.scene});
     manifest.save();
     say(args.common, summary(grid, store, part, seconds_since(started)));
     store.remove();
@@ -176,6 +208,8 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
 
 int act(const SweepArguments& args) {
     if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
+    if (args.diagram) need_ending("--diagram", *args.diagram, {".pdf", ".svg", ".png"});
+    if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
     const Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
     const RunOptions options = run_options(args.common, "");
     const SweepGrid grid(scene);
@@ -201,7 +235,17 @@ void add_sweep(Grammar& grammar) {
     app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are kept (50)");
     app.option("--seed", &args->seed, "WHICH",
                "Starts: same, carry-up, carry-down, both by a comma, or random:N (default: same)");
-    app.option("-o,--output", &args->file, "FILE", "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
+    app.option("-o,--output", &args->file, "FILE",
+               "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
+    app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg or .png");
+    app.option("--figure", &args->figure, "NAME",
+               "Which: bifurcation, map, basins, poincare or impact-map (default: what suits the keys)")
+        .one_of({"bifurcation", "map", "basins", "poincare", "impact-map"});
+    app.option("--ordinate", &args->ordinate, "COLUMN",
+               "What a bifurcation diagram shows (default: v_n_before, theta)");
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
+        .one_of(render::figure::column_names());
+    app.option("--caption", &args->caption, "FILE", "Write the caption of the figure too, .txt or .tex");
     add_work(app, args->common);
     app.bind(args, act);
 }
