@@ -19,10 +19,10 @@ IGNORED = {"build"}  # made by the build, never committed
 # A room may include itself and those before it, and so may the folders of a room. Tests may include everything.
 ROOMS = ["sim", "render", "output", "scenes"]
 FOLDERS = {
-    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "studies"],
+    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "sweep", "studies"],
     "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
     "output": ["files", "data", "image", "film"],
-    "scenes": ["scene", "figures", "format", "motions", "plan", "outputs", "regression", "commands"],
+    "scenes": ["scene", "figures", "format", "motions", "plan", "outputs", "sweep", "regression", "commands"],
 }
 
 # Which headers only some files may see: the pattern, how many .cpp of which room.
@@ -30,6 +30,7 @@ PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
+    ("libnetcdf", re.compile(r"^netcdf"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
     ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 1, "scenes": 3}),

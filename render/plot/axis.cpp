@@ -59,6 +59,7 @@ AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::stri
         logarithmic(axis, most);
     else
         linear(axis, most);
+    if (!axis.ticked) ticks_.clear();
 }
 
 void AxisMap::linear(const Axis& axis, int most) {

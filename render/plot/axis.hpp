@@ -21,6 +21,7 @@ struct Axis {
     bool tight = false;                        // the data's own range, without air
     bool with_zero = false;                    // the range shown includes zero (linear)
     bool numbered = true;                      // labels at the ticks
+    bool ticked = true;                        // else no ticks either
     bool counts = false;                       // whole numbers: no ticks between them (linear)
 };
 

@@ -236,6 +236,8 @@ bool needs_chinese(const Figure& figure) {
         if (p.color_bar) all += p.color_bar->label;
         for (const Series& s : p.series) all += s.label;
         for (const Band& b : p.bands) all += b.label;
+        for (const Cloud& c : p.clouds) all += c.label;
+        for (const Swatch& w : p.swatches) all += w.label;
         for (const Mark& m : p.marks) all += m.label;
         for (const Shape& s : p.shapes) all += s.markup;
         if (needs_cjk(all)) return true;

@@ -34,6 +34,22 @@ struct Band {  // between two curves
     std::vector<double> x, low, high;
     int look = 0;
 };
+// Points that are too many for marks: dots, and beyond kMostDots a picture of how many fall into each cell.
+struct Cloud {
+    std::string label = {};
+    std::vector<double> x, y;
+    Color color = rgb(0x000000);
+};
+// Coloured cells between edges, row by row from the lowest y; transparent ones show nothing. Very many become a
+// picture.
+struct Cells {
+    std::vector<double> x, y;  // edges, in the order of the axes: one more than columns, than rows
+    std::vector<Color> colors;
+};
+struct Swatch {  // an entry of the legend that is a colour
+    std::string label;
+    Color color;
+};
 struct Span {  // a stretch of x, over the whole height
     double from = 0, to = 0;
     std::string label = {};
@@ -98,6 +114,9 @@ struct Panel {
     std::optional<Axis> right;
     std::vector<Series> series;
     std::vector<Band> bands;
+    std::vector<Cells> cells;
+    std::vector<Cloud> clouds;
+    std::vector<Swatch> swatches;
     std::vector<Span> spans;
     std::vector<Rule> rules;
     std::vector<Mark> marks;

@@ -11,7 +11,8 @@ constexpr double kSample = 2.6;  // length of a line in a legend, in letters
 int LegendBox::entries() const {
     const auto labelled = [](const auto& each) { return !each.label.empty(); };
     return static_cast<int>(std::ranges::count_if(panel_.series, labelled) +
-                            std::ranges::count_if(panel_.bands, labelled));
+                            std::ranges::count_if(panel_.bands, labelled) +
+                            std::ranges::count_if(panel_.clouds, labelled) + std::ssize(panel_.swatches));
 }
 
 Box LegendBox::size(double width) {
@@ -25,6 +26,8 @@ Box LegendBox::size(double width) {
     };
     for (const Series& s : panel_.series) add(s.label);
     for (const Band& b : panel_.bands) add(b.label);
+    for (const Cloud& c : panel_.clouds) add(c.label);
+    for (const Swatch& w : panel_.swatches) add(w.label);
     // Inside the plot one below the other; above it as many beside each other as the width holds.
     entry_ = sample + style_.gap + widest;
     const double apart = 2 * style_.gap;
@@ -82,13 +85,24 @@ void LegendBox::draw() const {
         draw_sample(s, p, sample);
         sheet_.text(p + Vec2{sample + style_.gap, 0}, s.label, l);
     }
-    for (const Band& b : panel_.bands) {
-        if (b.label.empty()) continue;
+    const auto block = [&](const std::string& label, Color color) {
+        if (label.empty()) return;
         const Vec2 p = next();
         sheet_.rectangle({p.x, p.y - 0.3 * style_.letters, sample, 0.6 * style_.letters});
-        sheet_.fill(pale(look(b.look).color, 0.72));
-        sheet_.text(p + Vec2{sample + style_.gap, 0}, b.label, l);
+        sheet_.fill(color);
+        sheet_.text(p + Vec2{sample + style_.gap, 0}, label, l);
+    };
+    for (const Band& b : panel_.bands) block(b.label, pale(look(b.look).color, 0.72));
+    for (const Cloud& c : panel_.clouds) {
+        if (c.label.empty()) continue;
+        const Vec2 p = next();
+        for (const double share : {0.2, 0.5, 0.8}) {
+            sheet_.circle(p + Vec2{share * sample, 0}, 0.5 * style_.marker);
+            sheet_.fill(c.color);
+        }
+        sheet_.text(p + Vec2{sample + style_.gap, 0}, c.label, l);
     }
+    for (const Swatch& w : panel_.swatches) block(w.label, w.color);
 }
 
 }  // namespace beamcam::render::figure

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "render/plot/cloud.hpp"
+
 namespace beamcam::render::figure {
 namespace {
 
@@ -94,6 +96,8 @@ void PanelDrawing::make_curves() {
         if (s.every_point)
             for (const Vec2 p : curve.points()) taken_->cover(Box{p.x, p.y, 0, 0}.inset(-style_.marker));
     }
+    for (const Cells& cells : panel_.cells) cover_cells(cells, axes_, *taken_);
+    for (const Cloud& cloud : panel_.clouds) cover_cloud(cloud, axes_, *taken_);
     for (const Band& b : panel_.bands)
         for (const auto* edge : {&b.low, &b.high}) {
             std::vector<Vec2> points;
@@ -303,6 +307,7 @@ bool PanelDrawing::place_direct() {
 void PanelDrawing::draw() {
     draw_grounds();
     sheet_.clip(plot_);
+    for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
     for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
     sheet_.unclip();
     axes_.draw_frame();
@@ -327,6 +332,7 @@ void PanelDrawing::draw() {
 
 void PanelDrawing::draw_grounds() {
     sheet_.clip(plot_);
+    for (const Cells& cells : panel_.cells) draw_cells(cells, axes_, sheet_);
     for (const Span& s : panel_.spans) {
         const double a = at(s.from, 0).x, b = at(s.to, 0).x;
         // Never too thin to be seen.

@@ -33,6 +33,14 @@ Extents extents_of(const Panel& panel) {
         all.y.add(b.low, panel.y.scale);
         all.y.add(b.high, panel.y.scale);
     }
+    for (const Cells& c : panel.cells) {
+        all.x.add(c.x, panel.x.scale);
+        all.y.add(c.y, panel.y.scale);
+    }
+    for (const Cloud& c : panel.clouds) {
+        all.x.add(c.x, panel.x.scale);
+        all.y.add(c.y, panel.y.scale);
+    }
     for (const Mark& m : panel.marks) {
         all.x.add({&m.x, 1}, panel.x.scale);
         (m.right ? all.right : all.y).add({&m.y, 1}, panel.y.scale);

@@ -160,6 +160,21 @@ void Sheet::gradient(const Box& box, std::span<const Color> colors) {
     cairo_pattern_destroy(pattern);
 }
 
+void Sheet::picture(const Image& image, const Box& box) {
+    // Cairo reads the pixels through a pointer that is not const, and leaves them as they are.
+    auto* pixels = const_cast<std::uint32_t*>(image.pixels.data());
+    cairo_surface_t* surface = cairo_image_surface_create_for_data(
+        reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
+    cairo_save(cr_);
+    cairo_translate(cr_, box.x, box.y);
+    cairo_scale(cr_, box.w / image.width, box.h / image.height);
+    cairo_set_source_surface(cr_, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_NEAREST);
+    cairo_paint(cr_);
+    cairo_restore(cr_);
+    cairo_surface_destroy(surface);
+}
+
 void Sheet::clip(const Box& b) {
     cairo_save(cr_);
     rectangle(b);

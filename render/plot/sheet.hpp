@@ -68,6 +68,8 @@ class Sheet : public Brush {
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
     // A line through any number of points; NaN breaks it.
     void curve(std::span<const Vec2> points, const Pen& pen);
+    // Pixels over a box, each as a rectangle.
+    void picture(const Image& image, const Box& box);
     void clip(const Box& box);  // until `unclip`
     void unclip();
 

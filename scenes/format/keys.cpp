@@ -43,6 +43,13 @@ void visit(SceneVisitor& v, Scene& scene) {
     };
     v.object("time", time, "How long.", nullptr);
     v.check([&scene](ObjectReader& r) { judge_physics(r, scene.problem); });
+    Sweep sweep = scene.sweep.value_or(Sweep{});
+    bool swept = scene.sweep.has_value();
+    v.object(
+        sim::written_if(swept, "sweep"),
+        [&sweep](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), sweep); },
+        "Many motions over one or two keys, for `beamcam sweep`; null: none.", &swept);
+    if (swept) scene.sweep = std::move(sweep);
     visit_outputs(v, scene);
 }
 

@@ -76,6 +76,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     const Output& wanted = scene.outputs.at(output);
     Scene alone = scene;
     alone.outputs = {wanted};
+    alone.sweep.reset();
     if (is_data(wanted)) alone.title.clear();
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
     if (extent != Extent::scene) alone.end_time = extent == Extent::run ? until : 0;

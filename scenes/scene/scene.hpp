@@ -11,6 +11,7 @@
 
 #include "output/film/video_format.hpp"
 #include "render/film/film.hpp"
+#include "scenes/scene/sweep.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/problem/problem.hpp"
 
@@ -223,6 +224,7 @@ struct Scene {
     std::string title;
     sim::Problem problem;
     double end_time = 1.5;  // [s], > 0
+    std::optional<Sweep> sweep;
     std::vector<Output> outputs;
     // Where each stands, for messages: "fall.json:12:5"; none of those that a command adds.
     std::vector<std::string> output_places;

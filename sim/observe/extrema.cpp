@@ -417,4 +417,13 @@ void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& 
     if (may_cross) each_sign_change(s, {ChannelKind::theta}, motion ? motion->ripple : 0, angle, zero);
 }
 
+void ExtremaFinder::crossings(const SegmentInterval& s, Channel channel, double level, std::vector<Crossing>& found) {
+    set_bounds(s);
+    const auto above = [&](double t) { return evaluate(s, channel, t) - level; };
+    each_sign_change(s, channel, std::fabs(level), above, [&](const Sample& a, const Sample& b) {
+        if (a.value == 0) return;
+        found.push_back({find_root(above, a.t, b.t, a.value, b.value), a.value < 0});
+    });
+}
+
 }  // namespace beamcam::sim

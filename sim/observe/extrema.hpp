@@ -35,6 +35,12 @@ class ExtremaFinder {
     void contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration);
     // Appends maxima and zeros of θ, in the order of time.
     void turning_points(const SegmentInterval& s, std::vector<Apex>& apexes, std::vector<ZeroCrossing>& theta_zero);
+    // Appends the instants at which the channel passes the level, in the order of time; `rises`: upwards.
+    struct Crossing {
+        double t;
+        bool rises;
+    };
+    void crossings(const SegmentInterval& s, Channel channel, double level, std::vector<Crossing>& found);
 
   private:
     static constexpr std::size_t kSamples = kNodes + 2;  // the ends and the Gauss nodes

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "sim/base/assert.hpp"
-#include "sim/dynamics/initial.hpp"
 #include "sim/integrate/exponential.hpp"
 
 namespace beamcam::sim {
@@ -34,12 +33,13 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
 
 }  // namespace
 
-Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep)
+Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options)
     : problem_(problem),
       progress_(progress),
+      start_(options.start),
       dynamics_(problem),
       probe_(dynamics_),
-      output_(dynamics_, requests, keep, [this] { return statistics(); }),
+      output_(dynamics_, requests, options.keep, options.observer, [this] { return statistics(); }),
       integrator_(make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
@@ -50,7 +50,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
 std::vector<Result> Run::integrate() {
     try {
         start();
-        while (state_.t < end_) {
+        while (state_.t < end_ && !output_.done()) {
             keep_to_budget();
             keep_in_bounds();
             take(step());
@@ -66,7 +66,7 @@ std::vector<Result> Run::integrate() {
 }
 
 void Run::start() {
-    const InitialState initial = initial_state(dynamics_);
+    const InitialState initial = start_ ? *start_ : initial_state(dynamics_);
     state_.y = initial.y;
     state_.statistics.fallbacks.left_behind = initial.left_behind;
     state_.phase = initial.phase;

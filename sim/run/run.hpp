@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/dynamics/failure.hpp"
+#include "sim/dynamics/initial.hpp"
 #include "sim/run/contact_guards.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/run/touch_search.hpp"
@@ -13,12 +14,20 @@
 
 namespace beamcam::sim {
 
+// What a run may have besides its requests.
+struct RunOptions {
+    TrajectoryWriter* keep = nullptr;     // takes the trajectory down
+    MotionObserver* observer = nullptr;   // follows the motion and may end the run
+    const InitialState* start = nullptr;  // the state to begin with; else that of the problem
+};
+
 class Run {
   public:
-    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep);
+    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options);
 
     // Throws SolverError with what was reached by then.
     std::vector<Result> integrate();
+    const RunState& state() const { return state_; }
     Counters counters() const { return statistics().counters; }
 
   private:
@@ -41,6 +50,7 @@ class Run {
 
     const Problem& problem_;
     const Progress& progress_;
+    const InitialState* start_;
     System dynamics_;
     SegmentProbe probe_;
     RunState state_;

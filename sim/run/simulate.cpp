@@ -15,7 +15,7 @@ std::vector<Result> integrate(const Problem& problem, std::span<const Request> r
                               TrajectoryWriter* keep, Effort* effort) {
     std::optional<Run> run;
     try {
-        run.emplace(problem, requests, progress, keep);
+        run.emplace(problem, requests, progress, RunOptions{.keep = keep});
     } catch (const StepFailure& failure) {  // the model itself
         throw SolverError(fmt::format("at the start: {}; use fewer modes", failure.what()), 0, {});
     }

@@ -208,7 +208,8 @@ Identities identities(const Scene& scene) {
 }
 
 bool is_mechanics(const std::string& section) {
-    return section != "$schema" && section != "title" && section != "time" && section != "outputs";
+    return section != "$schema" && section != "title" && section != "time" && section != "sweep" &&
+           section != "outputs";
 }
 
 // Whether another value of the leaf is another motion, or is only drawn or written.
@@ -228,7 +229,7 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     const Output& any = scene.outputs[output];
     const bool data = std::holds_alternative<TrajectoryOutput>(any) || std::holds_alternative<ImpactsOutput>(any) ||
                       std::holds_alternative<SummaryOutput>(any);
-    if (place == "/$schema") return false;
+    if (place == "/$schema" || place.starts_with("/sweep/")) return false;
     if (place == "/title") return !data;
     if (place != "/time/end") return true;
     if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;

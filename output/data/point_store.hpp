@@ -1,0 +1,55 @@
+// Points of a sweep in a file that grows as they are made, in any order: what a killed program made stays, and what the
+// next one does not make again. Few of the numbers are held in memory.
+//
+// Doubles in memory order, for the program and machine that wrote them; each point with its checksum. What follows the
+// last whole point is cut off when the file is opened again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "output/files/errors.hpp"
+
+namespace beamcam::output {
+
+struct StoredPoint {
+    std::uint64_t point = 0;
+    int kind = 0, period = 0;  // class, by its number; turns of the cam
+    double impacts_per_period = std::numeric_limits<double>::quiet_NaN();
+    double exponent = std::numeric_limits<double>::quiet_NaN(), exponent_error = exponent;
+    std::vector<double> samples;  // row by row
+    std::vector<double> state;    // to go on from
+    std::string failure;
+};
+
+class PointStore {
+  public:
+    // `identity` names the sweep: the points of a file with another one are dropped. Throws IoError, also when another
+    // program has the file open.
+    PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity);
+    ~PointStore();
+    PointStore(const PointStore&) = delete;
+    PointStore& operator=(const PointStore&) = delete;
+
+    bool has(std::uint64_t point) const { return places_[point] != 0; }
+    std::uint64_t count() const { return count_; }
+    std::uint64_t numbers(std::uint64_t point) const { return numbers_[point]; }  // of its samples
+    StoredPoint read(std::uint64_t point) const;                                  // throws IoError
+    void add(const StoredPoint& point);  // one thread at a time; throws IoError
+    void remove();                       // when its points are elsewhere
+
+  private:
+    void open_again(const std::string& head);
+    std::string text_at(std::uint64_t at, std::size_t size) const;
+
+    std::filesystem::path file_;
+    int descriptor_ = -1;
+    std::uint64_t end_ = 0, count_ = 0;
+    std::vector<std::uint64_t> places_;   // by point; 0: not there
+    std::vector<std::uint32_t> numbers_;  // by point
+};
+
+}  // namespace beamcam::output

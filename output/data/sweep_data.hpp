@@ -1,0 +1,77 @@
+// A sweep as files: CSV and NPZ with one row a sample, NetCDF-4 as a grid. Points are asked for one by one, so that
+// memory stays flat however many there are.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/data/point_store.hpp"
+#include "output/files/target.hpp"
+
+namespace beamcam::output {
+
+struct SweepAxis {
+    std::string name, unit;  // "cam.speed", "rad/s"
+    std::vector<double> values;
+};
+struct SweepColumn {
+    std::string name, unit, meaning;
+};
+
+// Points are numbered (row · first axis + value) · seeds + seed, rows being the values of the second axis.
+struct SweepData {
+    std::vector<SweepAxis> axes;  // one or two
+    std::uint64_t seeds = 1;
+    std::vector<SweepColumn> columns;                             // of the samples
+    std::vector<std::string> classes;                             // names by their numbers
+    std::vector<std::pair<std::string, std::string>> attributes;  // of a NetCDF file
+    std::function<bool(std::uint64_t)> has;                       // whether the point is part of this file
+    std::function<std::uint64_t(std::uint64_t)> rows;             // samples of the point
+    std::function<StoredPoint(std::uint64_t)> read;
+
+    std::uint64_t points() const;
+    std::uint64_t rows_in_all() const;                     // of CSV and NPZ: a point without samples has one
+    std::uint64_t most_rows() const;                       // samples of one point
+    std::vector<double> place(std::uint64_t point) const;  // values of the axes
+};
+
+// Here, because the module of NetCDF uses them too.
+inline std::uint64_t SweepData::points() const {
+    std::uint64_t all = seeds;
+    for (const SweepAxis& axis : axes) all *= axis.values.size();
+    return all;
+}
+
+inline std::uint64_t SweepData::rows_in_all() const {
+    std::uint64_t all = 0;
+    for (std::uint64_t k = 0; k < points(); ++k)
+        if (has(k)) all += std::max<std::uint64_t>(rows(k), 1);
+    return all;
+}
+
+inline std::uint64_t SweepData::most_rows() const {
+    std::uint64_t most = 0;
+    for (std::uint64_t k = 0; k < points(); ++k)
+        if (has(k)) most = std::max(most, rows(k));
+    return most;
+}
+
+inline std::vector<double> SweepData::place(std::uint64_t point) const {
+    std::uint64_t rest = point / seeds;
+    std::vector<double> values;
+    for (const SweepAxis& axis : axes) {
+        values.push_back(axis.values[rest % axis.values.size()]);
+        rest /= axis.values.size();
+    }
+    return values;
+}
+
+// By the name's ending: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
+void write_sweep(const Target& file, const SweepData& data);
+void write_sweep_csv(std::ostream& out, const SweepData& data);
+
+}  // namespace beamcam::output

@@ -1,0 +1,17 @@
+#include "output/data/sweep_library.hpp"
+
+#include "render/base/modules.hpp"
+
+namespace beamcam::output {
+
+const SweepLibrary& sweep_library() {
+    try {
+        static const auto* const library = static_cast<const SweepLibrary*>(render::load_module("beamcam_netcdf.so"));
+        return *library;
+    } catch (const render::ModuleError& error) {
+        throw UnsupportedOption(std::string("NetCDF files need its library (Debian: libnetcdf19 or newer): ") +
+                                error.what());
+    }
+}
+
+}  // namespace beamcam::output

@@ -1,0 +1,127 @@
+#include "render/plot/cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr std::size_t kMostDots = 30'000;        // of a cloud that is drawn dot by dot: about 200 kB of PDF
+constexpr double kOverlap = 0.2;                 // of cells that are drawn one by one [pt]
+constexpr double kDot = 0.55, kSmallDot = 0.3;   // sides: of a thousand dots and of kMostDots [pt]
+constexpr double kPixel = kPointsPerInch / 300;  // of a picture of a cloud [pt]
+constexpr double kFaintest = 0.5;                // opacity of a cell that one point fell into
+
+std::uint32_t pixel(Color c) {
+    const auto channel = [&](double value) {
+        return static_cast<std::uint32_t>(std::lround(255 * std::clamp(value * c.a, 0.0, 1.0)));
+    };
+    const auto alpha = static_cast<std::uint32_t>(std::lround(255 * std::clamp(c.a, 0.0, 1.0)));
+    return alpha << 24 | channel(c.r) << 16 | channel(c.g) << 8 | channel(c.b);
+}
+
+// Places of edges are as far from each other.
+template <class Place>
+bool is_even(const std::vector<double>& edges, const Place& place) {
+    const auto cells = static_cast<double>(edges.size() - 1);
+    const double first = place(edges.front()), step = (place(edges.back()) - first) / cells;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (!(std::fabs(place(edges[i]) - first - step * static_cast<double>(i)) < 0.05 * std::fabs(step)))
+            return false;
+    return true;
+}
+
+void draw_dots(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
+    const auto n = static_cast<double>(cloud.x.size());
+    const double crowd = std::clamp(std::log(n / 1000) / std::log(kMostDots / 1000.0), 0.0, 1.0);
+    const double side = kDot + (kSmallDot - kDot) * crowd;
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
+        if (std::isfinite(p.x + p.y)) sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
+    }
+    sheet.fill(cloud.color);
+}
+
+// Columns of a picture: as many as there are different places, if they are even and pixels are finer.
+int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
+    std::vector<double> places;
+    for (const double x : cloud.x)
+        if (places.empty() || x != places.back()) places.push_back(x);
+    std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < places.size(); ++i)
+        least = std::min(least, axes.along_x(places[i]) - axes.along_x(places[i - 1]));
+    const double even = axes.plot().w / least;
+    return even >= 1 && even < most ? static_cast<int>(std::ceil(even)) : most;
+}
+
+// How many points fall into each pixel, by the logarithm.
+void draw_density(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
+    const Box& plot = axes.plot();
+    const int columns = columns_of(cloud, axes, static_cast<int>(plot.w / kPixel));
+    const int rows = static_cast<int>(plot.h / kPixel);
+    std::vector<std::uint32_t> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    std::uint32_t most = 1;
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
+        if (!(p.x >= plot.x && p.x <= plot.right() && p.y >= plot.y && p.y <= plot.bottom())) continue;
+        const int column = std::min(columns - 1, static_cast<int>((p.x - plot.x) / plot.w * columns));
+        const int row = std::min(rows - 1, static_cast<int>((p.y - plot.y) / plot.h * rows));
+        std::uint32_t& count = counts[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                      static_cast<std::size_t>(column)];
+        most = std::max(most, ++count);
+    }
+    Image image(columns, rows);
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        if (counts[k] == 0) continue;
+        const double share = most == 1 ? 1 : std::log(counts[k]) / std::log(most);
+        image.pixels[k] = pixel(cloud.color.faded(kFaintest + (1 - kFaintest) * share));
+    }
+    sheet.picture(image, plot);
+}
+
+}  // namespace
+
+void draw_cloud(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
+    cloud.x.size() <= kMostDots ? draw_dots(cloud, axes, sheet) : draw_density(cloud, axes, sheet);
+}
+
+void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken) {
+    const std::size_t stride = std::max<std::size_t>(1, cloud.x.size() / kMostDots);
+    for (std::size_t i = 0; i < cloud.x.size(); i += stride) {
+        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
+        if (std::isfinite(p.x + p.y)) taken.cover(Box{p.x, p.y, 0, 0}, 1);
+    }
+}
+
+void draw_cells(const Cells& cells, const PlotAxes& axes, Sheet& sheet) {
+    const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
+    const auto across = [&](double x) { return axes.along_x(x); };
+    const auto up = [&](double y) { return axes.along_y(y); };
+    // Shapes that stand side by side would show the paper between them.
+    if (is_even(cells.x, across) && is_even(cells.y, up)) {
+        Image image(static_cast<int>(columns), static_cast<int>(rows));
+        for (std::size_t row = 0; row < rows; ++row)
+            for (std::size_t c = 0; c < columns; ++c)
+                image.pixels[(rows - 1 - row) * columns + c] = pixel(cells.colors[row * columns + c]);
+        const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
+        sheet.picture(image, {low.x, high.y, high.x - low.x, low.y - high.y});
+        return;
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const Vec2 low = axes.at(cells.x[c], cells.y[row]), high = axes.at(cells.x[c + 1], cells.y[row + 1]);
+            if (!(cells.colors[row * columns + c].a > 0)) continue;
+            sheet.rectangle({low.x, high.y - kOverlap, high.x - low.x + kOverlap, low.y - high.y + kOverlap});
+            sheet.fill(cells.colors[row * columns + c]);
+        }
+}
+
+void cover_cells(const Cells& cells, const PlotAxes& axes, OccupancyGrid& taken) {
+    const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
+    taken.cover(Box{low.x, high.y, high.x - low.x, low.y - high.y});
+}
+
+}  // namespace beamcam::render::figure

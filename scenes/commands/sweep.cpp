@@ -1,0 +1,253 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "output/data/manifest.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/sha256.hpp"
+#include "render/plot/style.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/format/sweep_keys.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/identity.hpp"
+#include "scenes/sweep/diagram.hpp"
+#include "scenes/sweep/make_points.hpp"
+#include "scenes/sweep/sweep_plan.hpp"
+#include "sim/base/clock.hpp"
+#include "sim/problem/number_keys.hpp"
+#include "sim/sweep/attractor.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct SweepArguments {
+    Common common;
+    std::string scene, file;
+    std::vector<std::string> over;
+    std::optional<std::string> sample, transient, keep, seed;
+    std::optional<std::string> diagram, figure, ordinate, caption;
+    std::string column = "elsevier";
+};
+
+double number_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity) throw UsageError(fmt::format("{}: {}", option, read.problem));
+    if (!same(read.quantity->dimension, dimension::kNone) && !same(read.quantity->dimension, dimension))
+        throw UsageError(fmt::format("{}: {} is not measured in {}", option, text, si_unit(dimension)));
+    return read.quantity->value;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find(separator, from), text.size());
+        parts.push_back(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return parts;
+}
+
+// KEY=FIRST:LAST:COUNT, :STEP where it is no whole number, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
+SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
+    const std::string option = "--over " + text;
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, for example cam.speed=40:52:601");
+    SweptKey over;
+    over.key = text.substr(0, equals);
+    std::string value = text.substr(equals + 1);
+    Dimension dimension = dimension::kNone;
+    for (const sim::NumberKey& key : sim::number_keys(problem))
+        if (key.path == over.key) dimension = key.dimension;
+    if (value.starts_with('@')) {
+        const std::size_t colon = value.rfind(':');
+        if (colon == std::string::npos) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
+        over.file = value.substr(1, colon - 1);
+        over.column = value.substr(colon + 1);
+        return over;
+    }
+    std::vector<std::string> parts = split(value, ':');
+    if (parts.size() == 1) {
+        for (const std::string& each : split(value, ','))
+            over.values.push_back(number_argument(option, each, dimension));
+        return over;
+    }
+    if (parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear")) over.logarithmic = parts[3] == "log";
+    if (parts.size() != 3 && !(parts.size() == 4 && (over.logarithmic || parts[3] == "linear")))
+        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, and :log for logarithmic spacing");
+    over.from = number_argument(option, parts[0], dimension);
+    over.to = number_argument(option, parts[1], dimension);
+    const double third = number_argument(option, parts[2], dimension);
+    const bool whole = parts[2].find_first_not_of("0123456789") == std::string::npos;
+    const double count = whole ? third : 1 + std::round((*over.to - *over.from) / third);
+    if (!(count >= 1 && count <= 1e8) || (!whole && over.logarithmic))
+        throw UsageError(fmt::format("{}: {} is neither a count nor a step", option, parts[2]));
+    // The last value is a whole number of steps away.
+    if (!whole) over.to = *over.from + (count - 1) * third;
+    over.count = static_cast<int>(count);
+    return over;
+}
+
+sim::CamSpan span_argument(const char* option, const std::string& text) {
+    sim::CamSpan span;
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity || !(read.quantity->value >= 0))
+        throw UsageError(fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\"", option, text));
+    if (same(read.quantity->dimension, dimension::kNone))
+        span.turns = read.quantity->value;
+    else
+        span.time = seconds_argument(option, text);
+    return span;
+}
+
+// The scene's sweep with what the options say.
+Scene with_options(Scene scene, const SweepArguments& args) {
+    Sweep sweep = scene.sweep.value_or(Sweep{});
+    if (!args.over.empty()) sweep.over.clear();
+    for (const std::string& text : args.over) sweep.over.push_back(over_argument(text, scene.problem));
+    const auto need = [](const char* option, const std::string& text, const std::string& problem) {
+        if (!problem.empty()) throw UsageError(fmt::format("{} {}: {}", option, text, problem));
+    };
+    if (args.sample) need("--sample", *args.sample, parse_sample(*args.sample, scene.problem, sweep.sampling));
+    if (args.seed) need("--seed", *args.seed, parse_seeds(*args.seed, sweep.seeds));
+    if (args.transient) sweep.sampling.transient = span_argument("--transient", *args.transient);
+    if (args.keep) sweep.sampling.keep = span_argument("--keep", *args.keep);
+    for (const SweepProblem& problem : problems_of(sweep, scene.problem))
+        throw UsageError(fmt::format("{}: {}", problem.key.starts_with("over") ? "--over" : problem.key, problem.text));
+    scene.sweep = std::move(sweep);
+    return scene;
+}
+
+// Where the points stand until the files are written: beside the first of these.
+std::filesystem::path store_of(const std::vector<std::string>& files) {
+    if (!files.empty()) return files.front() + ".part";
+    return std::filesystem::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
+}
+
+std::string summary(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part, double seconds) {
+    std::map<int, std::uint64_t> kinds;
+    std::uint64_t failed = 0, count = 0;
+    std::string why;
+    const std::vector<bool> mine = points_of(grid, part);
+    for (std::uint64_t k = 0; k < mine.size(); ++k) {
+        if (!mine[k]) continue;
+        const output::StoredPoint point = store.read(k);
+        ++kinds[point.kind];
+        ++count;
+        if (!point.failure.empty() && failed++ == 0) why = point.failure;
+    }
+    std::string text = fmt::format("{} points in {:.1f} s:", count, seconds);
+    for (const auto& [kind, n] : kinds)
+        text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
+                            name(static_cast<sim::AttractorClass>(kind)));
+    if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
+    return text;
+}
+
+// Throws WouldOverwrite where it is not beamcam's own.
+bool is_made(output::Manifest& manifest, const std::string& file, const std::string& inputs) {
+    manifest.require_replaceable(file);
+    return manifest.is_made_from(file, inputs);
+}
+
+FigureOutput picture(const SweepArguments& args, const std::string& name) {
+    FigureOutput how;
+    how.file = *args.diagram;
+    how.figure = name;
+    how.column = args.column;
+    how.caption_file = args.caption.value_or("");
+    return how;
+}
+
+void write_diagram(const SweepArguments& args, const SweepGrid& grid, const output::SweepData& data,
+                   output::Manifest& manifest, const output::Origin& origin) {
+    const std::string name = args.figure.value_or(diagram_names(grid).front());
+    const render::figure::Figure figure = diagram(name, grid, data, args.ordinate.value_or(usual_ordinate(grid)));
+    for (const auto& [file, bytes] : figure_files(figure, picture(args, name), to_json(grid.scene())))
+        output::write_file(manifest.target(file, origin), bytes);
+}
+
+void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOptions& options) {
+    const SweepPart part;
+    std::vector<std::string> files;
+    if (!args.file.empty() && args.file != "-") files.push_back(args.file);
+    std::vector<std::string> pictures;
+    if (args.diagram) pictures.push_back(*args.diagram);
+    if (args.diagram && args.caption) pictures.push_back(*args.caption);
+    const std::string inputs = output::sha256("sweep files\n" + grid.identity());
+    const std::string drawn = output::sha256(
+        fmt::format("{}\n{}\n{}\n{}", inputs, args.figure.value_or(""), args.ordinate.value_or(""), args.column));
+    output::Manifest manifest(options.force);
+    bool made = files.size() + pictures.size() > 0 && !options.force;
+    for (const std::string& file : files) made = made && is_made(manifest, file, inputs);
+    for (const std::string& file : pictures) made = made && is_made(manifest, file, drawn);
+    if (made) return say(args.common, fmt::format("{} is up to date", (files.empty() ? pictures : files).front()));
+
+    const auto started = Clock::now();
+    output::PointStore store(store_of(files.empty() ? pictures : files), grid.points(), grid.identity());
+    Progress progress(options.progress);
+    if (store.count() > 0) say(args.common, fmt::format("{} points are there already", store.count()));
+    make_points(grid, part, options.threads, progress, store);
+    const output::SweepData data = data_of(grid, store, part);
+    if (files.empty() && pictures.empty()) {
+        output::write_sweep_csv(std::cout, data);
+        output::flush_data();
+    }
+    const output::Origin origin{inputs, program_identity(), to_json(grid.scene())};
+    for (const std::string& file : files) output::write_sweep(manifest.target(file, origin), data);
+    if (args.diagram) write_diagram(args, grid, data, manifest, {drawn, origin.version, origin.scene});
+    manifest.save();
+    say(args.common, summary(grid, store, part, seconds_since(started)));
+    store.remove();
+}
+
+int act(const SweepArguments& args) {
+    if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
+    if (args.diagram) need_ending("--diagram", *args.diagram, {".pdf", ".svg", ".png"});
+    if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
+    const Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
+    const RunOptions options = run_options(args.common, "");
+    const SweepGrid grid(scene);
+    if (args.common.dry_run)
+        print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
+    else
+        make_files(args, grid, options);
+    return 0;
+}
+
+}  // namespace
+
+void add_sweep(Grammar& grammar) {
+    auto args = std::make_shared<SweepArguments>();
+    Command& app = grammar.command("sweep", "Many motions over one or two keys: samples, classes, diagrams");
+    add_scene(app, args->scene, args->common);
+    app.option("--over", &args->over, "KEY=VALUES",
+               "What varies: KEY=FIRST:LAST:COUNT (or a step such as 0.02; :log), KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
+               "twice for a grid");
+    app.option("--sample", &args->sample, "WHAT",
+               "impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: impacts)");
+    app.option("--transient", &args->transient, "N", "Turns of the cam, or a time, before samples are kept (200)");
+    app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are kept (50)");
+    app.option("--seed", &args->seed, "WHICH",
+               "Starts: same, carry-up, carry-down, both by a comma, or random:N (default: same)");
+    app.option("-o,--output", &args->file, "FILE",
+               "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
+    app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg or .png");
+    app.option("--figure", &args->figure, "NAME",
+               "Which: bifurcation, map, basins, poincare or impact-map (default: what suits the keys)")
+        .one_of({"bifurcation", "map", "basins", "poincare", "impact-map"});
+    app.option("--ordinate", &args->ordinate, "COLUMN",
+               "What a bifurcation diagram shows (default: v_n_before, theta)");
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
+        .one_of(render::figure::column_names());
+    app.option("--caption", &args->caption, "FILE", "Write the caption of the figure too, .txt or .tex");
+    add_work(app, args->common);
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes

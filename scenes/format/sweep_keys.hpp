@@ -1,0 +1,26 @@
+// What the keys and options of a sweep have in common: the words of samples and seeds, and what is wrong with a sweep.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+
+// "impacts", "apexes", "section:cam_angle=0", "section:theta_dot=0:falling". A reason why the text is none of these.
+std::string parse_sample(std::string_view text, const sim::Problem& problem, sim::Sampling& sampling);
+// "same", "carry-up,carry-down", "random:8".
+std::string parse_seeds(std::string_view text, SweepSeeds& seeds);
+const char* name(SeedKind kind);
+std::string text_of_sample(const sim::Sampling& sampling);  // as parse_sample reads it
+
+// What is wrong with the sweep of this problem, each with the key it belongs to ("over.0.key").
+struct SweepProblem {
+    std::string key, text;
+};
+std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& problem);
+
+}  // namespace beamcam::scenes

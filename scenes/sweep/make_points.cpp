@@ -1,0 +1,208 @@
+#include "scenes/sweep/make_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "output/files/interrupt.hpp"
+#include "scenes/format/sweep_keys.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/outputs/run.hpp"
+#include "scenes/scene/version.hpp"
+#include "sim/sweep/sweep_point.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// Columns of impacts are empty in other samples, and left out.
+std::vector<std::size_t> kept_columns(const sim::Sampling& sampling) {
+    std::vector<std::size_t> kept;
+    for (std::size_t c = 0; c < sim::kSampleColumns; ++c)
+        if (sampling.kind == sim::SampleKind::impacts || !sim::sample_columns()[c].of_impacts) kept.push_back(c);
+    return kept;
+}
+
+// A state to go on from, and back.
+std::vector<double> numbers_of(const sim::InitialState& s) {
+    std::vector<double> out{double(s.phase.touching), double(s.phase.held), s.phase.approach, double(int(s.phase.grip)),
+                            s.phase.gap_offset};
+    out.insert(out.end(), s.y.begin(), s.y.end());
+    return out;
+}
+std::optional<sim::InitialState> state_of(const std::vector<double>& numbers) {
+    if (numbers.size() < 6) return std::nullopt;
+    sim::InitialState s;
+    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::Grip>(static_cast<int>(numbers[3])),
+               numbers[4]};
+    s.y.assign(numbers.begin() + 5, numbers.end());
+    return s;
+}
+
+output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, const sim::Sampling& sampling,
+                           bool state) {
+    output::StoredPoint out;
+    out.point = index;
+    out.kind = static_cast<int>(made.attractor.kind);
+    out.period = made.attractor.period;
+    out.impacts_per_period = made.attractor.impacts_per_period;
+    out.exponent = made.attractor.exponent.value;
+    out.exponent_error = made.attractor.exponent.error;
+    out.failure = made.motion.failure;
+    const std::vector<std::size_t> columns = kept_columns(sampling);
+    out.samples.reserve(made.motion.samples.size() * columns.size());
+    for (const sim::MotionSample& sample : made.motion.samples)
+        for (const std::size_t c : columns) out.samples.push_back(sample[c]);
+    // What has left the cam or failed is no place to go on from.
+    if (state && !made.motion.over_the_top && out.failure.empty()) out.state = numbers_of(made.motion.end);
+    return out;
+}
+
+class PointMaker {
+  public:
+    PointMaker(const SweepGrid& grid, output::PointStore& store, Progress& progress)
+        : grid_(grid), store_(store), progress_(progress) {}
+
+    void make(const SweepGrid::Task& task) {
+        std::vector<double> state;
+        for (const std::uint64_t index : task.points) {
+            stop_if_asked();
+            if (store_.has(index)) {
+                if (task.carries) state = store_.read(index).state;
+                continue;
+            }
+            output::StoredPoint point = made(index, state_of(state), task.carries);
+            state = point.state;
+            const std::lock_guard lock(mutex_);
+            store_.add(point);
+            progress_.reach(static_cast<double>(++done_));
+        }
+    }
+
+  private:
+    static void stop_if_asked() {
+        if (output::interrupted()) throw Stopped();
+    }
+
+    output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start, bool carries) {
+        try {
+            return stored(index,
+                          sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr,
+                                           [](double) { return !output::interrupted(); }),
+                          grid_.sampling(), carries);
+        } catch (const sim::Interrupted&) {
+            throw Stopped();
+        } catch (const std::invalid_argument& impossible) {  // a start inside the cam
+            sim::SweepPoint none;
+            none.motion.failure = impossible.what();
+            return stored(index, none, grid_.sampling(), false);
+        }
+    }
+
+    const SweepGrid& grid_;
+    output::PointStore& store_;
+    Progress& progress_;
+    std::mutex mutex_;  // guards the store and what follows
+    std::uint64_t done_ = 0;
+};
+
+std::vector<std::uint64_t> tasks_of(const SweepGrid& grid, const SweepPart& part) {
+    std::vector<std::uint64_t> tasks;
+    for (std::uint64_t t = part.part; t < grid.tasks(); t += part.parts) tasks.push_back(t);
+    return tasks;
+}
+
+}  // namespace
+
+std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part) {
+    std::vector<bool> has(grid.points(), part.whole());
+    if (part.whole()) return has;
+    for (const std::uint64_t t : tasks_of(grid, part))
+        for (const std::uint64_t p : grid.task(t).points) has[p] = true;
+    return has;
+}
+
+void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
+                 output::PointStore& store) {
+    const std::vector<bool> mine = points_of(grid, part);
+    const std::vector<std::uint64_t> tasks = tasks_of(grid, part);
+    std::uint64_t missing = 0;
+    for (std::uint64_t p = 0; p < mine.size(); ++p) missing += mine[p] && !store.has(p) ? 1 : 0;
+    if (missing == 0) return;
+    progress.begin("sweep", static_cast<double>(missing), "points");
+    PointMaker maker(grid, store, progress);
+    Gate gate;
+    const auto work = [&](long k) { maker.make(grid.task(tasks[static_cast<std::size_t>(k)])); };
+    fan_out(
+        static_cast<long>(tasks.size()), thread_count(threads), [&] { return Worker(work); }, gate);
+    progress.end();
+}
+
+SweepCost cost_of(const SweepGrid& grid) {
+    constexpr int kMotions = 5;
+    constexpr double kTurns = 6;  // of each, at most
+    SweepCost cost;
+    double motions = 0;
+    for (int i = 0; i < kMotions; ++i) {
+        const std::uint64_t index = (grid.points() - 1) * static_cast<std::uint64_t>(i) / (kMotions - 1);
+        const sim::Problem problem = grid.problem(index);
+        const sim::SampleSpan span = sample_span(problem, grid.sampling());
+        sim::Sampling brief = grid.sampling();
+        brief.transient = {};
+        brief.keep = {std::min(kTurns, static_cast<double>(span.to)), {}};
+        const auto started = Clock::now();
+        try {
+            const sim::SweepPoint point = sim::sweep_point(problem, brief, nullptr, {});
+            const double all = static_cast<double>(span.to) / brief.keep.turns;
+            cost.seconds += point.motion.over_the_top ? seconds_since(started) : all * seconds_since(started);
+            cost.rows +=
+                static_cast<double>(point.motion.samples.size()) * static_cast<double>(span.kept()) / brief.keep.turns;
+            ++motions;
+        } catch (const std::invalid_argument&) {
+            continue;  // a start inside the cam
+        }
+    }
+    const double scale = static_cast<double>(grid.points()) / std::max(motions, 1.0);
+    return {cost.seconds * scale, cost.rows * scale};
+}
+
+output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part) {
+    output::SweepData data;
+    data.axes = grid.axes();
+    data.seeds = grid.seeds();
+    for (const std::size_t c : kept_columns(grid.sampling())) {
+        const sim::SampleColumnInfo& info = sim::sample_columns()[c];
+        data.columns.push_back({info.name, info.unit, info.meaning});
+    }
+    for (const auto& each : names(sim::AttractorClass{})) data.classes.emplace_back(each.name);
+    std::string seeds;
+    for (std::uint64_t s = 0; s < std::min<std::uint64_t>(grid.seeds(), 16); ++s)
+        seeds += (s > 0 ? "," : "") + std::string(name(grid.seed(s)));
+    const sim::Sampling& sampling = grid.sampling();
+    const auto span = [](const sim::CamSpan& s) {
+        return s.time ? fmt::format("{} s, rounded up to whole turns of the cam", *s.time)
+                      : fmt::format("{} turns of the cam", s.turns);
+    };
+    data.attributes = {
+        {"Conventions", "CF-1.8"},
+        {"source", fmt::format("beamcam {}", kVersion)},
+        {"samples", text_of_sample(sampling)},
+        {"transient", span(sampling.transient)},
+        {"keep", span(sampling.keep)},
+        {"seeds", seeds},
+        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89)"},
+        {"tolerance", fmt::format("rtol {:g}, atol {:g}; a rigid beam with impulsive contact is followed to rounding",
+                                  grid.scene().problem.solver.rtol, grid.scene().problem.solver.atol)},
+        {"beamcam_scene", to_json(grid.scene())},
+        {"beamcam_sweep", grid.identity()}};
+    data.has = [mine = points_of(grid, part)](std::uint64_t k) { return bool(mine[k]); };
+    const std::size_t width = data.columns.size();
+    data.rows = [&store, width](std::uint64_t k) { return store.numbers(k) / width; };
+    data.read = [&store](std::uint64_t k) { return store.read(k); };
+    return data;
+}
+
+}  // namespace beamcam::scenes

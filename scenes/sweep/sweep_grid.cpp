@@ -1,0 +1,139 @@
+#include "scenes/sweep/sweep_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "output/data/table_reader.hpp"
+#include "output/files/sha256.hpp"
+#include "scenes/format/sweep_keys.hpp"
+#include "scenes/motions/identity.hpp"
+#include "scenes/scene/exit_code.hpp"
+#include "sim/problem/number_keys.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr std::uint64_t kMostPoints = 100'000'000;
+constexpr std::uint64_t kMostJudged = 100'000;         // problems that are judged before the work begins
+constexpr double kRandomAngle = 0.3, kRandomRate = 1;  // [rad], [rad/s] of random starts, as FORMAT.md says
+
+std::vector<double> values_of(const SweptKey& over) {
+    if (!over.values.empty()) return over.values;
+    std::vector<double> values;
+    const int last = *over.count - 1;
+    for (int i = 0; i <= last; ++i) {
+        const double share = last == 0 ? 0 : static_cast<double>(i) / last;
+        const double linear = *over.from + (*over.to - *over.from) * share;
+        values.push_back(over.logarithmic ? *over.from * std::pow(*over.to / *over.from, share) : linear);
+    }
+    values.back() = *over.to;
+    return values;
+}
+
+void read_column(SweptKey& over) {
+    const output::NamedTable table = output::read_table(over.file);
+    const std::vector<double>* column = table.find(over.column);
+    if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
+    over.values = *column;
+    std::erase_if(over.values, [](double value) { return std::isnan(value); });
+    if (over.values.empty())
+        throw SceneError(fmt::format("sweep.over: column {} of {} is empty", over.column, over.file));
+    over.file.clear();
+    over.column.clear();
+}
+
+// Equal numbers on every machine: SplitMix64 (Steele, Lea & Flood 2014) of the point and the key, 0 … 1.
+double random_share(std::uint64_t point, std::uint64_t key) {
+    std::uint64_t z = (point + 1) * 0x9e3779b97f4a7c15 + (key + 1) * 0xd1b54a32d192ed03;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
+    scene_.outputs.clear();
+    scene_.output_places.clear();
+    scene_.title.clear();
+    scene_.end_time = Scene{}.end_time;
+    Sweep& sweep = *scene_.sweep;
+    const std::vector<sim::NumberKey> keys = sim::number_keys(scene_.problem);
+    for (SweptKey& over : sweep.over) {
+        if (!over.file.empty()) read_column(over);
+        const auto key = std::ranges::find(keys, over.key, &sim::NumberKey::path);
+        axes_.push_back({over.key, si_unit(key->dimension), values_of(over)});
+        cells_ *= axes_.back().values.size();
+    }
+    for (const SeedKind kind : sweep.seeds.kinds)
+        seeds_.insert(seeds_.end(), kind == SeedKind::random ? static_cast<std::size_t>(sweep.seeds.random) : 1, kind);
+    if (points() > kMostPoints)
+        throw SceneError(fmt::format("sweep: {} points; at most {} fit into one sweep", points(), kMostPoints));
+    for (std::uint64_t s = 0; s < seeds_.size(); ++s)
+        (seeds_[s] == SeedKind::carry_up || seeds_[s] == SeedKind::carry_down ? carried_ : single_).push_back(s);
+    random_ = sweep.seeds.keys;
+    const double angle = scene_.problem.initial.angle;
+    if (random_.empty())
+        random_ = {{"initial.angle", angle, angle + kRandomAngle},
+                   {"initial.angular_velocity", -kRandomRate, kRandomRate}};
+    judge();
+}
+
+void SweepGrid::set(sim::Problem& problem, const std::string& key, double value) const {
+    if (!sim::set_number(problem, key, value))
+        throw SceneError(fmt::format("sweep.over: {} = {:.10g} is outside its range or no whole number", key, value));
+}
+
+// Every problem that can be judged in good time. Starts inside the cam are points of their own.
+void SweepGrid::judge() const {
+    const std::uint64_t stride = std::max<std::uint64_t>(1, cells_ / kMostJudged);
+    for (std::uint64_t cell = 0; cell < cells_; cell += stride) {
+        const std::uint64_t point = cell * seeds_.size();
+        for (const sim::Finding& finding : validate(problem(point))) {
+            if (!finding.fatal || finding.path.starts_with("initial")) continue;
+            std::string where;
+            for (std::size_t a = 0; a < axes_.size(); ++a) {
+                const std::uint64_t index = (a == 0 ? cell : cell / axes_[0].values.size()) % axes_[a].values.size();
+                where += fmt::format("{}{} = {:.10g}", a > 0 ? ", " : "", axes_[a].name, axes_[a].values[index]);
+            }
+            throw SceneError(fmt::format("sweep at {}: {}: {}", where, finding.path, finding.message));
+        }
+    }
+}
+
+std::uint64_t SweepGrid::tasks() const {
+    return cells_ * single_.size() + cells_ / axes_.front().values.size() * carried_.size();
+}
+
+SweepGrid::Task SweepGrid::task(std::uint64_t index) const {
+    const std::uint64_t singles = cells_ * single_.size(), width = axes_.front().values.size();
+    if (index < singles) return {{index / single_.size() * seeds_.size() + single_[index % single_.size()]}, false};
+    index -= singles;
+    const std::uint64_t row = index / carried_.size(), seed = carried_[index % carried_.size()];
+    Task task{{}, true};
+    for (std::uint64_t i = 0; i < width; ++i) task.points.push_back((row * width + i) * seeds_.size() + seed);
+    if (seeds_[seed] == SeedKind::carry_down) std::ranges::reverse(task.points);
+    return task;
+}
+
+sim::Problem SweepGrid::problem(std::uint64_t point) const {
+    sim::Problem out = scene_.problem;
+    std::uint64_t rest = point / seeds_.size();
+    for (const output::SweepAxis& axis : axes_) {
+        set(out, axis.name, axis.values[rest % axis.values.size()]);
+        rest /= axis.values.size();
+    }
+    if (seed(point) != SeedKind::random) return out;
+    for (std::size_t k = 0; k < random_.size(); ++k)
+        set(out, random_[k].key, random_[k].from + (random_[k].to - random_[k].from) * random_share(point, k));
+    return out;
+}
+
+std::string SweepGrid::identity() const {
+    return output::sha256("sweep\n" + program_identity() + "\n" + to_json(scene_));
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,49 @@
+#include "scenes/sweep/sweep_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/format/sweep_keys.hpp"
+#include "scenes/format/tree.hpp"
+#include "scenes/sweep/make_points.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// Of a sample in a CSV file and in memory order, beside the samples' own numbers [bytes].
+constexpr double kTextOfNumber = 19, kNumber = 8;
+constexpr double kCommonColumns = 9;
+
+}  // namespace
+
+std::string sweep_plan(const SweepGrid& grid, int threads, bool json) {
+    const SweepCost cost = cost_of(grid);
+    const int used = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads), grid.tasks()));
+    const double seconds = cost.seconds / std::max(used, 1);
+    const double columns = kCommonColumns + (grid.sampling().kind == sim::SampleKind::impacts ? 11 : 5);
+    const double rows = std::max(cost.rows, static_cast<double>(grid.points()));
+    if (json) {
+        Node out = object_node();
+        add(out, "points", integer_node(static_cast<long>(grid.points())));
+        add(out, "tasks", integer_node(static_cast<long>(grid.tasks())));
+        add(out, "threads", integer_node(used));
+        add(out, "seconds", number_node(seconds));
+        add(out, "rows", number_node(std::round(rows)));
+        add(out, "csv_bytes", number_node(std::round(rows * columns * kTextOfNumber)));
+        add(out, "npz_bytes", number_node(std::round(rows * columns * kNumber)));
+        return to_text(out);
+    }
+    std::string text = "sweep\n";
+    for (const output::SweepAxis& axis : grid.axes())
+        text += fmt::format("  {}: {} values, {:.10g} to {:.10g}{}\n", axis.name, axis.values.size(),
+                            axis.values.front(), axis.values.back(), axis.unit == "1" ? "" : " " + axis.unit);
+    text += fmt::format("  {} points, samples: {}\n", grid.points(), text_of_sample(grid.sampling()));
+    text += fmt::format("  about {:.2g} s on {} thread{}\n", seconds, used, used == 1 ? "" : "s");
+    text += fmt::format("  about {:.2g} rows: {:.2g} MB of CSV, {:.2g} MB of NPZ\n", rows,
+                        1e-6 * rows * columns * kTextOfNumber, 1e-6 * rows * columns * kNumber);
+    return text;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,13 @@
+// What a sweep would do: points, seconds, bytes.
+#pragma once
+
+#include <string>
+
+#include "scenes/sweep/sweep_grid.hpp"
+
+namespace beamcam::scenes {
+
+// A few lines for people, or an object for programs. Follows a few short motions to know what they cost.
+std::string sweep_plan(const SweepGrid& grid, int threads, bool json);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,78 @@
+#include "sim/problem/number_keys.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "sim/problem/keys.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// Visits every number with its path.
+class NumberWalk final : public Visitor {
+  public:
+    using Found = std::function<void(NumberKey, const std::function<bool(double)>& set)>;
+    explicit NumberWalk(Found found) : found_(std::move(found)) {}
+    using Visitor::number, Visitor::numbers, Visitor::whole, Visitor::object;
+
+    void number(const Key& key, double& value, const Unit& unit, const Range&, const char*) override {
+        found_({path_ + key.name, unit.resolved(), false, value}, [&value](double to) { return value = to, true; });
+    }
+    void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range&, const char*,
+                const char*) override {
+        found_({path_ + key.name, unit.resolved(), false, value.value_or(std::nan(""))},
+               [&value](double to) { return value = to, true; });
+    }
+    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range&, const Length&,
+                 const char*) override {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            found_({path_ + key.name + "." + std::to_string(i), unit.resolved(), false, values[i]},
+                   [&values, i](double to) { return values[i] = to, true; });
+    }
+    void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
+        found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, least, most](double to) {
+            if (std::floor(to) != to || to < least || to > most) return false;
+            value = static_cast<int>(to);
+            return true;
+        });
+    }
+    void truth(const Key&, bool&, const char*) override {}
+    void text(const Key&, std::string&, const char*) override {}
+    void word(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
+    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
+        if (present && !*present) return;
+        const std::string outside = path_;
+        path_ += std::string(key.name) + ".";
+        fields(*this);
+        path_ = outside;
+    }
+    void alternatives(const std::vector<Alternative>& all) override {
+        for (const Alternative& each : all)
+            if (each.chosen) each.fields(*this);
+    }
+
+  private:
+    Found found_;
+    std::string path_;
+};
+
+}  // namespace
+
+std::vector<NumberKey> number_keys(const Problem& problem) {
+    Problem copy = problem;
+    std::vector<NumberKey> keys;
+    NumberWalk walk([&keys](NumberKey key, const auto&) { keys.push_back(std::move(key)); });
+    visit(walk, copy);
+    return keys;
+}
+
+bool set_number(Problem& problem, std::string_view path, double value) {
+    bool done = false;
+    NumberWalk walk([&](const NumberKey& key, const auto& set) {
+        if (key.path == path) done = set(value);
+    });
+    visit(walk, problem);
+    return done;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,163 @@
+#include "sim/sweep/attractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kSameState = 1e-5;   // of the cam's lift and of its rate: states closer than this are one
+constexpr double kLeastLift = 1e-3;   // [rad] where the cam does not lift the beam
+constexpr int kRepeats = 3;           // a period must fit so often into the turns that are compared
+constexpr double kSettling = 0.7;     // differences of the later turns, of those of the earlier: still falling
+constexpr double kNear = 0.02;        // of the lift: differences from a period that may still vanish
+constexpr std::size_t kBlocks = 10;   // of the exponent
+constexpr double kSureErrors = 3;     // standard errors
+constexpr double kLateGrowth = 3;     // of the logarithm
+constexpr double kSmallError = 0.02;  // per turn, of an exponent that is zero
+
+using Strobes = std::span<const Strobe>;
+
+// The distance of states by the cam's lift and its rate.
+struct Scale {
+    double angle, rate;
+    double between(const Strobe& a, const Strobe& b) const {
+        return std::max(std::fabs(a.theta - b.theta) / angle, std::fabs(a.theta_dot - b.theta_dot) / rate);
+    }
+};
+Scale scale_of(const Problem& problem) {
+    double lift = 0;
+    if (problem.cam && norm(problem.cam->centre) > 0) lift = problem.cam->eccentricity / norm(problem.cam->centre);
+    lift = std::max(lift, kLeastLift);
+    return {lift, lift / cam_period(problem)};
+}
+
+// The largest distance between states n turns apart.
+double mismatch(const Scale& scale, Strobes s, std::size_t n) {
+    double most = 0;
+    for (std::size_t k = n; k < s.size(); ++k) most = std::max(most, scale.between(s[k], s[k - n]));
+    return most;
+}
+
+// The smallest period of the states; 0: none fits kRepeats times.                                            (S87)
+std::size_t period_of(const Scale& scale, Strobes s) {
+    for (std::size_t n = 1; n * kRepeats < s.size(); ++n)
+        if (mismatch(scale, s, n) < kSameState) return n;
+    return 0;
+}
+
+// The later states are nearer to some period than the earlier ones, and near it.                             (S88)
+bool settles(const Scale& scale, Strobes s) {
+    const Strobes early = s.first(s.size() / 2), late = s.last(s.size() / 2);
+    for (std::size_t n = 1; n * kRepeats < late.size(); ++n) {
+        const double now = mismatch(scale, late, n);
+        if (now < kNear && now < kSettling * mismatch(scale, early, n)) return true;
+    }
+    return false;
+}
+
+LargestExponent exponent_of(const Problem& problem, Strobes s) {
+    std::vector<double> growth;
+    for (const Strobe& strobe : s.subspan(1)) growth.push_back(strobe.growth);
+    LargestExponent out;
+    if (growth.size() < kBlocks || std::isnan(growth.back())) return out;
+    const auto sum = [&](std::size_t from, std::size_t to) {
+        return std::accumulate(growth.begin() + static_cast<std::ptrdiff_t>(from),
+                               growth.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
+    };
+    const auto turns = static_cast<double>(growth.size());
+    const double per_turn = sum(0, growth.size()) / turns;
+    out.value = per_turn / cam_period(problem);
+    out.error = 0;
+    if (!std::isfinite(per_turn)) return out;
+    double squares = 0;
+    for (std::size_t b = 0; b < kBlocks; ++b) {
+        const std::size_t from = b * growth.size() / kBlocks, to = (b + 1) * growth.size() / kBlocks;
+        const double off = sum(from, to) / static_cast<double>(to - from) - per_turn;
+        squares += off * off;
+    }
+    out.error = std::sqrt(squares / (kBlocks * (kBlocks - 1))) / cam_period(problem);
+    out.grows_late = sum(growth.size() / 2, growth.size()) > kLateGrowth;
+    return out;
+}
+
+// Where no period is found. Without an exponent: aperiodic.                                                  (S89)
+AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool settling) {
+    if (settling) return AttractorClass::unsettled;
+    if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
+    if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // it forgets, so it has a period
+    if (exponent.value > kSureErrors * exponent.error && exponent.grows_late) return AttractorClass::chaotic;
+    const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
+    const bool known = exponent.error * cam_period(problem) < kSmallError;
+    return zero && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
+}
+
+bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
+    const bool still = !problem.cam || problem.cam->speed == 0 || problem.cam->eccentricity == 0;
+    return still && mismatch(scale, s, 1) < kSameState &&
+           std::ranges::all_of(s, [&](const Strobe& at) { return std::fabs(at.theta_dot) < kSameState * scale.rate; });
+}
+
+}  // namespace
+
+std::span<const Named<AttractorClass>> names(AttractorClass) {
+    using enum AttractorClass;
+    static constexpr Named<AttractorClass> all[] = {{rest, "rest"},
+                                                    {following, "following"},
+                                                    {periodic, "periodic"},
+                                                    {quasi_periodic, "quasi-periodic"},
+                                                    {chaotic, "chaotic"},
+                                                    {aperiodic, "aperiodic"},
+                                                    {over_the_top, "over-the-top"},
+                                                    {unsettled, "unsettled"}};
+    return all;
+}
+
+const char* name(AttractorClass kind) { return names(kind)[static_cast<std::size_t>(kind)].name; }
+
+Attractor classify(const Problem& problem, const SampledMotion& motion) {
+    Attractor out;
+    if (motion.over_the_top) {
+        out.kind = AttractorClass::over_the_top;
+        return out;
+    }
+    const Strobes s = motion.strobes;
+    if (!motion.failure.empty() || s.size() < 2) return out;
+    const Scale scale = scale_of(problem);
+    const bool lasts = std::ranges::all_of(s, &Strobe::touching) && std::ranges::none_of(s.subspan(1), &Strobe::left);
+    if (nothing_moves(problem, scale, s)) {
+        out.kind = AttractorClass::rest;
+        return out;
+    }
+    if (lasts) {
+        out.kind = AttractorClass::following;
+        out.period = 1;
+        out.impacts_per_period = 0;
+        return out;
+    }
+    const auto turns = s.size() - 1;
+    const auto impacts = [&](std::size_t from, std::size_t to) {
+        return static_cast<double>(s[to].impacts - s[from].impacts);
+    };
+    out.exponent = exponent_of(problem, s);
+    if (const std::size_t n = period_of(scale, s.last(s.size() / 3 + 1))) {
+        const bool throughout = n * kRepeats < s.size() && mismatch(scale, s, n) < kSameState;
+        out.kind = throughout ? AttractorClass::periodic : AttractorClass::unsettled;
+        if (throughout) out.period = static_cast<int>(n);
+        if (throughout) out.impacts_per_period = impacts(turns - n, turns);
+        return out;
+    }
+    if (const std::size_t n = period_of(scale, s)) {
+        out.kind = AttractorClass::periodic;
+        out.period = static_cast<int>(n);
+        out.impacts_per_period = impacts(turns - n, turns);
+        return out;
+    }
+    out.kind = class_without_period(problem, out.exponent, settles(scale, s));
+    out.impacts_per_period = impacts(0, turns) / static_cast<double>(turns);
+    return out;
+}
+
+}  // namespace beamcam::sim

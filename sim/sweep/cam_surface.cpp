@@ -1,0 +1,90 @@
+#include "sim/sweep/cam_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/base/numerics.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kLooks = 720;       // around the turn: a few for each degree of what e < R can bend
+constexpr double kMargin = 0.01;  // of the range of θ̈_c, for what lies between two looks
+
+}  // namespace
+
+CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
+    : centre_(cam.centre),
+      eccentricity_(cam.eccentricity),
+      phase_(cam.phase),
+      speed_(cam.speed),
+      reach_(reach),
+      k_(k),
+      alpha_(alpha),
+      period_(cam.speed != 0 ? 2 * std::numbers::pi / std::fabs(cam.speed) : 1) {
+    const double away = norm(centre_);
+    const auto lever = [&](double far) { return std::sqrt(std::max(0.0, far * far - reach_ * reach_)); };
+    shortest_ = lever(away - eccentricity_);
+    longest_ = lever(away + eccentricity_);
+    highest_ = -std::numeric_limits<double>::infinity();
+    lowest_ = -highest_;
+    for (int i = 0; i < kLooks; ++i) {
+        const double value = acceleration(at(period_ * i / kLooks));
+        highest_ = std::max(highest_, value);
+        lowest_ = std::min(lowest_, value);
+    }
+    const double margin = kMargin * (highest_ - lowest_);
+    highest_ += margin;
+    lowest_ -= margin;
+    find_lifts();
+}
+
+// With B = C + e(cos ψ, sin ψ), ρ = |B|, ℓ² = ρ² − R'²:                                                      (S81)
+//   θ_c = atan2(B_y, B_x) + asin(R'/ρ),   θ_c′ = B×B′/ρ² − R' B·B′/(ρ²ℓ),
+//   θ_c″ = (B×B″ − 2 (B×B′)(B·B′)/ρ²)/ρ² − R' [(B′·B′ + B·B″)/(ρ²ℓ) − (B·B′)²(2ℓ² + ρ²)/(ρ⁴ℓ³)]
+SurfaceAngle CamSurface::at_angle(double psi) const {
+    const Vec2 arm = eccentricity_ * unit(psi), b = centre_ + arm, b1 = perp(arm);
+    const double rho2 = dot(b, b), lever2 = rho2 - reach_ * reach_, lever = std::sqrt(lever2);
+    const double turn = cross(b, b1), away = dot(b, b1), outward = dot(b, arm);
+    SurfaceAngle c;
+    c.lever = lever;
+    c.angle = std::atan2(b.y * lever + b.x * reach_, b.x * lever - b.y * reach_);  // the sum of the two
+    c.slope = (turn - reach_ * away / lever) / rho2;
+    const double spread =
+        (eccentricity_ * eccentricity_ - outward) / lever - away * away * (2 * lever2 + rho2) / (rho2 * lever2 * lever);
+    c.bend = (cross(arm, b) - 2 * turn * away / rho2 - reach_ * spread) / rho2;
+    return c;
+}
+
+double CamSurface::push(const SurfaceAngle& c) const { return acceleration(c) + k_ * std::cos(c.angle) - alpha_; }
+
+void CamSurface::find_lifts() {
+    const auto f = [&](double s) { return push(at(s)); };
+    if (speed_ == 0 || eccentricity_ == 0) {
+        always_pulls_ = f(0) < 0;
+        return;
+    }
+    std::vector<double> passes;  // f changes its sign
+    double before = f(0), first = before;
+    bool starts_pulled = first < 0;
+    for (int i = 1; i <= kLooks; ++i) {
+        const double s = period_ * i / kLooks, from = period_ * (i - 1) / kLooks;
+        const double now = i == kLooks ? first : f(s);
+        if ((before < 0) != (now < 0)) passes.push_back(find_root(f, from, s, before, now));
+        before = now;
+    }
+    if (passes.empty()) {
+        always_pulls_ = starts_pulled;
+        return;
+    }
+    if (starts_pulled) std::ranges::rotate(passes, passes.begin() + 1);
+    for (std::size_t i = 0; i + 1 < passes.size(); i += 2) {
+        const double from = passes[i], to = passes[i + 1];
+        lifts_.push_back({from, to < from ? to + period_ : to});
+    }
+    std::ranges::sort(lifts_, {}, &Lift::from);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,53 @@
+// The angle at which a straight beam lies on the cam, and where the cam pushes such a beam. MODEL.md §18, (S81), (S82).
+// The beam lies on the counter-clockwise side of the disc; RigidMotion mirrors the other one.
+#pragma once
+
+#include <vector>
+
+#include "sim/problem/problem.hpp"
+
+namespace beamcam::sim {
+
+// Of θ_c over the cam's angle ψ.
+struct SurfaceAngle {
+    double angle = 0, slope = 0, bend = 0;  // θ_c, dθ_c/dψ, d²θ_c/dψ²
+    double lever = 0;                       // ℓ, from the axis to the contact [m]
+};
+
+class CamSurface {
+  public:
+    // `reach` = R + d. The beam's own acceleration is α − k cos θ.
+    CamSurface(const Cam& cam, double reach, double k, double alpha);
+
+    SurfaceAngle at_angle(double psi) const;
+    SurfaceAngle at(double s) const { return at_angle(phase_ - speed_ * s); }  // s: time within the turn [s]
+    double rate(const SurfaceAngle& c) const { return -speed_ * c.slope; }     // θ̇_c [rad/s]
+    double acceleration(const SurfaceAngle& c) const { return speed_ * speed_ * c.bend; }  // θ̈_c [rad/s²]
+    // f = θ̈_c + k cos θ_c − α: the cam pushes a beam that lies on it where f > 0 [rad/s²].
+    double push(const SurfaceAngle& c) const;
+
+    double period() const { return period_; }  // of the turn; 1 s at rest
+    double highest_acceleration() const { return highest_; }
+    double lowest_acceleration() const { return lowest_; }
+    double shortest_lever() const { return shortest_; }
+    double longest_lever() const { return longest_; }
+
+    // Where f < 0: a following beam lifts off at `from`, and the cam would push again at `to`. Within the turn, in
+    // order; `to` may lie beyond its end.
+    struct Lift {
+        double from, to;
+    };
+    const std::vector<Lift>& lifts() const { return lifts_; }
+    bool always_pulls() const { return always_pulls_; }
+
+  private:
+    void find_lifts();
+
+    Vec2 centre_;
+    double eccentricity_, phase_, speed_, reach_, k_, alpha_, period_;
+    double highest_ = 0, lowest_ = 0, shortest_ = 0, longest_ = 0;
+    std::vector<Lift> lifts_;
+    bool always_pulls_ = false;  // f < 0 all the time: nothing lies on this cam
+};
+
+}  // namespace beamcam::sim

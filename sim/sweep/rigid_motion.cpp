@@ -1,0 +1,360 @@
+#include "sim/sweep/rigid_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/observe/warnings.hpp"
+#include "sim/run/constants.hpp"
+#include "sim/sweep/sampler.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kInside = 1e-3;            // of the length: the contact keeps this distance from the beam's ends
+constexpr double kOpening = 1e-13;          // [rad] below the surface while it opens: rounding
+constexpr double kAngleRounding = 2e-16;    // [rad]
+constexpr double kShortestAdvance = 1e-15;  // [s]
+constexpr double kInstant = 1e-16;          // of the cam's turn: the touch is known no better
+constexpr long kWarmUp =
+    20;  // turns before the samples in which the difference turns into the direction that grows most
+constexpr long kStretchesPerReport = 4096;
+constexpr double kLargestDifference = 1e50;  // and the smallest is its inverse: far from overflow
+
+bool frictionless(const Friction& friction) { return std::holds_alternative<NoFriction>(friction); }
+
+}  // namespace
+
+bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
+    const bool steady =
+        std::holds_alternative<FreeDrive>(p.hub.drive) || std::holds_alternative<ConstantTorque>(p.hub.drive);
+    const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
+    if (p.beam.model != ModelKind::rigid || !p.cam || p.contact.model != ContactModel::restitution || !steady ||
+        !frictionless(p.contact.friction) || p.solver.method != Method::automatic || !sampled ||
+        std::isfinite(sampling.end_time))
+        return false;
+    const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
+                 margin = kInside * p.beam.length;
+    const double nearest = away - p.cam->eccentricity, farthest = away + p.cam->eccentricity;
+    if (!(nearest > reach)) return false;
+    const double shortest = std::sqrt(nearest * nearest - reach * reach) - p.hub.radius,
+                 longest = std::sqrt(farthest * farthest - reach * reach) - p.hub.radius;
+    return shortest > margin && longest < p.beam.length - margin;
+}
+
+RigidMotion::Mirrored RigidMotion::mirrored(const Problem& p, double theta) {
+    const double root = p.hub.radius, tip = root + p.beam.length, density = p.beam.line_density();
+    const double inertia = p.hub.inertia + density * (tip * tip * tip - root * root * root) / 3;  // (S8)
+    const auto* torque = std::get_if<ConstantTorque>(&p.hub.drive);
+    const double k = p.gravity * density * (tip * tip - root * root) / 2 / inertia;
+    const double alpha = (torque ? torque->value : 0) / inertia;
+    const double side = cross(disc_centre(*p.cam, 0), unit(theta)) < 0 ? -1 : 1;
+    Mirrored m{*p.cam, side, side * k, side * alpha};
+    m.cam.centre.y *= side;
+    m.cam.phase *= side;
+    m.cam.speed *= side;
+    return m;
+}
+
+// A straight beam needs no search for its state.
+InitialState RigidMotion::start_of(const Problem& problem, const InitialState* start) {
+    if (start) return *start;
+    if (problem.initial.shape == InitialShape::resting) return initial_state(problem);
+    InitialState own;
+    own.y = {problem.initial.angle, problem.initial.angular_velocity};
+    return own;
+}
+
+RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start)
+    : problem_(problem),
+      sampling_(sampling),
+      start_(start_of(problem, start)),
+      span_(sample_span(problem, sampling)),
+      period_(span_.period),
+      mirrored_(mirrored(problem, start_.y[0])),
+      surface_(mirrored_.cam, problem.cam->radius + contact_offset(problem), mirrored_.k, mirrored_.alpha),
+      series_(mirrored_.k, mirrored_.alpha),
+      reach_(problem.cam->radius),
+      floor_(problem.contact.approach_floor.value),
+      section_phase_(section_phase(problem, sampling.level)) {
+    begin(start_);
+}
+
+void RigidMotion::begin(const InitialState& start) {
+    swing_.theta = mirrored_.side * start.y[0];
+    swing_.rate = mirrored_.side * start.y[1];
+    const SurfaceAngle c = surface_.at(0);
+    if (start.phase.touching) {
+        rest_on(c);
+    } else if (swing_.theta < c.angle) {
+        swing_.theta = c.angle;
+        touched_ = true;
+    }
+}
+
+SampledMotion RigidMotion::follow(const Progress& progress) {
+    for (long count = 1; turn_ < span_.to && !motion_.over_the_top; ++count) {
+        if (count % kStretchesPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
+            throw Interrupted();
+        follows_difference_ = turn_ >= span_.from - kWarmUp;
+        lying_ ? lie() : fly();
+    }
+    motion_.end.y = {mirrored_.side * swing_.theta, mirrored_.side * swing_.rate};
+    motion_.end.y.resize(2 + kLedgerSize);
+    motion_.end.phase.touching = motion_.end.phase.held = lying_;
+    return std::move(motion_);
+}
+
+// One series, or up to the touch in it.
+void RigidMotion::fly() {
+    left_ = true;
+    if (follows_difference_ && swing_.d_theta == 0 && swing_.d_rate == 0) {  // at first, and after lasting contact
+        forgot_ = true;
+        swing_.d_theta = 1;
+        swing_.d_rate = 1 / period_;
+    }
+    series_.expand(swing_, follows_difference_);
+    const double rest = end() - s_, h = std::min(series_.length(), rest);
+    const std::optional<double> touch = first_touch(h);
+    const double dt = touch.value_or(h);
+    const bool ends = !touch && h == rest;
+    const double until = ends ? end() : s_ + dt;
+    observe(until, [&](double s) { return series_.at(s - s_); });
+    swing_ = series_.at(dt);
+    touched_ = false;
+    move_to(until);
+    if (touch)
+        strike();
+    else
+        motion_.over_the_top = points_away(problem_, mirrored_.side * swing_.theta);
+    const double size = std::hypot(swing_.d_theta, swing_.d_rate * period_);
+    if (size > kLargestDifference || (size > 0 && size < 1 / kLargestDifference)) {
+        growth_ += std::log(size);
+        swing_.d_theta /= size;
+        swing_.d_rate /= size;
+    }
+}
+
+// By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and
+// |k| + α − min θ̈_c.                                                                                       (S84)
+std::optional<double> RigidMotion::first_touch(double h) {
+    const double most = std::fabs(mirrored_.k) - mirrored_.alpha + surface_.highest_acceleration();
+    const double least = std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration();
+    double t = std::max(0.0, clear_until_ - s_);
+    while (t < h) {
+        const SurfaceAngle c = surface_.at(s_ + t);
+        double g = series_.theta(t) - c.angle;
+        const double v = series_.rate(t) - surface_.rate(c);
+        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpening)) g = std::max(g, 0.0);
+        if (g < 0 || (g == 0 && !(v > 0))) return t;
+        if (v < 0 && (least <= 0 || v * v > 2 * least * g)) {
+            const double latest = least > 0 ? t - (v + std::sqrt(v * v - 2 * least * g)) / least : t - g / v;
+            const double at = falling(t, latest, h);
+            return at < h ? std::optional(at) : std::nullopt;
+        }
+        if (most <= 0 && v >= 0) return {};
+        const double safe = most > 0 ? (v + std::sqrt(v * v + 2 * most * g)) / most : -g / v;
+        t += std::max(safe, kShortestAdvance);
+    }
+    return {};
+}
+
+// The angle above the surface falls from t on and vanishes before `latest`: Newton's method, kept in bounds. Beyond h
+// nothing is evaluated.
+double RigidMotion::falling(double t, double latest, double h) {
+    double low = t, high = std::min(latest, h);
+    for (int i = 0; i < 60; ++i) {
+        const SurfaceAngle c = surface_.at(s_ + t);
+        const double g = series_.theta(t) - c.angle, v = series_.rate(t) - surface_.rate(c);
+        if (std::fabs(g) <= kAngleRounding) return t;
+        (g > 0 ? low : high) = t;
+        double next = t - g / v;
+        if (!(next >= low && next <= high)) {
+            if (next > high && t < high && g > 0 && high == h) {  // does it touch in this stretch at all?
+                const SurfaceAngle last = surface_.at(s_ + h);
+                if (series_.theta(h) - last.angle > 0) return h;
+            }
+            next = 0.5 * (low + high);
+        }
+        if (std::fabs(next - t) <= kInstant * period_ || !(high > low)) return next;
+        t = next;
+    }
+    return t;
+}
+
+void RigidMotion::strike() {
+    const SurfaceAngle c = surface_.at(s_);
+    const double w = swing_.rate - surface_.rate(c), approach = -c.lever * w;
+    const double rebound = problem_.contact.restitution * approach, pull = c.lever * surface_.push(c);
+    swing_.theta = c.angle;
+    touched_ = true;
+    if (!(approach > 0)) {  // it only just reaches the surface
+        if (pull > 0) return rest_on(c);
+        return start_of_lift();
+    }
+    ++motion_.impacts;
+    if (sums_up_chatter(c, approach, rebound)) {
+        sample_impact(c, surface_.rate(c) + rebound / c.lever);
+        return rest_on(c);
+    }
+    const bool low = pull > 0 && rebound * rebound < 2 * pull * kLowestBounce * problem_.beam.length;
+    const bool slow = rebound < kChatterShare * floor_ || (low && rebound >= last_rebound_);
+    last_rebound_ = rebound;
+    const double kept = slow ? 0 : problem_.contact.restitution, after = surface_.rate(c) - kept * w;
+    if (slow && pull > 0) {
+        sample_impact(c, kNan);  // it lasts
+        return rest_on(c);
+    }
+    sample_impact(c, after);
+    // The saltation matrix [[−e, 0], [(1 + e)(θ̈ − θ̈_c)/w, −e]].                                             (S85)
+    const double fall = series_.acceleration(c.angle) - surface_.acceleration(c);
+    swing_.d_rate = (1 + kept) * fall / w * swing_.d_theta - kept * swing_.d_rate;
+    swing_.d_theta *= -kept;
+    swing_.rate = after;
+    if (slow) start_of_lift();
+}
+
+// As Transitions::sum_up_chatter (S57): the contact counts as sustained from now on.
+bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const {
+    if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * floor_)) return false;
+    const double pull = c.lever * surface_.push(c), lasts = 2 * rebound / (pull * (1 - rebound / approach));
+    const double turns = std::fabs(surface_.rate(c)) + std::fabs(problem_.cam->speed);
+    if (!(pull > 0 && lasts * turns < kBriefChatter)) return false;
+    const SurfaceAngle last = surface_.at(s_ + lasts);
+    return std::fabs(last.lever * surface_.push(last) - pull) < kSteadyPull * pull;
+}
+
+// Lasting contact: no difference of the state outlives it.
+void RigidMotion::rest_on(const SurfaceAngle& c) {
+    lying_ = true;
+    swing_ = {c.angle, surface_.rate(c), 0, 0};
+}
+
+// Lies on the cam until it falls away faster than the beam.
+void RigidMotion::lie() {
+    const auto at = [&](double s) {
+        const SurfaceAngle c = surface_.at(s);
+        return Swing{c.angle, surface_.rate(c), 0, 0};
+    };
+    if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
+    double from = end(), to = from;
+    for (const CamSurface::Lift& lift : surface_.lifts())
+        for (const double turn : {-period_, 0.0, period_}) {
+            if (!(lift.to + turn > s_) || !(std::max(lift.from + turn, s_) < from)) continue;
+            from = std::max(lift.from + turn, s_);
+            to = lift.to + turn;
+        }
+    motion_.all_following = surface_.lifts().empty();
+    observe(from, at);
+    swing_ = at(from);
+    const bool ends = from == end();
+    const double stays = to - from;
+    move_to(from);
+    if (ends) return;
+    end_lasting();
+    lift(s_ + stays);
+}
+
+// Flight begins on the surface and leaves it at least until the middle of the time in which the cam would pull.
+void RigidMotion::lift(double until) {
+    const double swing_time = 1 / std::sqrt(std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha) + 1e-300);
+    lying_ = false;
+    touched_ = true;
+    clear_until_ = s_ + std::min(0.5 * (until - s_), 0.5 * swing_time);
+}
+
+// The same from an impact without a rebound.
+void RigidMotion::start_of_lift() {
+    if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
+    for (const CamSurface::Lift& window : surface_.lifts())
+        for (const double turn : {-period_, 0.0, period_})
+            if (window.from + turn <= s_ && s_ < window.to + turn) return lift(window.to + turn);
+    rest_on(surface_.at(s_));  // at the very edge of such a window
+}
+
+void RigidMotion::move_to(double s) {
+    s_ = s;
+    while (s_ >= period_) {
+        s_ -= period_;
+        clear_until_ -= period_;
+        ++turn_;
+    }
+}
+
+// Strobes and sections after s_ and up to `until`, where the state is at(s).
+template <class At>
+void RigidMotion::observe(double until, At&& at) {
+    if (static_cast<double>(turn_) + until / period_ < static_cast<double>(span_.from)) return;
+    const auto each = [&](double phase, auto&& visit) {
+        for (long k = 0; (static_cast<double>(k) + phase) * period_ <= until; ++k) {
+            const double s = (static_cast<double>(k) + phase) * period_;
+            const long turn = turn_ + k;
+            const bool first = turn == 0 && s == 0 && s_ == 0;  // of the motion
+            if ((s > s_ || first) && turn >= span_.from && turn < span_.to) visit(turn, s);
+        }
+    };
+    if (sampling_.kind == SampleKind::section)
+        each(section_phase_, [&](long, double s) { motion_.samples.push_back(sample(s, at(s))); });
+    each(kStrobePhase, [&](long turn, double s) { strobe(turn, at(s)); });
+}
+
+void RigidMotion::strobe(long turn, const Swing& state) {
+    Strobe out{mirrored_.side * state.theta, mirrored_.side * state.rate, kept_impacts_, lying_, left_};
+    const double size = std::hypot(state.d_theta, state.d_rate * period_);
+    const double growth = size > 0 ? growth_ + std::log(size) : 0;
+    forgot_ = forgot_ || !(size > 0);
+    if (turn > span_.from) out.growth = forgot_ ? -std::numeric_limits<double>::infinity() : growth - growth_at_strobe_;
+    growth_at_strobe_ = growth;
+    forgot_ = false;
+    left_ = !lying_;
+    motion_.strobes.push_back(out);
+}
+
+MotionSample RigidMotion::sample(double s, const Swing& state) const {
+    const double t = static_cast<double>(turn_) * period_ + s;
+    MotionSample out;
+    out.fill(kNan);
+    out[kSampleTime] = t;
+    out[kCamPhase] = turn_fraction(s / period_);
+    out[kTheta] = mirrored_.side * state.theta;
+    out[kThetaDot] = mirrored_.side * state.rate;
+    out[kCamAngle] = problem_.cam->phase - problem_.cam->speed * t;
+    return out;
+}
+
+void RigidMotion::sample_impact(const SurfaceAngle& c, double rate_after) {
+    lasting_ = false;
+    if (turn_ < span_.from) return;
+    ++kept_impacts_;
+    if (sampling_.kind != SampleKind::impacts) return;
+    MotionSample out = sample(s_, swing_);
+    out[kContactX] = c.lever - problem_.hub.radius;
+    out[kNormalBefore] = c.lever * (swing_.rate - surface_.rate(c));
+    out[kTangentialBefore] = slip(c, swing_.rate);
+    lasting_ = std::isnan(rate_after);
+    if (!lasting_) {
+        out[kNormalAfter] = c.lever * (rate_after - surface_.rate(c));
+        out[kTangentialAfter] = slip(c, rate_after);
+        out[kDuration] = 0;
+    }
+    motion_.samples.push_back(out);
+}
+
+// The impact that lasted ends where the beam lifts off.
+void RigidMotion::end_lasting() {
+    if (!lasting_) return;
+    lasting_ = false;
+    MotionSample& last = motion_.samples.back();
+    last[kNormalAfter] = 0;
+    last[kTangentialAfter] = slip(surface_.at(s_), swing_.rate);
+    last[kDuration] = static_cast<double>(turn_) * period_ + s_ - last[kSampleTime];
+}
+
+// v_t (S27): along the beam, the disc's centre moves and its surface turns.
+double RigidMotion::slip(const SurfaceAngle& c, double rate) const {
+    const CamPose pose = cam_pose(mirrored_.cam, s_);
+    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * reach_;
+    return mirrored_.side * (along + contact_offset(problem_) * rate);
+}
+
+}  // namespace beamcam::sim

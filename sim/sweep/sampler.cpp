@@ -1,0 +1,174 @@
+#include "sim/sweep/sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/observe/extrema.hpp"
+
+namespace beamcam::sim {
+
+bool points_away(const Problem& problem, double theta) {
+    if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
+    return dot(unit(theta), problem.cam->centre) < 0;
+}
+
+Sampler::Sampler(const System& system, const Sampling& sampling)
+    : sampling_(sampling),
+      span_(sample_span(system.problem(), sampling)),
+      system_(system),
+      y_(static_cast<std::size_t>(system.size)),
+      section_phase_(section_phase(system.problem(), sampling.level)),
+      next_strobe_(span_.from),
+      next_section_(span_.from) {
+    if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
+        finder_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{sampling.channel});
+}
+
+Sampler::~Sampler() = default;
+
+void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
+    phase_ = phase;
+    system_.set_phase(phase);
+    if (finder_) finder_->set_phase(phase);
+    if (!phase.touching) left_ = true;
+    motion_.end = {y, phase};
+}
+
+MotionSample Sampler::sample(double t, const double* y) {
+    MotionSample out;
+    out.fill(kNan);
+    system_.place(t, y);
+    out[kSampleTime] = t;
+    out[kTheta] = system_.model().hub_angle();
+    out[kThetaDot] = system_.model().hub_rate();
+    out[kCamPhase] = turn_fraction(t / span_.period);
+    if (system_.has_cam()) out[kCamAngle] = system_.cam(t).angle;
+    return out;
+}
+
+void Sampler::evaluate(const SegmentInterval& s, double t) { s.segment->value(std::clamp(t, s.from, s.to), y_.data()); }
+
+void Sampler::segment(const SegmentInterval& s) {
+    strobes(s);
+    if (s.to >= span_.t_from()) {
+        if (sampling_.kind == SampleKind::section) sections(s);
+        if (finder_ && s.to > s.from) events(s);
+    }
+    evaluate(s, s.to);
+    system_.place(s.to, y_.data());
+    motion_.over_the_top = points_away(system_.problem(), system_.model().hub_angle());
+    motion_.end.y = y_;
+}
+
+void Sampler::strobes(const SegmentInterval& s) {
+    for (; next_strobe_ < span_.to; ++next_strobe_) {
+        const double t = (static_cast<double>(next_strobe_) + kStrobePhase) * span_.period;
+        if (s.ends_before(t)) return;
+        evaluate(s, t);
+        strobe(t, y_.data());
+    }
+}
+
+void Sampler::strobe(double t, const double* y) {
+    system_.place(t, y);
+    motion_.strobes.push_back(
+        {system_.model().hub_angle(), system_.model().hub_rate(), kept_impacts_, phase_.touching, left_});
+    left_ = !phase_.touching;
+}
+
+void Sampler::sections(const SegmentInterval& s) {
+    for (; next_section_ < span_.to; ++next_section_) {
+        const double t = (static_cast<double>(next_section_) + section_phase_) * span_.period;
+        if (s.ends_before(t)) return;
+        evaluate(s, t);
+        motion_.samples.push_back(sample(t, y_.data()));
+    }
+}
+
+void Sampler::events(const SegmentInterval& s) {
+    std::vector<double> times;
+    if (sampling_.kind == SampleKind::apexes) {
+        std::vector<Apex> apexes;
+        std::vector<ZeroCrossing> zeros;
+        finder_->turning_points(s, apexes, zeros);
+        for (const Apex& apex : apexes) times.push_back(apex.t);
+    } else {
+        std::vector<ExtremaFinder::Crossing> crossings;
+        finder_->crossings(s, sampling_.channel, sampling_.level, crossings);
+        for (const auto& crossing : crossings)
+            if (crossing.rises == sampling_.rising) times.push_back(crossing.t);
+    }
+    for (const double t : times) {
+        if (!kept(t)) continue;
+        evaluate(s, t);
+        motion_.samples.push_back(sample(t, y_.data()));
+    }
+}
+
+// Chatter that was summed up ends in contact without an approach: no impact.
+void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
+    impact_.reset();
+    if (!(contact.gap_rate < 0)) return;
+    ++motion_.impacts;
+    if (!kept(t)) return;
+    ++kept_impacts_;
+    if (sampling_.kind != SampleKind::impacts) return;
+    impact_ = sample(t, y.data());
+    (*impact_)[kContactX] = contact.x;
+    (*impact_)[kNormalBefore] = contact.gap_rate;
+    (*impact_)[kTangentialBefore] = contact.slip;
+    motion_.samples.push_back(*impact_);
+}
+
+void Sampler::release(double t, const std::vector<double>&, const ContactState& contact) {
+    left_ = true;
+    if (!impact_) return;
+    MotionSample& sample = motion_.samples.back();
+    sample[kNormalAfter] = contact.gap_rate;
+    sample[kTangentialAfter] = contact.slip;
+    sample[kDuration] = t - sample[kSampleTime];
+    impact_.reset();
+}
+
+SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, const InitialState* start,
+                            const Progress& progress) {
+    std::optional<Sampler> sampler;
+    try {
+        sampler.emplace(System(problem), sampling);
+        Run run(problem, {}, progress, {.observer = &*sampler, .start = start});
+        run.integrate();
+    } catch (const SolverError& error) {
+        SampledMotion motion = sampler->take();
+        motion.failure = error.what();
+        return motion;
+    } catch (const StepFailure& failure) {  // the model itself
+        SampledMotion motion;
+        motion.failure = failure.what();
+        return motion;
+    }
+    return sampler->take();
+}
+
+InitialState carried(const Problem& problem, const InitialState& end) {
+    System system(problem);
+    InitialState start = end;
+    start.y.assign(static_cast<std::size_t>(system.size), 0.0);
+    std::copy_n(end.y.begin(), std::min(end.y.size(), static_cast<std::size_t>(system.controlled)), start.y.begin());
+    start.phase.gap_offset = 0;
+    if (!problem.cam || is_prescribed(problem.hub.drive)) return start;
+    const bool pressed_in = start.phase.touching && !start.phase.held;
+    if (pressed_in) return start;
+    system.set_phase({});
+    double* y = start.y.data();
+    const auto rate = static_cast<std::size_t>(system.coordinates());
+    for (int round = 0; round < 8; ++round) {  // Newton's method for the angle; the lever hardly changes
+        const ContactState c = system.contact(0, y, true);
+        if (!start.phase.held && c.gap >= 0) return start;
+        const double lever = std::copysign(problem.hub.radius + c.x, cross(unit(y[0]), c.normal));
+        y[0] -= c.gap / lever;
+        if (start.phase.held) y[rate] -= c.gap_rate / lever;
+    }
+    return start;
+}
+
+}  // namespace beamcam::sim

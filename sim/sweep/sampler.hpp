@@ -1,0 +1,63 @@
+// Samples of one motion, taken while it is integrated: nothing of the motion is kept but these.
+#pragma once
+
+#include <optional>
+
+#include "sim/run/run.hpp"
+#include "sim/sweep/sampling.hpp"
+
+namespace beamcam::sim {
+
+class ExtremaFinder;
+
+// Follows a run (run/run.hpp).
+class Sampler final : public MotionObserver {
+  public:
+    Sampler(const System& system, const Sampling& sampling);
+    ~Sampler() override;
+
+    double end() const override { return std::min(span_.t_to(), sampling_.end_time); }
+    void resume(double t, const std::vector<double>& y, const Phase& phase) override;
+    void segment(const SegmentInterval& s) override;
+    void touch(double t, const std::vector<double>& y, const ContactState& contact) override;
+    void release(double t, const std::vector<double>& y, const ContactState& contact) override;
+    bool done() const override { return motion_.over_the_top; }
+
+    SampledMotion take() { return std::move(motion_); }
+
+  private:
+    bool kept(double t) const { return t >= span_.t_from(); }
+    MotionSample sample(double t, const double* y);
+    void strobe(double t, const double* y);
+    void strobes(const SegmentInterval& s);
+    void sections(const SegmentInterval& s);
+    void events(const SegmentInterval& s);
+    void evaluate(const SegmentInterval& s, double t);
+
+    const Sampling& sampling_;
+    SampleSpan span_;
+    System system_;
+    std::unique_ptr<ExtremaFinder> finder_;  // of apexes and crossings
+    SampledMotion motion_;
+    std::vector<double> y_;
+    Phase phase_;
+    std::optional<MotionSample> impact_;  // the open one
+    double section_phase_;                // of a section, in turns since the start: 0 … 1
+    long next_strobe_, next_section_;
+    long kept_impacts_ = 0;
+    bool left_ = false;  // flight since the last strobe
+};
+
+// By the general integration, whatever the model. `start`: a state to begin with instead of the problem's. What fails
+// is told in the result.
+SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, const InitialState* start,
+                            const Progress& progress);
+
+// The state at which another motion ended as the start of this one: the beam is moved out of the cam if it would be
+// inside, and to its surface if it lasts on it.
+InitialState carried(const Problem& problem, const InitialState& end);
+
+// The beam points away from the cam: no contact until it comes back.                                        (S80)
+bool points_away(const Problem& problem, double theta);
+
+}  // namespace beamcam::sim

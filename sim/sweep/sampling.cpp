@@ -1,0 +1,50 @@
+#include "sim/sweep/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::sim {
+
+double cam_period(const Problem& problem) {
+    const bool turns = problem.cam && problem.cam->speed != 0;
+    return turns ? 2 * std::numbers::pi / std::fabs(problem.cam->speed) : 1;
+}
+
+SampleSpan sample_span(const Problem& problem, const Sampling& sampling) {
+    SampleSpan span;
+    span.period = cam_period(problem);
+    const auto turns = [&](const CamSpan& s) {
+        return static_cast<long>(std::ceil(s.time ? *s.time / span.period * (1 - 1e-12) : s.turns));
+    };
+    span.from = std::max(0L, turns(sampling.transient));
+    span.to = span.from + std::max(1L, turns(sampling.keep));
+    return span;
+}
+
+double turn_fraction(double turns) { return turns - std::floor(turns); }
+
+// ψ = ψ₀ − ωt.
+double section_phase(const Problem& problem, double psi) {
+    if (!problem.cam || problem.cam->speed == 0) return 0;
+    return turn_fraction(std::copysign(1, problem.cam->speed) * (problem.cam->phase - psi) / (2 * std::numbers::pi));
+}
+
+const std::array<SampleColumnInfo, kSampleColumns>& sample_columns() {
+    static const std::array<SampleColumnInfo, kSampleColumns> columns{{
+        {"t", "s", "Time since the start of the motion", false},
+        {"cam_phase", "1", "Turns of the cam since the start, without the whole ones", false},
+        {"theta", "rad", "Angle of the hub", false},
+        {"theta_dot", "rad/s", "Rate of the hub's angle; at an impact, before it", false},
+        {"contact_x", "m", "Place of the contact along the beam", true},
+        {"cam_angle", "rad", "Angle of the cam, unwrapped", false},
+        {"v_n_before", "m/s", "Normal speed at the touch; negative approaches", true},
+        {"v_t_before", "m/s", "Tangential speed at the touch, beam minus cam", true},
+        {"v_n_after", "m/s", "Normal speed at the release", true},
+        {"v_t_after", "m/s", "Tangential speed at the release", true},
+        {"duration", "s", "Of the contact", true},
+    }};
+    return columns;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,82 @@
+#include "sim/sweep/swing_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kRounding = 2e-16;  // [rad] of the last terms
+constexpr double kSure = 0.9;        // of the length that the last terms allow
+constexpr double kLongestTurn = 1;   // [rad] of a stretch without gravity, whose series ends by itself
+
+}  // namespace
+
+// With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0};
+// a difference obeys δ̈ = k s δ.                                                                              (S83)
+void SwingSeries::expand(const Swing& from, bool difference) {
+    difference_ = difference;
+    double s[kOrder], c[kOrder], turn[kOrder + 1];  // turn[i] = i a_i
+    a_[0] = from.theta;
+    a_[1] = turn[1] = from.rate;
+    s[0] = std::sin(from.theta);
+    c[0] = std::cos(from.theta);
+    for (int j = 0;; ++j) {
+        if (j > 0) {
+            double sine = 0, cosine = 0;
+            for (int i = 1; i <= j; ++i) {
+                sine += turn[i] * c[j - i];
+                cosine -= turn[i] * s[j - i];
+            }
+            s[j] = sine / j;
+            c[j] = cosine / j;
+        }
+        if (j + 2 > kOrder) break;
+        turn[j + 2] = (-k_ * c[j] + (j == 0 ? alpha_ : 0)) / (j + 1);
+        a_[j + 2] = turn[j + 2] / (j + 2);
+    }
+    if (difference) {
+        d_[0] = from.d_theta;
+        d_[1] = from.d_rate;
+        for (int j = 0; j + 2 <= kOrder; ++j) {
+            double sum = 0;
+            for (int i = 0; i <= j; ++i) sum += s[i] * d_[j - i];
+            d_[j + 2] = k_ * sum / ((j + 1) * (j + 2));
+        }
+    }
+    if (k_ == 0) {
+        length_ = kLongestTurn / (std::fabs(from.rate) + std::sqrt(std::fabs(alpha_)) + 1e-30);
+        return;
+    }
+    const auto reaches = [&](int order) {
+        const double last = std::fabs(a_[order]);
+        return last > 0 ? std::pow(kRounding / last, 1.0 / order) : std::numeric_limits<double>::infinity();
+    };
+    length_ =
+        kSure * std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
+}
+
+double SwingSeries::theta(double dt) const {
+    double sum = a_[kOrder];
+    for (int j = kOrder - 1; j >= 0; --j) sum = sum * dt + a_[j];
+    return sum;
+}
+
+double SwingSeries::rate(double dt) const {
+    double sum = kOrder * a_[kOrder];
+    for (int j = kOrder - 1; j >= 1; --j) sum = sum * dt + j * a_[j];
+    return sum;
+}
+
+Swing SwingSeries::at(double dt) const {
+    Swing out{theta(dt), rate(dt), 0, 0};
+    if (!difference_) return out;
+    for (int j = kOrder; j >= 0; --j) out.d_theta = out.d_theta * dt + d_[j];
+    for (int j = kOrder; j >= 1; --j) out.d_rate = out.d_rate * dt + j * d_[j];
+    return out;
+}
+
+double SwingSeries::acceleration(double theta) const { return alpha_ - k_ * std::cos(theta); }
+
+}  // namespace beamcam::sim

@@ -1,0 +1,107 @@
+#include "output/data/point_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/output/scratch.hpp"
+
+namespace beamcam::output {
+namespace {
+
+StoredPoint point(std::uint64_t index) {
+    StoredPoint p;
+    p.point = index;
+    p.kind = 2;
+    p.period = static_cast<int>(index) + 1;
+    p.exponent = 0.5;
+    for (std::uint64_t i = 0; i < 3 * index; ++i) p.samples.push_back(static_cast<double>(i) / 7);
+    p.state = {1, 2, static_cast<double>(index)};
+    p.failure = index == 2 ? "too slow" : "";
+    return p;
+}
+
+void expect_same(const StoredPoint& a, const StoredPoint& b) {
+    EXPECT_EQ(a.point, b.point);
+    EXPECT_EQ(a.period, b.period);
+    EXPECT_EQ(a.samples, b.samples);
+    EXPECT_EQ(a.state, b.state);
+    EXPECT_EQ(a.failure, b.failure);
+}
+
+TEST(PointStore, KeepsPointsOverItsEnd) {
+    const Scratch scratch;
+    const std::filesystem::path file = scratch / "a.part";
+    {
+        PointStore store(file, 5, "sweep");
+        for (const std::uint64_t k : {3, 0, 2}) store.add(point(k));
+        expect_same(store.read(2), point(2));
+    }
+    PointStore store(file, 5, "sweep");
+    EXPECT_EQ(store.count(), 3u);
+    EXPECT_FALSE(store.has(1));
+    EXPECT_EQ(store.numbers(3), 9u);
+    for (const std::uint64_t k : {0, 2, 3}) expect_same(store.read(k), point(k));
+    store.remove();
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(PointStore, KeepsWhatIsWholeWhereverItIsCutOff) {
+    const Scratch scratch;
+    const std::filesystem::path file = scratch / "a.part";
+    std::vector<std::uintmax_t> sizes;
+    {
+        PointStore store(file, 4, "sweep");
+        for (std::uint64_t k = 0; k < 4; ++k) {
+            sizes.push_back(std::filesystem::file_size(file));
+            store.add(point(k));
+        }
+    }
+    for (std::uintmax_t size = std::filesystem::file_size(file) - 1; size > sizes[0]; size -= 5) {
+        std::filesystem::resize_file(file, size);
+        PointStore store(file, 4, "sweep");
+        std::uint64_t whole = 0;
+        while (whole + 1 < sizes.size() && sizes[whole + 1] <= size) ++whole;
+        ASSERT_EQ(store.count(), whole) << size;
+        store.add(point(3));
+        expect_same(store.read(3), point(3));
+        std::filesystem::resize_file(file, size);
+        if (size < sizes[0] + 6) break;
+    }
+}
+
+TEST(PointStore, DropsADamagedPointAndWhatFollows) {
+    const Scratch scratch;
+    const std::filesystem::path file = scratch / "a.part";
+    std::uintmax_t second = 0;
+    {
+        PointStore store(file, 4, "sweep");
+        store.add(point(1));
+        second = std::filesystem::file_size(file);
+        store.add(point(2));
+    }
+    std::fstream damage(file, std::ios::in | std::ios::out | std::ios::binary);
+    damage.seekp(static_cast<std::streamoff>(second) + 90);
+    damage.put('\x55');
+    damage.close();
+    const PointStore store(file, 4, "sweep");
+    EXPECT_TRUE(store.has(1));
+    EXPECT_FALSE(store.has(2));
+}
+
+TEST(PointStore, DropsThePointsOfAnotherSweep) {
+    const Scratch scratch;
+    const std::filesystem::path file = scratch / "a.part";
+    PointStore(file, 4, "one").add(point(1));
+    EXPECT_EQ(PointStore(file, 4, "other").count(), 0u);
+}
+
+TEST(PointStore, IsOfOneProgramAtATime) {
+    const Scratch scratch;
+    const PointStore store(scratch / "a.part", 4, "sweep");
+    EXPECT_THROW(PointStore(scratch / "a.part", 4, "sweep"), IoError);
+}
+
+}  // namespace
+}  // namespace beamcam::output

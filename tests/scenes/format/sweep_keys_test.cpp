@@ -1,0 +1,90 @@
+// The key "sweep": what it means, what is wrong with it, that it comes back as it was written.
+#include "scenes/format/sweep_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::messages;
+using testing::read;
+
+std::string scene_with(const std::string& sweep) { return "{\"sweep\": " + sweep + "}"; }
+constexpr const char* kSpeed = R"({"key": "cam.speed", "from": 40, "to": 52, "count": 601})";
+
+TEST(SweepKeys, AreReadWrittenAndReadAgain) {
+    for (const std::string& text :
+         {std::string(R"({"over": [)") + kSpeed + "]}",
+          std::string(R"({"over": [)") + kSpeed + R"(, {"key": "contact.restitution", "values": [0.3, 0.5]}],
+              "sample": "apexes", "transient": {"cam_turns": 500}, "keep": {"time": "2 s"},
+              "seed": ["carry-up", "carry-down"]})",
+          std::string(R"({"over": [{"key": "cam.speed", "from": 1, "to": 100, "count": 3, "spacing": "log"}],
+              "sample": {"section": "theta_dot", "at": 0.5, "direction": "falling"},
+              "seed": {"random": 8, "key": [{"key": "initial.angle", "from": 0.5, "to": 1}]}})"),
+          std::string(R"({"over": [{"key": "cam.speed", "file": "a.csv", "column": "w"}],
+              "sample": {"section": "cam_angle", "at": 1}, "seed": "carry-down"})")}) {
+        const Reading reading = read(scene_with(text));
+        ASSERT_TRUE(reading.scene && reading.scene->sweep) << reading.report();
+        const Reading again = read(to_json(*reading.scene));
+        ASSERT_TRUE(again.scene) << again.report();
+        EXPECT_EQ(*again.scene->sweep, *reading.scene->sweep) << text;
+    }
+}
+
+TEST(SweepKeys, MeanWhatTheySay) {
+    const Sweep sweep = *read(scene_with(std::string(R"({"over": [)") + kSpeed + R"(],
+        "sample": {"section": "cam_angle", "at": 1}, "transient": {"time": 3}, "seed": {"random": 4}})"))
+                             .scene->sweep;
+    EXPECT_EQ(sweep.sampling.kind, sim::SampleKind::section);
+    EXPECT_EQ(sweep.sampling.level, 1);
+    EXPECT_EQ(sweep.sampling.transient.time, 3);
+    EXPECT_EQ(sweep.sampling.keep.turns, 50);
+    EXPECT_THAT(sweep.seeds.kinds, ElementsAre(SeedKind::random));
+    EXPECT_EQ(sweep.seeds.random, 4);
+    EXPECT_FALSE(read("{}").scene->sweep);
+    EXPECT_FALSE(read(scene_with("null")).scene->sweep);
+}
+
+TEST(SweepKeys, AreRefusedWithTheRemedy) {
+    const auto only = [](const std::string& sweep) {
+        const std::vector<std::string> all = messages(read(scene_with(sweep)));
+        return all.size() == 1 ? all.front() : "messages: " + std::to_string(all.size());
+    };
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.spee", "from": 1, "to": 2, "count": 3}]})"),
+                HasSubstr("did you mean \"cam.speed\"?"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1}]})"), HasSubstr("give from, to and count"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1, "to": 2, "count": 1}]})"), HasSubstr("one value"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": -1, "to": 2, "count": 4, "spacing": "log"}]})"),
+                HasSubstr("one sign"));
+    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + "," + kSpeed + "]}"), HasSubstr("stands twice"));
+    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "seed": "random"})"), HasSubstr("carry-up"));
+    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "sample": {"section": "thet", "at": 0}})"),
+                HasSubstr("did you mean \"theta\"?"));
+    EXPECT_THAT(messages(read(R"({"cam": null, "sweep": {"over": [{"key": "gravity", "values": [1, 2]}]}})")),
+                ElementsAre(HasSubstr("there is no cam")));
+}
+
+TEST(SweepKeys, HaveWordsOnTheCommandLine) {
+    sim::Sampling sampling;
+    for (const char* text : {"impacts", "apexes", "section:cam_angle=0", "section:theta_dot=0.5:falling"}) {
+        EXPECT_EQ(parse_sample(text, {}, sampling), "");
+        EXPECT_EQ(text_of_sample(sampling), text);
+    }
+    EXPECT_THAT(parse_sample("section:thet=0", {}, sampling), HasSubstr("\"theta\""));
+    EXPECT_NE(parse_sample("every-day", {}, sampling), "");
+    SweepSeeds seeds;
+    EXPECT_EQ(parse_seeds("carry-up,carry-down", seeds), "");
+    EXPECT_THAT(seeds.kinds, ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
+    EXPECT_EQ(parse_seeds("random:8", seeds), "");
+    EXPECT_EQ(seeds.random, 8);
+    for (const char* text : {"", "random", "random:0", "random:x", "up", "same,"})
+        EXPECT_NE(parse_seeds(text, seeds), "");
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

@@ -1,0 +1,201 @@
+// `beamcam sweep` as scripts see it: tables, seeds, interruption, the same bytes however it is made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "output/data/table_reader.hpp"
+#include "scenes/sweep/make_points.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using testing::slurp;
+
+constexpr const char* kScene = R"({
+    "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
+    "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+    "sweep": {"over": [{"key": "cam.speed", "from": 30, "to": 60, "count": 31}],
+              "transient": {"cam_turns": 100}, "keep": {"cam_turns": 20}}})";
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        rows.emplace_back();
+        std::istringstream cells(line + ",");
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+TEST(SweepCommand, WritesARowASampleWithTheColumnsThatScriptsRelyOn) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    const Finished done = shell(folder, "$BEAMCAM sweep s.json");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_TRUE(
+        done.out.starts_with("cam.speed,seed,class,period,impacts_per_period,exponent,exponent_error,sample,t,"
+                             "cam_phase,theta,theta_dot,contact_x,cam_angle,v_n_before,v_t_before,v_n_after,"
+                             "v_t_after,duration\n"));
+    const auto rows = rows_of(done.out);
+    EXPECT_EQ(rows[1][0], "30");
+    EXPECT_EQ(rows[1][2], "following");
+    EXPECT_EQ(rows[1][7], "");  // no sample
+    EXPECT_EQ(rows.back()[0], "60");
+    EXPECT_THAT(done.err, HasSubstr("31 points"));
+    for (std::size_t i = 1; i < rows.size(); ++i) ASSERT_EQ(rows[i].size(), rows[0].size());
+}
+
+TEST(SweepCommand, HasTheSameBytesWithAnyNumberOfThreads) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    for (const char* seed : {"same", "carry-up,carry-down", "random:3"}) {
+        const std::string command = std::string("$BEAMCAM sweep s.json --force -q --seed ") + seed;
+        ASSERT_EQ(shell(folder,
+                        command + " -j1 -o one.csv && $BEAMCAM sweep s.json --force -q -j3 -o three.csv --seed " + seed)
+                      .code,
+                  0);
+        EXPECT_EQ(slurp(folder / "one.csv"), slurp(folder / "three.csv")) << seed;
+    }
+}
+
+TEST(SweepCommand, GoesOnAfterItWasKilled) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    const char* sweep = "$BEAMCAM sweep s.json -q --seed carry-up,same --transient 400 -o ";
+    ASSERT_EQ(shell(folder, std::string(sweep) + "whole.csv").code, 0);
+    ASSERT_EQ(shell(folder, std::string(sweep) + "part.csv & pid=$!; while [ ! -s part.csv.part ]; do :; done; "
+                                                 "kill -9 $pid; wait $pid; true")
+                  .code,
+              0);
+    ASSERT_EQ(shell(folder, std::string(sweep) + "part.csv").code, 0);
+    EXPECT_EQ(slurp(folder / "part.csv"), slurp(folder / "whole.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "part.csv.part"));
+}
+
+TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("up to date"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv --keep 21").err, HasSubstr("31 points in"));
+    folder.write("mine.csv", "1,2");
+    EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o mine.csv").code, 6);
+    EXPECT_EQ(slurp(folder / "mine.csv"), "1,2");
+}
+
+TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv -q && $BEAMCAM sweep s.json -o a.npz -q").code, 0);
+    const output::NamedTable table = output::read_table(folder / "a.npz");
+    const auto rows = rows_of(slurp(folder / "a.csv"));
+    ASSERT_EQ(table.rows(), rows.size() - 1);
+    ASSERT_EQ(table.names.size(), rows[0].size());
+    for (std::size_t c = 0; c < table.names.size(); ++c) {
+        EXPECT_EQ(table.names[c], rows[0][c]);
+        if (table.names[c] == "class") continue;
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const double value = table.columns[c][row];
+            const std::string& cell = rows[row + 1][c];
+            ASSERT_TRUE(cell.empty() ? std::isnan(value) : value == std::stod(cell)) << table.names[c] << " " << row;
+        }
+    }
+}
+
+TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    folder.write("w.csv", "w\n40\n41.5\n");
+    const auto first_column = [&](const std::string& over) {
+        const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --transient 5 --keep 1 --over '" + over + "'");
+        EXPECT_EQ(done.code, 0) << done.err;
+        std::vector<std::string> values;
+        for (const auto& row : rows_of(done.out))
+            if (row[0] != "cam.speed" && (values.empty() || values.back() != row[0])) values.push_back(row[0]);
+        return values;
+    };
+    using ::testing::ElementsAre;
+    EXPECT_THAT(first_column("cam.speed=40:44:3"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:41.1:0.5"), ElementsAre("40", "40.5", "41"));
+    EXPECT_THAT(first_column("cam.speed=25:100:3:log"), ElementsAre("25", "50", "100"));
+    EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
+    EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
+    EXPECT_EQ(first_column("cam.speed=300 rpm").at(0).substr(0, 6), "31.415");
+}
+
+TEST(SweepCommand, RefusesInWords) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    for (const auto& [arguments, code, words] :
+         {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
+          {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
+          {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
+          {"--seed up", 2, "carry-up"},
+          {"--sample never", 2, "impacts"},
+          {"-o a.txt", 2, ".csv"},
+          {"--transient -1", 2, "turns of the cam"},
+          {"--over cam.eccentricity=0:0.2:3", 3, "sweep at cam.eccentricity = 0.1"},
+          {"--over beam.modes=1:2:3", 3, "whole number"}}) {
+        const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json ") + arguments);
+        EXPECT_EQ(done.code, code) << arguments;
+        EXPECT_THAT(done.err, HasSubstr(words)) << arguments;
+    }
+}
+
+TEST(SweepCommand, PlansPointsSecondsAndBytes) {
+    Folder folder;
+    folder.write("s.json", kScene);
+    const auto plan = nlohmann::json::parse(shell(folder, "$BEAMCAM sweep s.json -n --json --seed random:4").out);
+    EXPECT_EQ(plan["points"], 124);
+    EXPECT_GT(plan["seconds"].get<double>(), 0);
+    EXPECT_GT(plan["csv_bytes"].get<double>(), 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.csv"));
+}
+
+TEST(SweepCommand, CarriesAStateAlongTheValues) {
+    // Two attractors may live side by side: up and down need not agree, but each point of a carried row goes on from
+    // the one before, so a slow row of one value repeats a long motion.
+    Folder folder;
+    folder.write("s.json", kScene);
+    const Finished row = shell(folder,
+                               "$BEAMCAM sweep s.json -q --over cam.speed=48,48,48 --seed carry-up --transient 0 "
+                               "--keep 10 --sample section:cam_angle=1");
+    const Finished whole = shell(folder,
+                                 "$BEAMCAM sweep s.json -q --over cam.speed=48 --transient 0 --keep 30 --sample "
+                                 "section:cam_angle=1");
+    const auto part = rows_of(row.out), all = rows_of(whole.out);
+    ASSERT_EQ(part.size(), all.size());
+    const std::size_t theta = 10;
+    for (std::size_t i = 1; i < all.size(); ++i) EXPECT_NEAR(std::stod(part[i][theta]), std::stod(all[i][theta]), 1e-7);
+}
+
+TEST(SweepGrid, CutsIntoPartsThatAreAPartition) {
+    const Scene scene =
+        *testing::read(kScene, {"sweep.seed=[\"same\", \"carry-up\"]",
+                                "sweep.over=[{\"key\": \"cam.speed\", \"values\": [1, 2, 3]}, {\"key\": "
+                                "\"contact.restitution\", \"values\": [0.1, 0.2]}]"})
+             .scene;
+    const SweepGrid grid(scene);
+    EXPECT_EQ(grid.points(), 12u);
+    EXPECT_EQ(grid.tasks(), 6u + 2u);
+    for (const std::uint64_t parts : {1, 2, 3, 5}) {
+        std::vector<int> count(grid.points(), 0);
+        for (std::uint64_t part = 0; part < parts; ++part) {
+            const std::vector<bool> mine = points_of(grid, {part, parts});
+            for (std::size_t p = 0; p < mine.size(); ++p) count[p] += mine[p] ? 1 : 0;
+        }
+        EXPECT_THAT(count, ::testing::Each(1));
+    }
+    EXPECT_EQ(grid.problem(2 * (3 + 2)).cam->speed, 3);
+    EXPECT_EQ(grid.problem(2 * (3 + 2)).contact.restitution, 0.2);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

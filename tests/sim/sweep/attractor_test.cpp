@@ -1,0 +1,90 @@
+// Classes of motions made by hand, so that every criterion is met and missed.
+#include "sim/sweep/attractor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace beamcam::sim {
+namespace {
+
+SampledMotion strobed(int turns, const std::function<Strobe(int)>& at) {
+    SampledMotion motion;
+    for (int k = 0; k < turns; ++k) motion.strobes.push_back(at(k));
+    return motion;
+}
+
+AttractorClass kind(const SampledMotion& motion) { return classify(Problem{}, motion).kind; }
+
+// A circle of states, once around in `turns` turns of the cam.
+SampledMotion circle(double turns, double growth) {
+    return strobed(60, [=](int k) {
+        return Strobe{
+            0.4 + 0.1 * std::sin(6.2831853 * k / turns), std::cos(6.2831853 * k / turns), 2L * k, false, true, growth};
+    });
+}
+
+TEST(Attractor, HasAPeriodWhenStatesReturn) {
+    const Attractor a = classify(Problem{}, circle(5, kNan));
+    EXPECT_EQ(a.kind, AttractorClass::periodic);
+    EXPECT_EQ(a.period, 5);
+    EXPECT_EQ(a.impacts_per_period, 10);
+}
+
+TEST(Attractor, NeedsAnExponentToBeMoreThanAperiodic) {
+    EXPECT_EQ(kind(circle(5.3137, kNan)), AttractorClass::aperiodic);
+    EXPECT_EQ(kind(circle(5.3137, 0)), AttractorClass::quasi_periodic);
+    EXPECT_EQ(kind(circle(5.3137, 0.4)), AttractorClass::chaotic);
+    EXPECT_EQ(kind(circle(5.3137, -0.4)), AttractorClass::unsettled);
+}
+
+TEST(Attractor, IsNotChaoticWhileTheExponentMayBeAnError) {
+    SampledMotion motion = circle(5.3137, 0);
+    for (std::size_t k = 0; k < motion.strobes.size(); ++k) motion.strobes[k].growth = k < 15 ? 3 : -0.7;
+    EXPECT_EQ(kind(motion), AttractorClass::unsettled);
+    // A difference that grows like the time, as in regular motion without losses, is no chaos.
+    for (std::size_t k = 0; k < motion.strobes.size(); ++k)
+        motion.strobes[k].growth = std::log((2.0 + static_cast<double>(k)) / (1.0 + static_cast<double>(k)));
+    EXPECT_NE(kind(motion), AttractorClass::chaotic);
+}
+
+TEST(Attractor, IsUnsettledWhenAPeriodBeginsWithinTheSamples) {
+    SampledMotion motion = circle(5.3137, 0.4);
+    for (std::size_t k = 30; k < motion.strobes.size(); ++k) motion.strobes[k] = motion.strobes[30];
+    EXPECT_EQ(kind(motion), AttractorClass::unsettled);
+}
+
+TEST(Attractor, IsUnsettledWhileItStillDrawsNearAPeriod) {
+    const auto spiral = [](double rate) {
+        return strobed(60, [=](int k) {
+            return Strobe{0.4 + 1e-3 * std::exp(-rate * k) * (k % 2 ? 1 : -1), 0, k, false, true, 0.1};
+        });
+    };
+    EXPECT_EQ(kind(spiral(0.05)), AttractorClass::unsettled);
+    EXPECT_EQ(kind(spiral(0)), AttractorClass::periodic);
+}
+
+TEST(Attractor, FollowsWhereTheContactLasts) {
+    const auto contact = [](bool left, double theta_dot) {
+        return strobed(60, [=](int k) { return Strobe{0.4, theta_dot, 0, true, left && k == 40, kNan}; });
+    };
+    EXPECT_EQ(kind(contact(false, 0.3)), AttractorClass::following);
+    EXPECT_EQ(kind(contact(true, 0.3)), AttractorClass::periodic);
+    Problem still;
+    still.cam->speed = 0;
+    EXPECT_EQ(classify(still, contact(false, 0)).kind, AttractorClass::rest);
+}
+
+TEST(Attractor, SaysThatAFailedMotionIsUnsettled) {
+    SampledMotion motion = circle(5, kNan);
+    motion.failure = "too slow";
+    EXPECT_EQ(kind(motion), AttractorClass::unsettled);
+}
+
+TEST(Attractor, NamesItsClassesInTheirOrder) {
+    for (const auto& each : names(AttractorClass{})) EXPECT_STREQ(name(each.value), each.name);
+}
+
+}  // namespace
+}  // namespace beamcam::sim

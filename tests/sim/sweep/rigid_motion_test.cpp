@@ -1,0 +1,203 @@
+// The fast path of the rigid beam against the general integration, impact by impact, and against closed forms.
+#include "sim/sweep/rigid_motion.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/base/numerics.hpp"
+#include "sim/sweep/sampler.hpp"
+#include "sim/sweep/sweep_point.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+Problem rigid_newton(double speed, double eccentricity, double restitution) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = restitution;
+    p.cam->speed = speed;
+    p.cam->eccentricity = eccentricity;
+    p.solver.rtol = 1e-13;
+    p.solver.atol = 1e-15;
+    p.initial.angle = 0.6;
+    return p;
+}
+
+Sampling first_turns(double turns) {
+    Sampling s;
+    s.transient.turns = 0;
+    s.keep.turns = turns;
+    return s;
+}
+
+// Same impacts until differences of rounding have grown to 1e-6; returns how many were compared.
+int expect_same(const Problem& p, const Sampling& s) {
+    EXPECT_TRUE(RigidMotion::applies(p, s));
+    const SampledMotion fast = RigidMotion(p, s, nullptr).follow({}), slow = sample_by_run(p, s, nullptr, {});
+    EXPECT_EQ(slow.failure, "");
+    EXPECT_EQ(fast.over_the_top, slow.over_the_top);
+    const std::size_t count = std::min(fast.samples.size(), slow.samples.size());
+    for (std::size_t i = 0; i < count; ++i)
+        // Without a rebound rounding decides whether the contact lasts or is chatter that has ended.
+        for (std::size_t c = 0; c < (p.contact.restitution > 0 ? kDuration : kNormalAfter); ++c)
+            if (!(std::fabs(fast.samples[i][c] - slow.samples[i][c]) < 1e-6) &&
+                !(std::isnan(fast.samples[i][c]) && std::isnan(slow.samples[i][c]))) {
+                ADD_FAILURE() << "sample " << i << " of " << fast.samples.size() << "/" << slow.samples.size() << ", "
+                              << sample_columns()[c].name << ": " << fast.samples[i][c] << " " << slow.samples[i][c]
+                              << " at t = " << slow.samples[i][kSampleTime];
+                return static_cast<int>(i);
+            }
+    return static_cast<int>(count);
+}
+
+TEST(RigidMotion, HasTheImpactsOfTheGeneralRun) {
+    int compared = 0;
+    for (const double speed : {0.0, 1.0, 5.0, -5.0, 20.0, 48.0})
+        for (const double restitution : {0.0, 0.3, 0.7, 1.0}) {
+            SCOPED_TRACE(::testing::Message() << speed << " " << restitution);
+            const Problem p = rigid_newton(speed, 0.02, restitution);
+            compared += expect_same(p, first_turns(std::max(1.0, std::ceil(std::fabs(speed) * 1.0 / 6.28))));
+        }
+    EXPECT_GT(compared, 150);
+}
+
+TEST(RigidMotion, HasTheImpactsOfTheGeneralRunWithTorqueHubRadiusAndOffset) {
+    int compared = 0;
+    for (const double torque : {-1.5, -0.4, 0.0})
+        for (const double radius : {-0.05, 0.0, 0.1}) {
+            SCOPED_TRACE(::testing::Message() << torque << " " << radius);
+            Problem p = rigid_newton(30, 0.005, 0.5);
+            p.hub = {radius, 0.01, ConstantTorque{torque}};
+            p.contact.offset.reset();
+            p.cam->centre = {0.45, 0.03};
+            p.cam->phase = 1;
+            p.gravity = torque < -1 ? 0 : 9.81;
+            compared += expect_same(p, first_turns(5));
+        }
+    EXPECT_GT(compared, 50);
+}
+
+TEST(RigidMotion, HasTheImpactsOfTheGeneralRunFromBelow) {
+    Problem p = rigid_newton(30, 0.005, 0.5);
+    p.hub.drive = ConstantTorque{4};
+    p.hub.inertia = 0.02;
+    p.initial.angle = -0.9;
+    EXPECT_GT(expect_same(p, first_turns(8)), 5);
+}
+
+TEST(RigidMotion, TakesSectionsOfTheGeneralRun) {
+    Sampling s = first_turns(8);
+    s.kind = SampleKind::section;
+    for (const double level : {0.0, 2.0}) {
+        s.level = level;
+        EXPECT_EQ(expect_same(rigid_newton(30, 0.005, 0.5), s), 8);
+    }
+}
+
+TEST(RigidMotion, TakesEveryMotionItIsGivenOrLeavesItToTheRun) {
+    const Sampling s = first_turns(1);
+    Problem p = rigid_newton(30, 0.005, 0.5);
+    EXPECT_TRUE(RigidMotion::applies(p, s));
+    p.contact.friction = CoulombFriction{};
+    EXPECT_FALSE(RigidMotion::applies(p, s));
+    p = rigid_newton(30, 0.005, 0.5);
+    p.cam->centre = {1.0, 0};  // may touch the tip
+    EXPECT_FALSE(RigidMotion::applies(p, s));
+    p = rigid_newton(30, 0.005, 0.5);
+    p.solver.method = Method::rk8;
+    EXPECT_FALSE(RigidMotion::applies(p, s));
+    Sampling apexes = s;
+    apexes.kind = SampleKind::apexes;
+    EXPECT_FALSE(RigidMotion::applies(rigid_newton(30, 0.005, 0.5), apexes));
+}
+
+// ---- closed forms -----------------------------------------------------------------------------------------------
+
+// Gravity 0, hub torque −αJ: e = 2 mm, r = 0.5, α = 15 rad/s², D = 0.25 m, R = 0.1 m.
+Problem torque_case(double speed) {
+    Problem p = rigid_newton(speed, 0.002, 0.5);
+    p.gravity = 0;
+    p.initial.angle = 0.42;
+    const double inertia = p.beam.line_density() / 3;
+    p.hub.drive = ConstantTorque{-15 * inertia};
+    return p;
+}
+
+// It starts on the orbit with one impact a turn: θ̇_c = (αT/2)(1 − r)/(1 + r) at the impact, where θ̈_c < 0.
+Problem on_its_orbit(double speed) {
+    Problem p = torque_case(speed);
+    const double alpha = 15, half = 0.5 * alpha * cam_period(p), impact = half * 0.5 / 1.5;
+    const CamSurface surface(*p.cam, 0.1, 0, -alpha);
+    const auto rate = [&](double s) { return surface.rate(surface.at(s)) - impact; };
+    const double turn = surface.period();
+    for (int i = 0; i < 2000; ++i) {
+        const double from = turn * i / 2000, to = turn * (i + 1) / 2000;
+        if (!(rate(from) > 0 && rate(to) <= 0)) continue;
+        const double s = find_root(rate, from, to);
+        p.cam->phase -= speed * s;
+        p.initial.angle = surface.at(s).angle + 1e-9;
+        p.initial.angular_velocity = half;
+        return p;
+    }
+    throw std::logic_error("no such orbit");
+}
+
+Attractor attractor_at(double speed, double turns) {
+    Sampling s;
+    s.transient.turns = turns;
+    s.keep.turns = 60;
+    return sweep_point(on_its_orbit(speed), s, nullptr, {}).attractor;
+}
+
+TEST(RigidMotion, HasTheFoldAndTheDoublingOfTheTorqueCaseWhereTheyMustBe) {
+    // Fold at 42.23567502238, period doubling at 50.86884987331 rad/s.
+    for (const double speed : {42.24, 45.0, 50.84}) {
+        const Attractor a = attractor_at(speed, 5000);
+        EXPECT_EQ(a.kind, AttractorClass::periodic) << speed;
+        EXPECT_EQ(a.period, 1) << speed;
+        EXPECT_EQ(a.impacts_per_period, 1) << speed;
+    }
+    EXPECT_THROW(attractor_at(42.23, 10), std::logic_error);
+    const Attractor doubled = attractor_at(50.90, 5000);
+    EXPECT_EQ(doubled.kind, AttractorClass::periodic);
+    EXPECT_EQ(doubled.period, 2);
+    EXPECT_EQ(doubled.impacts_per_period, 2);
+}
+
+TEST(RigidMotion, FollowsADifferenceAsTheMultipliersDemand) {
+    // One impact a turn: μ₁μ₂ = r², μ₁ + μ₂ = 1 + r² + (1 + r)² θ̈_c/(2α)·… is −(1 + r²) at the doubling, so there
+    // μ = −1 and the largest exponent vanishes; between fold and doubling |μ| = r on a stretch of complex pairs.
+    const Attractor doubling = attractor_at(50.8688, 20000), middle = attractor_at(46.5, 2000);
+    EXPECT_NEAR(doubling.exponent.value, 0, 1e-3);
+    EXPECT_NEAR(middle.exponent.value, std::log(0.5) / cam_period(torque_case(46.5)), 0.2);
+}
+
+TEST(RigidMotion, RestsOnACamThatStandsStill) {
+    Sampling s;
+    const SweepPoint point = sweep_point(rigid_newton(0, 0.02, 0.5), s, nullptr, {});
+    EXPECT_EQ(point.attractor.kind, AttractorClass::rest);
+    EXPECT_TRUE(point.motion.samples.empty());
+}
+
+TEST(RigidMotion, FollowsASlowCam) {
+    const SweepPoint point = sweep_point(rigid_newton(5, 0.002, 0.5), Sampling{}, nullptr, {});
+    EXPECT_EQ(point.attractor.kind, AttractorClass::following);
+    EXPECT_TRUE(point.motion.all_following);
+}
+
+TEST(RigidMotion, ChatterOnACamAtRestEndsWhenItMust) {
+    // At t₁ + 2 r w/(α(1 − r)), w the first rate at the cam; the beam flies as a parabola.
+    Problem p = torque_case(0);
+    const double r = 0.5, alpha = 15;
+    const SampledMotion motion = RigidMotion(p, first_turns(2), nullptr).follow({});
+    ASSERT_GT(motion.samples.size(), 8u);
+    const MotionSample &first = motion.samples.front(), &last = motion.samples.back();
+    const double w = -first[kThetaDot], ends = first[kSampleTime] + 2 * r * w / (alpha * (1 - r));
+    const double lever = std::sqrt(0.252 * 0.252 - 0.01);
+    EXPECT_NEAR(last[kSampleTime] + 2 * last[kNormalAfter] / lever / (alpha * (1 - r)), ends, 1e-12);
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

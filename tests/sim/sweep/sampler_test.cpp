@@ -1,0 +1,159 @@
+// Samples taken along a run against what the recorders of the same run find.
+#include "sim/sweep/sampler.hpp"
+
+#include <numbers>
+
+#include "sim/sweep/sweep_point.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+constexpr double kTurns = 3;
+
+Problem turning_cam(ModelKind model, ContactModel contact) {
+    Problem p;
+    p.beam.model = model;
+    p.cam->speed = 12;
+    p.cam->eccentricity = 0.005;
+    p.contact.model = contact;
+    p.contact.restitution = 0.5;
+    return p;
+}
+
+Sampling sampling(SampleKind kind) {
+    Sampling s;
+    s.kind = kind;
+    s.transient.turns = 0;
+    s.keep.turns = kTurns;
+    return s;
+}
+
+Result recorded(const Problem& p) { return run(p, kTurns * cam_period(p)); }
+
+TEST(Sampler, TakesTheImpactsOfTheRecorder) {
+    for (const ContactModel contact : {ContactModel::compliant, ContactModel::restitution})
+        for (const ModelKind model : {ModelKind::rigid, ModelKind::first_order}) {
+            const Problem p = turning_cam(model, contact);
+            const SampledMotion motion = sample_by_run(p, sampling(SampleKind::impacts), nullptr, {});
+            std::vector<Impact> impacts = recorded(p).impacts;
+            std::erase_if(impacts, [](const Impact& i) { return !(i.v_n_before < 0); });
+            ASSERT_EQ(motion.samples.size(), impacts.size());
+            ASSERT_GT(impacts.size(), 3u);
+            for (std::size_t i = 0; i < impacts.size(); ++i) {
+                const MotionSample& sample = motion.samples[i];
+                EXPECT_EQ(sample[kSampleTime], impacts[i].t_start);
+                EXPECT_EQ(sample[kContactX], impacts[i].x);
+                EXPECT_EQ(sample[kCamAngle], impacts[i].cam_angle);
+                EXPECT_EQ(sample[kNormalBefore], impacts[i].v_n_before);
+                EXPECT_EQ(sample[kTangentialBefore], impacts[i].v_t_before);
+                if (!impacts[i].t_end) continue;
+                EXPECT_EQ(sample[kNormalAfter], *impacts[i].v_n_after);
+                EXPECT_EQ(sample[kDuration], *impacts[i].duration);
+            }
+        }
+}
+
+TEST(Sampler, TakesTheApexesOfTheRecorder) {
+    const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
+    const SampledMotion motion = sample_by_run(p, sampling(SampleKind::apexes), nullptr, {});
+    const std::vector<Apex> apexes = recorded(p).apexes;
+    ASSERT_EQ(motion.samples.size(), apexes.size());
+    ASSERT_GT(apexes.size(), 3u);
+    for (std::size_t i = 0; i < apexes.size(); ++i) {
+        EXPECT_EQ(motion.samples[i][kSampleTime], apexes[i].t);
+        EXPECT_NEAR(motion.samples[i][kThetaDot], 0, 1e-9);
+    }
+}
+
+TEST(Sampler, TakesCrossingsOfAnyChannelInTheirDirection) {
+    const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
+    Sampling s = sampling(SampleKind::crossings);
+    s.channel = channel("tip_deflection");
+    s.level = 2e-5;
+    const SampledMotion up = sample_by_run(p, s, nullptr, {});
+    s.rising = false;
+    const SampledMotion down = sample_by_run(p, s, nullptr, {});
+    ASSERT_GT(up.samples.size(), 10u);
+    EXPECT_NEAR(static_cast<double>(up.samples.size()), static_cast<double>(down.samples.size()), 1);
+    std::vector<double> times;
+    for (const MotionSample& sample : up.samples) times.push_back(sample[kSampleTime]);
+    for (const double value : series(p, "tip_deflection", times)) EXPECT_NEAR(value, 2e-5, 1e-11);
+}
+
+TEST(Sampler, TakesOneSectionATurnAtTheCamAngle) {
+    const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
+    Sampling s = sampling(SampleKind::section);
+    s.level = 1;
+    const SampledMotion motion = sample_by_run(p, s, nullptr, {});
+    ASSERT_EQ(motion.samples.size(), 3u);
+    for (const MotionSample& sample : motion.samples) {
+        EXPECT_NEAR(std::cos(sample[kCamAngle] - 1), 1, 1e-12);
+        EXPECT_EQ(sample[kTheta], series(p, "theta", {sample[kSampleTime]})[0]);
+    }
+    EXPECT_EQ(motion.strobes.size(), 3u);
+}
+
+TEST(Sampler, KeepsNothingOfTheTransient) {
+    const Problem p = turning_cam(ModelKind::rigid, ContactModel::restitution);
+    Sampling all = sampling(SampleKind::impacts), late = all;
+    late.transient.turns = 2;
+    late.keep.turns = 1;
+    const SampledMotion whole = sample_by_run(p, all, nullptr, {}), rest = sample_by_run(p, late, nullptr, {});
+    std::size_t i = whole.samples.size() - rest.samples.size();
+    for (const MotionSample& sample : rest.samples) EXPECT_EQ(sample[kSampleTime], whole.samples[i++][kSampleTime]);
+    EXPECT_EQ(whole.impacts, rest.impacts);
+    EXPECT_EQ(whole.end.y, rest.end.y);
+}
+
+TEST(Sampler, RoundsATimeUpToWholeTurns) {
+    Problem p = turning_cam(ModelKind::rigid, ContactModel::restitution);
+    Sampling s;
+    s.transient.time = 10.1 * cam_period(p);
+    s.keep.time = 3 * cam_period(p);
+    const SampleSpan span = sample_span(p, s);
+    EXPECT_EQ(span.from, 11);
+    EXPECT_EQ(span.to, 14);
+    p.cam->speed = 0;
+    EXPECT_EQ(sample_span(p, s).period, 1);
+}
+
+// A motion that goes on from where another ended is the longer motion.
+TEST(Sampler, GoesOnFromTheEndOfAnother) {
+    for (const ModelKind model : {ModelKind::rigid, ModelKind::first_order}) {
+        const Problem p = turning_cam(model, ContactModel::compliant);
+        Sampling both = sampling(SampleKind::section), half = both;
+        both.keep.turns = 2;
+        half.keep.turns = 1;
+        const SampledMotion whole = sample_by_run(p, both, nullptr, {}), first = sample_by_run(p, half, nullptr, {});
+        const InitialState start = carried(p, first.end);
+        const SampledMotion second = sample_by_run(p, half, &start, {});
+        ASSERT_EQ(whole.samples.size(), 2u);
+        EXPECT_NEAR(second.samples.at(0)[kTheta], whole.samples[1][kTheta], 1e-6);
+    }
+}
+
+TEST(Sampler, PutsACarriedBeamOnACamThatHasGrown) {
+    Problem p = turning_cam(ModelKind::rigid, ContactModel::restitution);
+    Sampling s = sampling(SampleKind::section);
+    p.cam->speed = 2;
+    const SampledMotion rest = sample_by_run(p, s, nullptr, {});
+    ASSERT_TRUE(rest.end.phase.held);
+    p.cam->radius = 0.11;
+    const InitialState start = carried(p, rest.end);
+    System system(p);
+    const ContactState c = system.contact(0, start.y.data(), true);
+    EXPECT_NEAR(c.gap, 0, 1e-14);
+    EXPECT_NEAR(c.gap_rate, 0, 1e-14);
+}
+
+TEST(Sampler, EndsWhereTheBeamPointsAwayFromTheCam) {
+    Problem p = turning_cam(ModelKind::rigid, ContactModel::compliant);
+    p.initial.angular_velocity = 8;
+    const SampledMotion motion = sample_by_run(p, sampling(SampleKind::impacts), nullptr, {});
+    EXPECT_TRUE(motion.over_the_top);
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::over_the_top);
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
