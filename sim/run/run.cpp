@@ -34,13 +34,15 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
 
 }  // namespace
 
-Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep)
+Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep,
+         const RunOrigin& origin)
     : problem_(problem),
       progress_(progress),
       dynamics_(problem),
       probe_(dynamics_),
       output_(dynamics_, requests, keep, [this] { return statistics(); }),
-      integrator_(make_integrator(problem.solver, dynamics_)),
+      start_(origin.start),
+      integrator_(origin.integrator ? origin.integrator(dynamics_) : make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
       transitions_(dynamics_, probe_.system, *integrator_, state_, output_),
@@ -66,7 +68,7 @@ std::vector<Result> Run::integrate() {
 }
 
 void Run::start() {
-    const InitialState initial = initial_state(dynamics_);
+    const InitialState initial = start_ ? *start_ : initial_state(dynamics_);
     state_.y = initial.y;
     state_.statistics.fallbacks.left_behind = initial.left_behind;
     state_.phase = initial.phase;

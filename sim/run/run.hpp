@@ -1,11 +1,14 @@
 // One integration of a motion: steps, events, transitions, output. MODEL.md §§11–12.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/dynamics/failure.hpp"
+#include "sim/dynamics/initial.hpp"
 #include "sim/run/contact_guards.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/run/touch_search.hpp"
@@ -13,13 +16,21 @@
 
 namespace beamcam::sim {
 
+// Where a run starts and what integrates it, where these are not the problem's own.
+struct RunOrigin {
+    std::function<std::unique_ptr<Integrator>(System&)> integrator;  // may be empty
+    std::optional<InitialState> start;
+};
+
 class Run {
   public:
-    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep);
+    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, TrajectoryWriter* keep,
+        const RunOrigin& origin = {});
 
     // Throws SolverError with what was reached by then.
     std::vector<Result> integrate();
     Counters counters() const { return statistics().counters; }
+    const RunState& state() const { return state_; }
 
   private:
     void start();
@@ -45,6 +56,7 @@ class Run {
     SegmentProbe probe_;
     RunState state_;
     RunOutput output_;
+    std::optional<InitialState> start_;
     std::unique_ptr<Integrator> integrator_;
     TouchSearch touch_search_;
     ContactGuards contact_guards_;
