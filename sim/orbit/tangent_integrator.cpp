@@ -140,16 +140,17 @@ TangentIntegrator::~TangentIntegrator() = default;
 // At the start, after an event, and where the drive is not smooth.
 void TangentIntegrator::start(double t, const double* y) {
     const Phase is = system_.phase();
-    if (started_ && segment_) {
-        if (t != segment_->t1 && !(t == t1)) {  // an event at the very start of the last step
+    const std::size_t touched = touches_.size();
+    if (segment_) {
+        if (t != t1) {  // an event at the very start of the last step
             segment_->value(t, end_.data());
             tangents_ = Eigen::Map<const Eigen::MatrixXd>(end_.data() + flow_->tangents_begin(), rows_, columns_);
         }
         saltation(t, y, phase_, is);
     }
-    started_ = true;
     phase_ = is;
     flow_->insert(y, end_.data());
+    if (pause_ && touches_.size() > touched) next_pause_ = pause_(t);
     std::copy_n(tangents_.data(), tangents_.size(), end_.data() + flow_->tangents_begin());
     inner_->limit_first_step(limited(std::numeric_limits<double>::infinity()));
     inner_->start(t, end_.data());
@@ -158,7 +159,7 @@ void TangentIntegrator::start(double t, const double* y) {
 }
 
 const Segment& TangentIntegrator::step() {
-    if (t1 >= next_pause_ && pause_) {
+    if (pause_ && t1 >= next_pause_) {
         next_pause_ = pause_(t1);
         std::copy_n(tangents_.data(), tangents_.size(), end_.data() + flow_->tangents_begin());
         inner_->start(t1, end_.data());
@@ -241,6 +242,29 @@ void TangentIntegrator::strike(double t, const double* after, const Phase& was, 
         }
     }
     tangents_.bottomRows(kMemories).setZero();
+    if (is.held) keep_on_cam(t, after);
+}
+
+// Neighbours that rest on the cam have no gap and no gap rate either: rounding of (S71) at a vanishing speed is
+// removed.
+void TangentIntegrator::keep_on_cam(double t, const double* y) {
+    const int freedoms = 2 * n_;
+    Eigen::MatrixXd normals(freedoms, 2);  // gradients of gap and gap rate
+    const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(rows_, rows_);
+    for (int first = 0; first < freedoms; first += kDirections) {
+        JetState s(n_);
+        seed(s, y, phase_, false);
+        s.t = t;
+        const int count = std::min(kDirections, freedoms - first);
+        for (int k = 0; k < count; ++k) seed_column(s, k, basis.col(first + k).data(), units_.data());
+        const ModalJets::Gap gap = jets_.gap(s, near_);
+        for (int k = 0; k < count; ++k) normals.row(first + k) << gap.gap.d[k], gap.rate.d[k];
+    }
+    normals.col(0).normalize();
+    normals.col(1) -= normals.col(0) * normals.col(0).dot(normals.col(1));
+    normals.col(1).normalize();
+    for (int repeat = 0; repeat < 2; ++repeat)
+        tangents_.topRows(freedoms) -= normals * (normals.transpose() * tangents_.topRows(freedoms)).eval();
 }
 
 // State and force go on; what the touch keeps is its approach speed, unless that is the floor or an earlier one. (S72)

@@ -31,7 +31,8 @@ class TangentIntegrator final : public Integrator, private Segment {
     const Segment& step() override;
     const Segment& shorten(double t1) override;
 
-    // Steps end at this instant; then `pause` is called, which may change the tangents and gives the next instant.
+    // Steps end at this instant; then `pause` is called, which may change the tangents and gives the next instant. It
+    // is called after each touch, too: an impact may shrink a tangent by any factor.
     void pause_at(double t, std::function<double(double t)> pause) {
         next_pause_ = t;
         pause_ = std::move(pause);
@@ -56,6 +57,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     void touch(double t, const Phase& was, const Phase& is);
     JetState event_jets(double t, const Phase& was, Eigen::Index first);
     void release();
+    void keep_on_cam(double t, const double* y);
     const Segment& arrive(const Segment& inner);
 
     System& system_;
@@ -71,7 +73,6 @@ class TangentIntegrator final : public Integrator, private Segment {
     mutable std::vector<double> scratch_;
     const Segment* segment_ = nullptr;  // of the inner integrator
     Phase phase_;                       // of the last start
-    bool started_ = false;
     double next_pause_;
     std::function<double(double)> pause_;
     std::vector<TangentTouch> touches_;
