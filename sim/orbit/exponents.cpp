@@ -173,6 +173,7 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     TangentIntegrator* tangents = nullptr;
     std::optional<Stretching> stretching;
     RunOrigin origin;
+    origin.start = request.start;
     origin.integrator = [&](System& system) {
         const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
         auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol, v);

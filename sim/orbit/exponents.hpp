@@ -8,16 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "sim/dynamics/initial.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 
 struct ExponentsRequest {
-    int count = 1;          // of the largest exponents; 0: the whole spectrum
-    double transient = 0;   // left out at the start [s], >= 0
-    double duration = 100;  // averaged over [s], > 0
-    int blocks = 20;        // for the error, >= 2
+    int count = 1;                           // of the largest exponents; 0: the whole spectrum
+    double transient = 0;                    // left out at the start [s], >= 0
+    double duration = 100;                   // averaged over [s], > 0
+    int blocks = 20;                         // for the error, >= 2
+    std::optional<InitialState> start = {};  // at t = 0, instead of the problem's
 };
 
 struct Exponents {

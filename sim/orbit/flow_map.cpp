@@ -12,9 +12,19 @@ void require_tangents(const Problem& problem) {
     if (const auto refusal = tangent_refusal(problem)) throw std::invalid_argument(*refusal);
 }
 
+InitialState motion_end(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
+    Request request;
+    request.end_time = duration;
+    request.turning_points = false;
+    RunOrigin origin;
+    origin.start = start;
+    Run run(problem, {&request, 1}, progress, nullptr, origin);
+    run.integrate();
+    return {run.state().y, run.state().phase, false};
+}
+
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
                  const Progress& progress) {
-    require_tangents(problem);
     Request request;
     request.end_time = duration;
     request.turning_points = false;
@@ -31,14 +41,14 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     };
     Run run(problem, {&request, 1}, progress, nullptr, origin);
     FlowMap map;
-    const std::vector<Result> results = run.integrate();
+    run.integrate();
     map.end.y = run.state().y;
     map.end.phase = run.state().phase;
     map.touches = tangents->touches();
     map.inertia_share = tangents->inertia_share();
-    for (const Impact& impact : results.front().impacts)
-        if (impact.t_end) map.releases.push_back(*impact.t_end);
+    map.holds = tangents->holds();
     map.steps = run.counters().steps;
+    map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
     if (derivative) {
         const Eigen::Index n = tangents->tangents().cols();
         const auto units = tangents->units().head(n).array();

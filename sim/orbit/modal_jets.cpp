@@ -7,7 +7,7 @@
 namespace beamcam::sim {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t entry(int i) { return static_cast<std::size_t>(i); }
 
 Jet power(const Jet& a, double n) {
     const double p = std::pow(a.v, n - 1);
@@ -56,21 +56,21 @@ ModalJets::ModalJets(System& system)
       offset_(system.offset()),
       baumgarte_rate_(system.baumgarte_rate()),
       damping_(model_.damping_matrix()),
-      q_(at(modes_)),
-      dq_(at(modes_)),
-      bq_(at(modes_)),
-      force_(at(n_)),
-      y_(at(modes_)),
-      y1_(at(modes_)),
-      y2_(at(modes_)),
-      y3_(at(modes_)),
-      h_(at(modes_ * modes_)),
-      shape_(at(modes_)),
-      slope_(at(modes_)),
-      curve_(at(modes_)),
-      shortening_(at(modes_)) {
-    c_.jn.resize(at(n_));
-    c_.jt.resize(at(n_));
+      q_(entry(modes_)),
+      dq_(entry(modes_)),
+      bq_(entry(modes_)),
+      force_(entry(n_)),
+      y_(entry(modes_)),
+      y1_(entry(modes_)),
+      y2_(entry(modes_)),
+      y3_(entry(modes_)),
+      h_(entry(modes_ * modes_)),
+      shape_(entry(modes_)),
+      slope_(entry(modes_)),
+      curve_(entry(modes_)),
+      shortening_(entry(modes_)) {
+    c_.jn.resize(entry(n_));
+    c_.jt.resize(entry(n_));
 }
 
 void ModalJets::set(const JetState& s) {
@@ -85,10 +85,10 @@ void ModalJets::set(const JetState& s) {
     cos_ = cos(angle_);
     turn_ = turn_rate_ = 0;
     for (int i = 0; i < modes_; ++i) {
-        q_[at(i)] = s.xi[at(1 + i)];
-        dq_[at(i)] = s.rate[at(1 + i)];
-        turn_ += model_.hub_row()[1 + i] * q_[at(i)];
-        turn_rate_ += model_.hub_row()[1 + i] * dq_[at(i)];
+        q_[entry(i)] = s.xi[entry(1 + i)];
+        dq_[entry(i)] = s.rate[entry(1 + i)];
+        turn_ += model_.hub_row()[1 + i] * q_[entry(i)];
+        turn_rate_ += model_.hub_row()[1 + i] * dq_[entry(i)];
     }
 }
 
@@ -100,26 +100,26 @@ void ModalJets::line(const JetState&, const Jet& x) {
     if (shortened) model_.shortening_matrix(x.v, h_.data());
     Jet v, v1, v2, dv, dv1, u, du, u1, u2, du1, bend;
     for (int i = 0; i < modes_; ++i) {
-        shape_[at(i)] = {y_[at(i)], x.d * y1_[at(i)]};
-        slope_[at(i)] = {y1_[at(i)], x.d * y2_[at(i)]};
-        curve_[at(i)] = {y2_[at(i)], x.d * y3_[at(i)]};
-        v += shape_[at(i)] * q_[at(i)];
-        v1 += slope_[at(i)] * q_[at(i)];
-        v2 += curve_[at(i)] * q_[at(i)];
-        dv += shape_[at(i)] * dq_[at(i)];
-        dv1 += slope_[at(i)] * dq_[at(i)];
+        shape_[entry(i)] = {y_[entry(i)], x.d * y1_[entry(i)]};
+        slope_[entry(i)] = {y1_[entry(i)], x.d * y2_[entry(i)]};
+        curve_[entry(i)] = {y2_[entry(i)], x.d * y3_[entry(i)]};
+        v += shape_[entry(i)] * q_[entry(i)];
+        v1 += slope_[entry(i)] * q_[entry(i)];
+        v2 += curve_[entry(i)] * q_[entry(i)];
+        dv += shape_[entry(i)] * dq_[entry(i)];
+        dv1 += slope_[entry(i)] * dq_[entry(i)];
     }
     if (shortened) {
         for (int i = 0; i < modes_; ++i) {
-            Jet hq{0, x.d * (y1_[at(i)] * v1.v)}, hdq{0, x.d * (y1_[at(i)] * dv1.v)};  // H q, H q̇; ∂H/∂x = φ′φ′ᵀ
+            Jet hq{0, x.d * (y1_[entry(i)] * v1.v)}, hdq{0, x.d * (y1_[entry(i)] * dv1.v)};  // H q, H q̇; ∂H/∂x = φ′φ′ᵀ
             for (int j = 0; j < modes_; ++j) {
-                hq += h_[at(j * modes_ + i)] * q_[at(j)];
-                hdq += h_[at(j * modes_ + i)] * dq_[at(j)];
+                hq += h_[entry(j * modes_ + i)] * q_[entry(j)];
+                hdq += h_[entry(j * modes_ + i)] * dq_[entry(j)];
             }
-            shortening_[at(i)] = hq;
-            u -= 0.5 * (q_[at(i)] * hq);
-            du -= dq_[at(i)] * hq;
-            bend -= dq_[at(i)] * hdq;
+            shortening_[entry(i)] = hq;
+            u -= 0.5 * (q_[entry(i)] * hq);
+            du -= dq_[entry(i)] * hq;
+            bend -= dq_[entry(i)] * hdq;
         }
         u -= 0.5 * a * (turn_ * turn_);
         du -= a * (turn_ * turn_rate_);
@@ -142,11 +142,11 @@ void ModalJets::line(const JetState&, const Jet& x) {
     c_.jt[0] = c_.r.x;
     for (int i = 0; i < modes_; ++i) {
         Jet ui;
-        if (shortened) ui = -shortening_[at(i)] - (a * model_.hub_row()[1 + i]) * turn_;
-        c_.jn[at(1 + i)] = ui * along.x + shape_[at(i)] * across.x;
-        c_.jt[at(1 + i)] = ui * along.y + shape_[at(i)] * across.y;
+        if (shortened) ui = -shortening_[entry(i)] - (a * model_.hub_row()[1 + i]) * turn_;
+        c_.jn[entry(1 + i)] = ui * along.x + shape_[entry(i)] * across.x;
+        c_.jt[entry(1 + i)] = ui * along.y + shape_[entry(i)] * across.y;
         // ∂χ/∂q takes the place of a curvature that nobody needs any more.
-        curve_[at(i)] = ((1 + u1) * slope_[at(i)] + (shortened ? v1 * v1 * slope_[at(i)] : Jet())) / speed2;
+        curve_[entry(i)] = ((1 + u1) * slope_[entry(i)] + (shortened ? v1 * v1 * slope_[entry(i)] : Jet())) / speed2;
     }
 }
 
@@ -169,9 +169,9 @@ void ModalJets::contact(const JetState& s, const ContactState& near) {
     c_.gap_rate = dot(c_.normal, w);
     c_.slip = dot(tangent, w) + offset_ * (cross(c_.r1, c_.v1) / dot(c_.r1, c_.r1)) - cam.speed * cam.radius;
     for (int i = 0; i < n_; ++i) {
-        const Jet2 column{c_.jn[at(i)], c_.jt[at(i)]};
-        c_.jn[at(i)] = dot(c_.normal, column);
-        c_.jt[at(i)] = dot(tangent, column) + offset_ * (i == 0 ? Jet(1) : curve_[at(i - 1)]);
+        const Jet2 column{c_.jn[entry(i)], c_.jt[entry(i)]};
+        c_.jn[entry(i)] = dot(c_.normal, column);
+        c_.jt[entry(i)] = dot(tangent, column) + offset_ * (i == 0 ? Jet(1) : curve_[entry(i - 1)]);
     }
 }
 
@@ -184,22 +184,23 @@ void ModalJets::assemble(const JetState& s) {
     for (int i = 0; i < modes_; ++i) {
         Jet bq, gq, damping;
         for (int j = 0; j < modes_; ++j) {
-            bq += B(i, j) * q_[at(j)];
-            if (shortened) gq += m_.G(i, j) * q_[at(j)];
+            bq += B(i, j) * q_[entry(j)];
+            if (shortened) gq += m_.G(i, j) * q_[entry(j)];
         }
         if (!damping_.empty())
-            for (int j = 0; j < modes_; ++j) damping += damping_[at(j * modes_ + i)] * dq_[at(j)];
-        coriolis += bq * dq_[at(i)];
-        qbq += bq * q_[at(i)];
-        wq += m_.W[i] * q_[at(i)];
-        qgq += gq * q_[at(i)];
-        force_[at(1 + i)] = spin_ * spin_ * bq + g * (sin_ * gq) - m_.K[i] * q_[at(i)] - (g * m_.W[i]) * cos_ - damping;
+            for (int j = 0; j < modes_; ++j) damping += damping_[entry(j * modes_ + i)] * dq_[entry(j)];
+        coriolis += bq * dq_[entry(i)];
+        qbq += bq * q_[entry(i)];
+        wq += m_.W[i] * q_[entry(i)];
+        qgq += gq * q_[entry(i)];
+        force_[entry(1 + i)] =
+            spin_ * spin_ * bq + g * (sin_ * gq) - m_.K[i] * q_[entry(i)] - (g * m_.W[i]) * cos_ - damping;
     }
     inertia_ = m_.J + qbq;
     force_[0] = -2 * (spin_ * coriolis) - g * (m_.S * cos_ - wq * sin_ - 0.5 * (cos_ * qgq));
     if (!drive_.has_torque()) return;
     const double torque = drive_.torque(s.t.v);
-    for (int i = 0; i < n_; ++i) force_[at(i)] += torque * model_.hub_row()[i];
+    for (int i = 0; i < n_; ++i) force_[entry(i)] += torque * model_.hub_row()[i];
 }
 
 // f ← M⁻¹f; a prescribed hub turns as it must if `driven`, else it is held.
@@ -209,14 +210,14 @@ void ModalJets::solve(const JetState& s, std::vector<Jet>& f, bool driven) const
         f[0] = driven ? drive_.motion(s.t.v).acceleration : 0;
     } else if (model_.coupled()) {
         Jet hub = f[0];
-        for (int i = 0; i < modes_; ++i) hub -= (m_.U[i] / mass) * f[at(1 + i)];
+        for (int i = 0; i < modes_; ++i) hub -= (m_.U[i] / mass) * f[entry(1 + i)];
         f[0] = hub / (inertia_ - m_.U.squaredNorm() / mass);
     } else {
         f[0] = f[0] / inertia_;
     }
     for (int i = 0; i < modes_; ++i) {
-        if (model_.coupled()) f[at(1 + i)] -= m_.U[i] * f[0];
-        f[at(1 + i)] = f[at(1 + i)] / mass;
+        if (model_.coupled()) f[entry(1 + i)] -= m_.U[i] * f[0];
+        f[entry(1 + i)] = f[entry(1 + i)] / mass;
     }
 }
 
@@ -236,14 +237,14 @@ Jet ModalJets::hold(const JetState& s, bool at_end) {
     const Jet2 disc_acceleration = Jet(-cam.speed * cam.speed) * arm;
     Jet gap_acceleration = dot(n_rate, w) + dot(c_.normal, convective + rate * c_.v1 - disc_acceleration);  // (S44)
     const Jet ratio = friction_.none() ? Jet() : friction_ratio();
-    std::vector<Jet> free = force_, answer(at(n_));
-    for (int i = 0; i < n_; ++i) answer[at(i)] = c_.jn[at(i)] + ratio * c_.jt[at(i)];
+    std::vector<Jet> free = force_, answer(entry(n_));
+    for (int i = 0; i < n_; ++i) answer[entry(i)] = c_.jn[entry(i)] + ratio * c_.jt[entry(i)];
     solve(s, free, true);
     solve(s, answer, false);
     Jet per_newton;
     for (int i = 0; i < n_; ++i) {
-        gap_acceleration += c_.jn[at(i)] * free[at(i)];
-        per_newton += c_.jn[at(i)] * answer[at(i)];
+        gap_acceleration += c_.jn[entry(i)] * free[entry(i)];
+        per_newton += c_.jn[entry(i)] * answer[entry(i)];
     }
     const Jet gap = c_.distance - (cam.radius + offset_);
     const Jet decay = baumgarte_rate_ * (2 * c_.gap_rate + baumgarte_rate_ * (gap - gap.v));
@@ -265,7 +266,8 @@ void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& 
             normal = normal_force(law_, depth, -c_.gap_rate, s.approach);
         }
         const Jet friction = friction_.none() ? Jet() : friction_ratio() * normal;
-        for (int i = 0; i < n_; ++i) force_[at(i)] += normal * c_.jn[at(i)] + friction * c_.jt[at(i)];  // (S28)
+        for (int i = 0; i < n_; ++i)
+            force_[entry(i)] += normal * c_.jn[entry(i)] + friction * c_.jt[entry(i)];  // (S28)
     }
     solve(s, force_, true);
     acceleration = force_;
@@ -285,9 +287,9 @@ void ModalJets::strike(JetState& s, const ContactState& near, double restitution
     std::vector<Jet> jump = c_.jn;
     solve(s, jump, false);
     Jet compliance;
-    for (int i = 0; i < n_; ++i) compliance += c_.jn[at(i)] * jump[at(i)];
+    for (int i = 0; i < n_; ++i) compliance += c_.jn[entry(i)] * jump[entry(i)];
     const Jet impulse = -(1 + restitution) * (c_.gap_rate / compliance);
-    for (int i = 0; i < n_; ++i) s.rate[at(i)] += impulse * jump[at(i)];
+    for (int i = 0; i < n_; ++i) s.rate[entry(i)] += impulse * jump[entry(i)];
 }
 
 double ModalJets::inertia_share(const double* q) const {

@@ -7,7 +7,7 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kRounding = 4e-16;  // of the time: steps that end so near an instant end there
+constexpr double kSameInstantRounding = 4e-16;  // of the time: steps that end so near an instant end there
 
 // Rows of tangents beside the coordinates and their rates: z and δ̇₋.
 constexpr int kMemories = 2;
@@ -177,7 +177,7 @@ const Segment& TangentIntegrator::arrive(const Segment& inner) {
     inner.value(inner.t1, end_.data());
     tangents_ = Eigen::Map<const Eigen::MatrixXd>(end_.data() + flow_->tangents_begin(), rows_, columns_);
     for (const double stop : {stop_, next_pause_})
-        if (std::fabs(t1 - stop) <= kRounding * std::fabs(t1)) t1 = stop;
+        if (std::fabs(t1 - stop) <= kSameInstantRounding * std::fabs(t1)) t1 = stop;
     counters = inner_->counters;
     return *this;
 }
@@ -242,7 +242,9 @@ void TangentIntegrator::strike(double t, const double* after, const Phase& was, 
         }
     }
     tangents_.bottomRows(kMemories).setZero();
-    if (is.held) keep_on_cam(t, after);
+    if (!is.held) return;
+    ++holds_;
+    keep_on_cam(t, after);
 }
 
 // Neighbours that rest on the cam have no gap and no gap rate either: rounding of (S71) at a vanishing speed is

@@ -48,6 +48,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     // Of the rows [1/s-like magnitudes: √J Ω, √m ω_i; √J, √m; …].
     const Eigen::VectorXd& units() const { return units_; }
     const std::vector<TangentTouch>& touches() const { return touches_; }
+    long holds() const { return holds_; }  // strikes that sustained contact followed
 
   private:
     class Flow;
@@ -76,6 +77,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     double next_pause_;
     std::function<double(double)> pause_;
     std::vector<TangentTouch> touches_;
+    long holds_ = 0;
 };
 
 }  // namespace beamcam::sim

@@ -115,6 +115,39 @@ TEST(FlowMapLaw, DeterminantOfConservativeContactIsOne) {
     EXPECT_NEAR(map.derivative.determinant(), 1, 1e-9);
 }
 
+// ∂(ξ, ∂T/∂ξ̇)/∂(ξ, ξ̇): the inertia is quadratic in ξ, so central differences are exact.
+Matrix canonical(Model& model, const std::vector<double>& y) {
+    const Eigen::Index n = model.size();
+    const Vector xi = Eigen::Map<const Vector>(y.data(), n), rate = Eigen::Map<const Vector>(y.data() + n, n);
+    Matrix c = Matrix::Identity(2 * n, 2 * n);
+    c.bottomRightCorner(n, n) = mass_from_energy(model, xi);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Vector step = 1e-2 * Vector::Unit(n, i);
+        c.block(n, i, n, 1) =
+            (mass_from_energy(model, xi + step) - mass_from_energy(model, xi - step)) * rate / (2 * 1e-2);
+    }
+    return c;
+}
+
+// With modes it is symplectic: with μ, 1/μ is an eigenvalue of the map in canonical coordinates, too.
+TEST(FlowMapLaw, ConservativeContactHasReciprocalPairs) {
+    Problem p = machine(ModelKind::first_order, 2, ContactModel::compliant);
+    p.contact.damping = DampingLaw::none;
+    const InitialState start = initial_state(p);
+    const FlowMap map = flow_map(p, start, 0.4, true);
+    ASSERT_GE(map.touches.size(), 1u);
+    ASSERT_FALSE(map.end.phase.touching);
+    System system(p);
+    const Matrix m =
+        canonical(system.model(), map.end.y) * map.derivative * canonical(system.model(), start.y).inverse();
+    const Eigen::VectorXcd eigenvalues = m.eigenvalues();
+    for (const std::complex<double> a : eigenvalues) {
+        double nearest = 1e9;
+        for (const std::complex<double> b : eigenvalues) nearest = std::min(nearest, std::abs(a * b - 1.0));
+        EXPECT_LT(nearest, 1e-9) << a;
+    }
+}
+
 // With modes the volume is that of (ξ, ∂T/∂ξ̇), and damping takes 2Σζω from its rate.                        (S73)
 TEST(FlowMapLaw, VolumeShrinksByImpactsAndDampingAlone) {
     for (const int modes : {1, 2})
