@@ -251,6 +251,7 @@ std::string exponents_json(const sim::Exponents& e) {
     return Json{{"units", {{"lambda", "1/s"}, {"error", "1/s"}, {"history", "1/s"}, {"time", "s"}}},
                 {"exponents", std::move(all)},
                 {"chaotic", e.chaotic()},
+                {"settled", e.settled},
                 {"transient", e.transient},
                 {"duration", e.duration},
                 {"impacts", e.impacts},

@@ -16,6 +16,9 @@ namespace {
 
 // Between two orthonormalizations no damped mode decays by more than this factor's logarithm.
 constexpr double kMostDecay = 5;
+constexpr double kUnsettled = 4;  // standard errors between the halves of an average
+constexpr double kUnsettledRounding =
+    1e-3;                              // of the whole: blocks of a periodic motion may agree better than they cut it
 constexpr double kNoRank = 1e-13;      // of a unit tangent: what is left of it is rounding
 constexpr double kGrazing = 0.01;      // of the typical approach speed: slower impacts are near grazing
 constexpr std::size_t kHistory = 400;  // points of the convergence, at most about
@@ -78,6 +81,7 @@ class Stretching {
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return sum_[a] > sum_[b]; });
         e.time = time_;
+        e.settled = halves_agree(order.front());
         for (const Eigen::Index i : order) {
             e.lambda.push_back(sum_[i] / duration);
             const Eigen::ArrayXd rates = block_.row(i).array() * (blocks / duration);
@@ -92,6 +96,15 @@ class Stretching {
     double instant(long k) const {
         return k <= settling_ ? transient_ * static_cast<double>(k) / static_cast<double>(settling_)
                               : transient_ + step_ * static_cast<double>(k - settling_);
+    }
+    // Of this exponent, within four standard errors.
+    bool halves_agree(Eigen::Index i) const {
+        const Eigen::Index half = block_.cols() / 2;
+        if (half < 2 || !std::isfinite(sum_[i])) return true;
+        const Eigen::ArrayXd first = block_.row(i).head(half), second = block_.row(i).tail(half);
+        const double squares = (first - first.mean()).square().sum() + (second - second.mean()).square().sum();
+        const double error = std::sqrt(squares / static_cast<double>(half * (half - 1)));
+        return std::fabs(first.mean() - second.mean()) <= kUnsettled * error + kUnsettledRounding * std::fabs(sum_[i]);
     }
     void advance() {
         ++done_;
@@ -190,6 +203,10 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     stretching->at(span.end_time, *tangents);
     stretching->results(e);
     judge_impacts(tangents->touches(), e);
+    if (!e.settled)
+        e.warnings.push_back(
+            "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "
+            "transient");
     if (!e.lambda.empty() && std::isinf(e.lambda.back()))
         e.warnings.push_back("sustained contact makes neighbouring motions one: such exponents are −∞");
     return e;

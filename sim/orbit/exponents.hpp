@@ -33,6 +33,9 @@ struct Exponents {
     // Impacts so slow that the linearized impact (S71) fails already for small differences: exponents are doubtful.
     long near_grazing = 0;
     double slowest_impact = 0;  // approach speed [m/s]; 0 without impacts
+    // The largest exponent of the first half of the average and that of the second differ by less than four times their
+    // errors: else the motion had not settled, and a transient may have looked chaotic.
+    bool settled = true;
     std::vector<std::string> warnings;
 
     // The largest exponent is positive beyond three times its error: neighbouring motions part exponentially.

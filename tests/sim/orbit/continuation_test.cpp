@@ -71,6 +71,22 @@ TEST(Continuation_, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
     }
 }
 
+// A cam of vanishing eccentricity is a table that shakes harmonically: Γ = Aω²/α with the amplitude A of θ_c.
+TEST(Continuation_, SmallEccentricityIsTheBouncingBall) {
+    PressedBeam b;
+    b.eccentricity = 2e-6;
+    const double amplitude = b.eccentricity / std::sqrt(b.distance * b.distance - b.radius * b.radius);
+    const auto speed = [&](double gamma) { return std::sqrt(b.alpha * gamma / amplitude); };
+    const auto branches =
+        branches_of([&](double w) { return b.problem(w); }, speed(1.2), {speed(1.0), speed(1.6), 0.02, 500, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
+    const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
+    ASSERT_TRUE(fold && doubling);
+    EXPECT_NEAR(fold->at.parameter, speed(1.0471975512), 1e-4 * fold->at.parameter);  // O(e/D)
+    EXPECT_NEAR(doubling->at.parameter, speed(1.5268237005), 1e-4 * doubling->at.parameter);
+}
+
 TEST(Continuation_, DoubledBranchesDoubleAgain) {
     const PressedBeam b;
     const auto branches = branches_of([&](double w) { return b.problem(w); }, 49, {48, 54, 0.02, 500, 2});

@@ -68,6 +68,15 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     EXPECT_NEAR(e.lambda[0], longer.lambda[0], 0.02 * longer.lambda[0]);
 }
 
+TEST(Exponents_, AnAverageThatBeginsBeforeTheMotionHasSettledIsTold) {
+    EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(45), {1, 20, 50, 10}).settled);
+    EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(54), {1, 20, 200, 20}).settled);
+    // Started on the unstable orbit beyond the period doubling, it takes some seconds to leave for the doubled one.
+    const Exponents leaving = lyapunov_exponents(PressedBeam().on_orbit(52), {1, 0, 25, 10});
+    EXPECT_FALSE(leaving.settled);
+    EXPECT_FALSE(leaving.warnings.empty());
+}
+
 TEST(Exponents_, SustainedContactForgetsAtOnce) {
     const Exponents e = lyapunov_exponents(PressedBeam().problem(5), {0, 20, 5, 5});
     EXPECT_EQ(e.lambda, std::vector<double>(2, -std::numeric_limits<double>::infinity()));
