@@ -19,7 +19,7 @@ IGNORED = {"build"}  # made by the build, never committed
 # A room may include itself and those before it, and so may the folders of a room. Tests may include everything.
 ROOMS = ["sim", "render", "output", "scenes"]
 FOLDERS = {
-    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "sweep", "studies"],
+    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
     "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
     "output": ["files", "data", "image", "film"],
     "scenes": ["scene", "figures", "format", "motions", "plan", "outputs", "sweep", "regression", "commands"],

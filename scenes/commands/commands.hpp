@@ -39,6 +39,8 @@ void add_accept(Grammar& grammar);
 void add_info(Grammar& grammar);
 void add_doctor(Grammar& grammar);
 void add_accuracy(Grammar& grammar);
+void add_lyapunov(Grammar& grammar);
+void add_orbits(Grammar& grammar);
 void add_figure(Grammar& grammar);
 void add_paper(Grammar& grammar);
 void add_completion(Grammar& grammar);
@@ -46,9 +48,10 @@ void add_manual(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,    add_render,   add_simulate, add_sweep, add_modes,  add_check,      add_plan,   add_cache,  add_concat,
-    add_init,   add_examples, add_schema,   add_keys,  add_hash,   add_diff,       add_test,   add_accept, add_info,
-    add_doctor, add_accuracy, add_figure,   add_paper, add_stress, add_completion, add_manual,
+    add_run,      add_render, add_simulate, add_sweep,  add_lyapunov,   add_orbits,   add_modes,
+    add_check,    add_plan,   add_cache,    add_concat, add_init,       add_examples, add_schema,
+    add_keys,     add_hash,   add_diff,     add_test,   add_accept,     add_info,     add_doctor,
+    add_accuracy, add_figure, add_paper,    add_stress, add_completion, add_manual,
 };
 
 // ---- options that several commands share --------------------------------------------------------

@@ -51,6 +51,14 @@ void Model::add_damping(double* f) const {
         for (int i = 0; i < modes_; ++i) f[1 + i] -= c[j * modes_ + i] * rate_[1 + j];
 }
 
+std::vector<double> Model::damping_matrix() const {
+    if (!damped_ || !damping_diagonal_) return damped_ ? *damping_ : std::vector<double>();
+    const auto n = static_cast<std::size_t>(modes_);
+    std::vector<double> full(n * n);
+    for (std::size_t i = 0; i < n; ++i) full[i * n + i] = (*damping_)[i];
+    return full;
+}
+
 double Model::damping_power() const {
     if (!damped_) return 0;
     double force[kMaxSize] = {};

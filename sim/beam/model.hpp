@@ -69,6 +69,9 @@ class Model {
     // Diagonal of C_d [kg/s], N numbers; null when undamped or when C_d is full.
     const double* diagonal_damping() const { return damped_ && damping_diagonal_ ? damping_->data() : nullptr; }
 
+    // C_d, N² numbers column by column; empty when undamped.
+    std::vector<double> damping_matrix() const;
+
     double hub_angle() const;                           // θ of the set state
     double hub_rate() const;                            // θ̇
     const double* hub_row() const { return hub_row_; }  // ∂θ/∂ξ

@@ -97,6 +97,7 @@ class System final : public Ode {
     void acceleration(double t, const double* y, double* acc);
 
     double highest_frequency() const { return highest_frequency_; }
+    double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
 
     bool inertia_lost() const { return inertia_lost_; }
     // Impulsive contact: how the contact point answers, and the jump of ξ̇ and of the ledger in y.

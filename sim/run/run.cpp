@@ -40,7 +40,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       dynamics_(problem),
       probe_(dynamics_),
       output_(dynamics_, requests, options.keep, options.observer, [this] { return statistics(); }),
-      integrator_(make_integrator(problem.solver, dynamics_)),
+      integrator_(options.integrator ? options.integrator(dynamics_) : make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
       transitions_(dynamics_, probe_.system, *integrator_, state_, output_),

@@ -1,6 +1,7 @@
 // One integration of a motion: steps, events, transitions, output. MODEL.md §§11–12.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@ struct RunOptions {
     TrajectoryWriter* keep = nullptr;     // takes the trajectory down
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
     const InitialState* start = nullptr;  // the state to begin with; else that of the problem
+    std::function<std::unique_ptr<Integrator>(System&)> integrator = {};  // else that of the problem's solver
 };
 
 class Run {
@@ -27,8 +29,8 @@ class Run {
 
     // Throws SolverError with what was reached by then.
     std::vector<Result> integrate();
-    const RunState& state() const { return state_; }
     Counters counters() const { return statistics().counters; }
+    const RunState& state() const { return state_; }
 
   private:
     void start();

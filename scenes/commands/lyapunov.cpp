@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "output/data/manifest.hpp"
+#include "output/data/records.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
+#include "render/plot/style.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/figures/exponents.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/motions/progress.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct LyapunovArguments {
+    Common common;
+    std::string scene;
+    std::vector<std::string> files;
+    std::optional<std::string> transient, duration;
+    std::string column = "elsevier", lang = "en";
+    int count = 0, blocks = 20;
+};
+
+std::string report(const sim::Exponents& e) {
+    std::string text = fmt::format("Lyapunov exponents over {:g} s after {:g} s; {} impacts, {} near grazing\n",
+                                   e.duration, e.transient, e.impacts, e.near_grazing);
+    double sum = 0;
+    for (std::size_t i = 0; i < e.lambda.size(); ++i) {
+        sum += e.lambda[i];
+        text += std::isfinite(e.lambda[i])
+                    ? fmt::format("  {:3}  {:16.9g} ± {:.2g} 1/s\n", i + 1, e.lambda[i], e.error[i])
+                    : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
+    }
+    text += fmt::format("  sum  {:16.12g}\n", sum);
+    text += e.chaotic() ? "the largest exponent is positive beyond its error: the motion is chaotic\n"
+                        : "the largest exponent is not positive beyond its error: no chaos is shown\n";
+    return text;
+}
+
+std::string diagram(const sim::Exponents& found, Scene scene, const LyapunovArguments& args, const std::string& file) {
+    FigureOutput how;
+    how.file = file;
+    how.figure = "exponents";
+    how.column = args.column;
+    how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+    scene.outputs.clear();
+    return figure_files(exponents_figure(found, scene.problem, how.lang), how, to_json(scene)).front().second;
+}
+
+int act(const LyapunovArguments& args) {
+    const Scene scene = read_or_refuse(args.scene, args.common);
+    if (const auto refusal = sim::exponents_refusal(scene.problem)) throw UsageError(*refusal);
+    sim::ExponentsRequest request;
+    request.count = args.count;
+    request.blocks = args.blocks;
+    request.transient = args.transient ? seconds_argument("--transient", *args.transient) : 20;
+    request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
+    if (!(request.duration > 0)) throw UsageError("--duration must be positive");
+    output::Manifest manifest(args.common.force);
+    for (const std::string& file : args.files) {
+        need_ending("-o", file, {".json", ".png", ".svg", ".pdf"});
+        if (file != "-") manifest.require_replaceable(file);
+    }
+    Progress progress(run_options(args.common, "").progress);
+    progress.begin("exponents", request.transient + request.duration, "s");
+    const sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, [&](double t) {
+        progress.reach(t);
+        return !output::interrupted();
+    });
+    progress.end();
+    const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
+    if (args.common.json)
+        print_json(output::exponents_json(found));
+    else if (!prints_data)
+        print_text(report(found));
+    for (const std::string& file : args.files) {
+        const bool json = file == "-" || file.ends_with(".json");
+        const std::string text = json ? output::exponents_json(found) : diagram(found, scene, args, file);
+        if (file == "-") {
+            print_data(text);
+            continue;
+        }
+        output::write_file(manifest.target(file), text);
+        say(args.common, "wrote " + file);
+    }
+    manifest.save();
+    for (const std::string& warning : found.warnings) say(args.common, "warning: " + warning);
+    return 0;
+}
+
+}  // namespace
+
+void add_lyapunov(Grammar& grammar) {
+    auto args = std::make_shared<LyapunovArguments>();
+    Command& app = grammar.command("lyapunov", "Lyapunov exponents of a motion: is it chaotic?");
+    add_scene(app, args->scene, args->common);
+    app.option("-o,--output", &args->files, "FILE",
+               "Also as .json, or their convergence as .png, .svg or .pdf (repeatable)");
+    app.option("--count", &args->count, "K", "Only the K largest (default: the whole spectrum)").range(1, 82);
+    app.option("--transient", &args->transient, "T", "Left out at the start (default: 20 s)");
+    app.option("--duration", &args->duration, "T", "Averaged over (default: 100 s)");
+    app.option("--blocks", &args->blocks, "N", "Blocks whose spread gives the error (default: 20)").range(2, 1000);
+    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column, for the diagram")
+        .one_of(render::figure::column_names());
+    app.option("--lang", &args->lang, "LANG", "Language of the diagram: en or zh").one_of({"en", "zh"});
+    app.option("--progress", &args->common.progress, "STYLE",
+               "Progress on standard error: auto, bar, plain, json or none");
+    app.flag("--json", args->common.json, "As JSON on standard output");
+    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,116 @@
+#include "scenes/figures/branches.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "render/base/error.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure, render::figure::Panel, render::figure::Series;
+
+constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
+
+// The impacts of a branch, one after the other, as far as they are stable or not; pieces meet at the change.
+void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
+    const std::size_t impacts = branch.points.front().orbit.impacts.size();
+    for (std::size_t k = 0; k < impacts; ++k)
+        for (std::size_t i = 0; i < branch.points.size(); ++i) {
+            const sim::BranchPoint& point = branch.points[i];
+            const bool before = i > 0 && branch.points[i - 1].orbit.stable() == stable;
+            const bool here = point.orbit.stable() == stable;
+            if ((!here && !before) || k >= point.orbit.impacts.size()) continue;
+            series.x.push_back(point.parameter);
+            series.y.push_back(point.orbit.impacts[k].approach);
+            if (here && i + 1 < branch.points.size()) continue;
+            series.x.push_back(kGapInCurve);
+            series.y.push_back(kGapInCurve);
+        }
+}
+
+const char* letters(sim::OrbitChange change) {
+    switch (change) {
+        case sim::OrbitChange::fold:
+            return "SN";
+        case sim::OrbitChange::period_doubling:
+            return "PD";
+        case sim::OrbitChange::neimark_sacker:
+            return "NS";
+        case sim::OrbitChange::branching:
+            return "BP";
+        case sim::OrbitChange::grazing:
+            return "G";
+        case sim::OrbitChange::release:
+            return "R";
+    }
+    return "";
+}
+
+// Labels that would cover each other are left out: points of one kind nearer than this share of the range.
+constexpr double kLabelRoom = 0.06;
+
+std::string add_special(const output::BranchTable& table, double range, Panel& panel) {
+    std::string text;
+    double labelled = kGapInCurve;
+    for (const sim::Branch& branch : table.branches)
+        for (const sim::SpecialPoint& point : branch.special) {
+            const double x = point.at.parameter;
+            const bool room = !(std::abs(x - labelled) < kLabelRoom * range);
+            if (room) labelled = x;
+            for (std::size_t k = 0; k < point.at.orbit.impacts.size(); ++k)
+                panel.marks.push_back({.x = x,
+                                       .y = point.at.orbit.impacts[k].approach,
+                                       .label = room && k == 0 ? letters(point.change) : "",
+                                       .look = static_cast<int>(point.change),
+                                       .hollow = true});
+            text += filled("{}{} {}", text.empty() ? "" : "; ", letters(point.change), number(x, 11));
+        }
+    return text;
+}
+
+}  // namespace
+
+Figure branches_figure(const output::BranchTable& table, const sim::Problem& problem, Lang lang) {
+    const bool en = lang == Lang::en;
+    Series stable, unstable;
+    stable.label = en ? "stable" : "稳定";
+    unstable.label = en ? "unstable" : "不稳定";
+    stable.solid = true;
+    unstable.look = 1;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const sim::Branch& branch : table.branches) {
+        if (branch.points.empty()) continue;
+        add_impacts(branch, true, stable);
+        add_impacts(branch, false, unstable);
+        for (const sim::BranchPoint& point : branch.points) {
+            low = std::min(low, point.parameter);
+            high = std::max(high, point.parameter);
+        }
+    }
+    Panel panel;
+    panel.name = "branches";
+    panel.x = {.label = table.key, .tight = true};
+    panel.y = {.label = en ? "approach speed of impacts / (m/s)" : "碰撞接近速度 / (m/s)"};
+    panel.legend = render::figure::Legend::box;
+    const std::string special = add_special(table, high - low, panel);
+    for (Series* series : {&stable, &unstable})
+        if (!series->x.empty()) panel.series.push_back(std::move(*series));
+    if (panel.series.empty())
+        throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
+    Figure figure;
+    figure.name = "branches";
+    figure.title = en ? "Branches of periodic orbits" : "周期轨道分支";
+    figure.panels.push_back(std::move(panel));
+    figure.caption =
+        filled(en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
+                    "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, R release. {}. {}"
+                  : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
+                    "Neimark–Sacker，BP 分支点，G 擦边，R 脱离。{}。{}",
+               table.key, special, facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+    figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
+                         : "截面映射上的 Newton 法，相对容差 10^{−12}。";
+    return figure;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,214 @@
+#include "sim/orbit/exponents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "sim/orbit/flow_map.hpp"
+#include "sim/run/run.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// Between two orthonormalizations no damped mode decays by more than this factor's logarithm.
+constexpr double kMostDecay = 5;
+constexpr double kUnsettled = 4;  // standard errors between the halves of an average
+constexpr double kUnsettledRounding =
+    1e-3;                              // of the whole: blocks of a periodic motion may agree better than they cut it
+constexpr double kNoRank = 1e-13;      // of a unit tangent: what is left of it is rounding
+constexpr double kGrazing = 0.01;      // of the typical approach speed: slower impacts are near grazing
+constexpr std::size_t kHistory = 400;  // points of the convergence, at most about
+
+// The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
+double longest_interval(const Problem& problem) {
+    double interval = 1;
+    if (problem.cam && problem.cam->speed != 0)
+        interval = std::min(interval, 2 * std::numbers::pi / std::fabs(problem.cam->speed));
+    System system(problem);
+    const auto& model = dynamic_cast<const ModalModel&>(system.model());
+    const std::vector<double> damping = model.damping_matrix();
+    const int modes = system.coordinates() - 1;
+    double trace = 0;
+    for (int i = 0; !damping.empty() && i < modes; ++i)
+        trace += damping[static_cast<std::size_t>(i * (modes + 1))] / model.mass();
+    return trace > 0 ? std::min(interval, kMostDecay / trace) : interval;
+}
+
+// Gram and Schmidt, twice for the rounding; returns the length that is left of each column. A column without any is
+// lost in sustained contact and stays zero.
+Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v) {
+    Eigen::VectorXd lengths = Eigen::VectorXd::Zero(v.cols());
+    for (Eigen::Index i = 0; i < v.cols(); ++i) {
+        const auto before = v.leftCols(i);
+        for (int repeat = 0; repeat < 2; ++repeat) v.col(i) -= before * (before.transpose() * v.col(i)).eval();
+        const double length = v.col(i).norm();
+        if (length > kNoRank) lengths[i] = length;
+        v.col(i) *= lengths[i] > 0 ? 1 / length : 0;
+    }
+    return lengths;
+}
+
+// Orthonormalizes the tangents and keeps the logarithms of how they stretched.                                (S74)
+class Stretching {
+  public:
+    Stretching(Eigen::Index count, int blocks, double transient, double duration, double interval)
+        : sum_(Eigen::VectorXd::Zero(count)), block_start_(sum_), transient_(transient) {
+        const auto pieces = [&](double span) { return std::max(1.0, std::ceil(span / interval)); };
+        per_block_ = static_cast<long>(pieces(duration / blocks));
+        step_ = duration / static_cast<double>(per_block_ * blocks);
+        settling_ = transient > 0 ? static_cast<long>(pieces(transient)) : 0;
+        block_ = Eigen::MatrixXd::Zero(count, blocks);
+        thinning_ = std::max<long>(1, per_block_ * blocks / static_cast<long>(kHistory));
+    }
+    double first_pause() const { return instant(1); }
+
+    double at(double t, TangentIntegrator& integrator) {
+        Eigen::MatrixXd v = integrator.tangents(true);
+        const Eigen::VectorXd left = orthonormalize(v);
+        integrator.set_tangents(v, true);
+        if (done_ >= settling_) sum_.array() += left.array().log();
+        if (t >= instant(done_ + 1)) advance();
+        return instant(done_ + 1);
+    }
+
+    void results(Exponents& e) const {
+        const double duration = e.duration, blocks = static_cast<double>(block_.cols());
+        std::vector<Eigen::Index> order(static_cast<std::size_t>(sum_.size()));
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return sum_[a] > sum_[b]; });
+        e.time = time_;
+        e.settled = halves_agree(order.front());
+        for (const Eigen::Index i : order) {
+            e.lambda.push_back(sum_[i] / duration);
+            const Eigen::ArrayXd rates = block_.row(i).array() * (blocks / duration);
+            const double spread = std::isfinite(sum_[i]) ? (rates - rates.mean()).square().sum() : 0;
+            e.error.push_back(std::sqrt(spread / (blocks * (blocks - 1))));
+            std::vector<double>& history = e.history.emplace_back();
+            for (const Eigen::VectorXd& row : history_) history.push_back(row[i]);
+        }
+    }
+
+  private:
+    double instant(long k) const {
+        return k <= settling_ ? transient_ * static_cast<double>(k) / static_cast<double>(settling_)
+                              : transient_ + step_ * static_cast<double>(k - settling_);
+    }
+    // Of this exponent, within four standard errors.
+    bool halves_agree(Eigen::Index i) const {
+        const Eigen::Index half = block_.cols() / 2;
+        if (half < 2 || !std::isfinite(sum_[i])) return true;
+        const Eigen::ArrayXd first = block_.row(i).head(half), second = block_.row(i).tail(half);
+        const double squares = (first - first.mean()).square().sum() + (second - second.mean()).square().sum();
+        const double error = std::sqrt(squares / static_cast<double>(half * (half - 1)));
+        return std::fabs(first.mean() - second.mean()) <= kUnsettled * error + kUnsettledRounding * std::fabs(sum_[i]);
+    }
+    void advance() {
+        ++done_;
+        const long k = done_ - settling_;
+        if (k <= 0) return;
+        if (k % thinning_ == 0 || k == per_block_ * block_.cols()) {
+            time_.push_back(step_ * static_cast<double>(k));
+            history_.push_back(sum_ / time_.back());
+        }
+        if (k % per_block_ != 0) return;
+        block_.col(k / per_block_ - 1) = sum_ - block_start_;
+        block_start_ = sum_;
+    }
+
+    Eigen::VectorXd sum_, block_start_;
+    Eigen::MatrixXd block_;
+    double transient_, step_;
+    long per_block_, settling_, thinning_, done_ = 0;
+    std::vector<double> time_;
+    std::vector<Eigen::VectorXd> history_;
+};
+
+// Orthonormal columns in no special direction.
+Eigen::MatrixXd first_tangents(Eigen::Index n, Eigen::Index count) {
+    Eigen::MatrixXd v(n, count);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < count; ++j)
+            v(i, j) = std::cos(1.0 + 3.7 * double(i) + 2.3 * double(i * j)) + (i == j);
+    orthonormalize(v);
+    return v;
+}
+
+// With a prescribed hub, neither its angle nor its speed can differ.
+Eigen::MatrixXd all_tangents(const Problem& problem, int coordinates, int count) {
+    const Eigen::Index n = coordinates;
+    if (!is_prescribed(problem.hub.drive)) {
+        const Eigen::Index most = 2 * n;
+        return first_tangents(most, count == 0 ? most : std::min<Eigen::Index>(count, most));
+    }
+    const Eigen::Index most = 2 * (n - 1), columns = count == 0 ? most : std::min<Eigen::Index>(count, most);
+    const Eigen::MatrixXd free = first_tangents(most, columns);
+    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(2 * n, columns);
+    v.middleRows(1, n - 1) = free.topRows(n - 1);
+    v.bottomRows(n - 1) = free.bottomRows(n - 1);
+    return v;
+}
+
+void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
+    double squares = 0, slowest = std::numeric_limits<double>::infinity();
+    for (const TangentTouch& touch : touches)
+        if (touch.t > e.transient) {
+            ++e.impacts;
+            squares += touch.approach * touch.approach;
+            slowest = std::min(slowest, touch.approach);
+        }
+    if (e.impacts == 0) return;
+    e.slowest_impact = slowest;
+    const double typical = std::sqrt(squares / static_cast<double>(e.impacts));
+    for (const TangentTouch& touch : touches)
+        if (touch.t > e.transient && touch.approach < kGrazing * typical) ++e.near_grazing;
+    if (e.near_grazing > 0)
+        e.warnings.push_back(fmt::format(
+            "{} of {} impacts are near grazing (slower than {:g} of the typical approach speed): the linearized impact "
+            "holds for small differences only, and the exponents are doubtful",
+            e.near_grazing, e.impacts, kGrazing));
+}
+
+}  // namespace
+
+std::optional<std::string> exponents_refusal(const Problem& problem) { return tangent_refusal(problem); }
+
+Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
+    require_tangents(problem);
+    if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)
+        throw std::invalid_argument("exponents need transient >= 0, duration > 0, blocks >= 2 and count >= 0");
+    Request span;
+    span.end_time = request.transient + request.duration;
+    span.turning_points = false;
+    TangentIntegrator* tangents = nullptr;
+    std::optional<Stretching> stretching;
+    RunOptions options{.start = request.start ? &*request.start : nullptr};
+    options.integrator = [&](System& system) {
+        const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
+        auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol, v);
+        stretching.emplace(v.cols(), request.blocks, request.transient, request.duration, longest_interval(problem));
+        tangents = made.get();
+        made->pause_at(stretching->first_pause(), [&](double t) { return stretching->at(t, *tangents); });
+        return made;
+    };
+    Exponents e;
+    e.transient = request.transient;
+    e.duration = request.duration;
+    Run run(problem, {&span, 1}, progress, options);
+    run.integrate();
+    stretching->at(span.end_time, *tangents);
+    stretching->results(e);
+    judge_impacts(tangents->touches(), e);
+    if (!e.settled)
+        e.warnings.push_back(
+            "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "
+            "transient");
+    if (!e.lambda.empty() && std::isinf(e.lambda.back()))
+        e.warnings.push_back("sustained contact makes neighbouring motions one: such exponents are −∞");
+    return e;
+}
+
+}  // namespace beamcam::sim

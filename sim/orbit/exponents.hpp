@@ -1,0 +1,52 @@
+// Lyapunov exponents of a motion: how fast neighbouring motions part, on average over a long run. MODEL.md §16a.
+//
+// The tangent flow runs along the motion through every impact (tangent_integrator.hpp) and is orthonormalized at equal
+// intervals (Benettin et al. 1980); the logarithms of its stretching, per time, are the exponents.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/dynamics/initial.hpp"
+#include "sim/problem/problem.hpp"
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::sim {
+
+struct ExponentsRequest {
+    int count = 1;                           // of the largest exponents; 0: the whole spectrum
+    double transient = 0;                    // left out at the start [s], >= 0
+    double duration = 100;                   // averaged over [s], > 0
+    int blocks = 20;                         // for the error, >= 2
+    std::optional<InitialState> start = {};  // at t = 0, instead of the problem's
+};
+
+struct Exponents {
+    std::vector<double> lambda;  // descending [1/s]; −∞ where the motion forgets at once (sustained contact)
+    std::vector<double> error;   // standard error from the spread of the blocks [1/s]
+    // Convergence: the exponents of the first part of the average, up to each of these times after the transient.
+    std::vector<double> time;                  // [s]
+    std::vector<std::vector<double>> history;  // [exponent][time] [1/s]
+    double transient = 0, duration = 0;        // [s], as done
+    long impacts = 0;                          // touches within the average
+    // Impacts so slow that the linearized impact (S71) fails already for small differences: exponents are doubtful.
+    long near_grazing = 0;
+    double slowest_impact = 0;  // approach speed [m/s]; 0 without impacts
+    // The largest exponent of the first half of the average and that of the second differ by less than four times their
+    // errors: else the motion had not settled, and a transient may have looked chaotic.
+    bool settled = true;
+    std::vector<std::string> warnings;
+
+    // The largest exponent is positive beyond three times its error: neighbouring motions part exponentially.
+    bool chaotic() const { return !lambda.empty() && lambda.front() > 3 * error.front(); }
+};
+
+// Nothing where the tangent flow of this problem is known; else why not, with the remedy: models beyond first order.
+std::optional<std::string> exponents_refusal(const Problem& problem);
+
+// `progress` sees the time from the start of the transient. Throws SolverError, Interrupted; std::invalid_argument
+// for what `exponents_refusal` refuses.
+Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
+
+}  // namespace beamcam::sim

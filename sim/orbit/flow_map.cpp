@@ -1,0 +1,58 @@
+#include "sim/orbit/flow_map.hpp"
+
+#include <stdexcept>
+
+#include "sim/run/run.hpp"
+
+namespace beamcam::sim {
+
+void require_tangents(const Problem& problem) {
+    for (const Finding& finding : validate(problem))
+        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
+    if (const auto refusal = tangent_refusal(problem)) throw std::invalid_argument(*refusal);
+}
+
+InitialState motion_end(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
+    Request request;
+    request.end_time = duration;
+    request.turning_points = false;
+    Run run(problem, {&request, 1}, progress, {.start = &start});
+    run.integrate();
+    return {run.state().y, run.state().phase, false};
+}
+
+FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
+                 const Progress& progress) {
+    Request request;
+    request.end_time = duration;
+    request.turning_points = false;
+    TangentIntegrator* tangents = nullptr;
+    RunOptions options{.start = &start};
+    options.integrator = [&](System& system) {
+        const Eigen::Index n = 2 * system.coordinates();
+        auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol,
+                                                        Eigen::MatrixXd::Identity(n, derivative ? n : 0));
+        made->pause_at(duration, {});
+        tangents = made.get();
+        return made;
+    };
+    Run run(problem, {&request, 1}, progress, options);
+    FlowMap map;
+    run.integrate();
+    map.end.y = run.state().y;
+    map.end.phase = run.state().phase;
+    map.touches = tangents->touches();
+    map.inertia_share = tangents->inertia_share();
+    map.holds = tangents->holds();
+    map.steps = run.counters().steps;
+    map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
+    if (derivative) {
+        const Eigen::Index n = tangents->tangents().cols();
+        const auto units = tangents->units().head(n).array();
+        map.derivative =
+            (tangents->tangents().topRows(n).array().colwise() / units).matrix() * units.matrix().asDiagonal();
+    }
+    return map;
+}
+
+}  // namespace beamcam::sim

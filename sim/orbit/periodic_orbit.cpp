@@ -1,0 +1,199 @@
+#include "sim/orbit/periodic_orbit.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/base/numerics.hpp"
+#include "sim/orbit/section_map.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kMostNewton = 16;
+// Residual over the orbit's size: converged, and what is still taken where rounding allows no better.
+constexpr double kOrbitConverged = 1e-11, kOrbitAcceptable = 1e-8;
+constexpr double kLongestStep = 0.5;  // of the size, in one iteration
+constexpr double kReturn = 0.2;       // of the size: a state so near after some turns is worth a Newton iteration
+
+constexpr int kThrows = 24;         // cam angles from which the beam is thrown
+constexpr double kRise = 0.4;       // of the period: the thrown beam is in flight there
+constexpr double kAboveCam = 1e-6;  // [rad] so that the throw does not begin with a touch
+constexpr double kSame = 1e-6;      // of the speed of an impact: orbits nearer than that are one
+
+// The cam angle some time later, in [−π, π].
+double section_after(const Problem& problem, double section, double t) {
+    return std::remainder(section - problem.cam->speed * t, 2 * std::numbers::pi);
+}
+
+// A motion and where it is: the cam angle, the state there.
+struct Place {
+    double section;
+    InitialState state;
+};
+
+// The middle of the longest flight within some turns; the place itself where there is none.
+Place longest_flight(const Problem& problem, const Place& from, double duration, const Progress& progress) {
+    const Problem here = at_section(problem, from.section);
+    const FlowMap seen = flow_map(here, from.state, duration, false, progress);
+    double longest = 0, middle = 0;
+    for (std::size_t i = 0; i + 1 < seen.touches.size(); ++i) {
+        const double flight = seen.touches[i + 1].t - seen.touches[i].t;
+        if (flight > longest) {
+            longest = flight;
+            middle = 0.5 * (seen.touches[i + 1].t + seen.touches[i].t);
+        }
+    }
+    if (longest == 0 && !seen.touches.empty()) middle = seen.touches.front().t + 0.5 * turn_time(problem);
+    if (middle == 0) return from;
+    const FlowMap there = flow_map(here, from.state, middle, false, progress);
+    return {section_after(problem, from.section, middle), there.end};
+}
+
+// Newton's method from y; nothing when it does not converge.
+std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
+    const Eigen::Index n = y.size();
+    double last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kMostNewton; ++i) {
+        const SectionMap::Value value = map.at(y, true);
+        const Eigen::VectorXd residual = value.image - y;
+        const double size = residual.norm();
+        if (!std::isfinite(size) || size > 1e3) return std::nullopt;
+        if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last)) return map.orbit(y, value);
+        last = size;
+        Eigen::VectorXd step = (value.derivative - Eigen::MatrixXd::Identity(n, n)).fullPivLu().solve(-residual);
+        if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();
+        y += step;
+    }
+    return std::nullopt;
+}
+
+std::optional<PeriodicOrbit> newton_quietly(const SectionMap& map, const Eigen::VectorXd& y) {
+    try {
+        return newton(map, y);
+    } catch (const SolverError&) {  // an iterate left the machine
+        return std::nullopt;
+    }
+}
+
+// Orbits through the place, the fewest turns first among those after which the motion comes back.
+std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& place, const OrbitRequest& request,
+                                           const Progress& progress) {
+    const Problem here = at_section(problem, place.section);
+    FlowMap map = flow_map(here, place.state, turn_time(problem), false, progress);
+    const Eigen::VectorXd units = map.units;
+    const auto n = units.size();
+    const auto y_of = [&](const InitialState& s) {
+        return Eigen::VectorXd(units.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(s.y.data(), n)));
+    };
+    const Eigen::VectorXd start = y_of(place.state);
+    const double size = size_of(problem, map, start);
+    const int first = request.turns > 0 ? request.turns : 1, last = request.turns > 0 ? first : request.most_turns;
+    for (int turns = 1; turns <= last; ++turns) {
+        if (turns > 1) map = flow_map(here, map.end, turn_time(problem), false, progress);
+        if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
+        const SectionMap section(problem, place.section, turns, place.state, units, size);
+        if (auto orbit = newton_quietly(section, start / size)) return orbit;
+    }
+    return std::nullopt;
+}
+
+// The straight beam thrown from the cam at this cam angle, so high that it would come down after `period`; where it is
+// some time before. Nothing where it cannot.
+std::optional<Place> thrown(const Problem& problem, double section, double period, std::size_t size,
+                            const Progress& progress) {
+    System at(at_section(problem, section));
+    const auto n = static_cast<std::size_t>(at.coordinates());
+    InitialState state{std::vector<double>(size, 0.0), Phase{}, false};
+    const auto contact = [&] { return at.contact(0, state.y.data(), true); };
+    const auto gap = [&](double angle) {
+        state.y[0] = angle;
+        return contact().gap;
+    };
+    const Vec2 centre = problem.cam->centre;
+    const double low = std::atan2(centre.y, centre.x), high = low + 0.5 * std::numbers::pi;
+    if (!(gap(low) < 0 && gap(high) > 0)) return std::nullopt;
+    state.y[0] = find_root(gap, low, high) + kAboveCam;
+    const double pull = -at.free_gap_acceleration(0, state.y.data());
+    const double still = contact().gap_rate;
+    state.y[n] = 1;
+    const double arm = contact().gap_rate - still;
+    if (!(pull > 0) || !(arm > 0)) return std::nullopt;
+    state.y[n] = 0.5 * pull * period / arm;
+    const FlowMap risen = flow_map(at.problem(), state, kRise * period, false, progress);
+    if (!risen.touches.empty() || risen.end.phase.touching) return std::nullopt;
+    return Place{section_after(problem, section, kRise * period), risen.end};
+}
+
+bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
+    return a.turns == b.turns && a.impacts.size() == b.impacts.size() &&
+           std::fabs(a.slowest_impact() - b.slowest_impact()) < kSame * a.slowest_impact();
+}
+
+// Where the motion chatters or is lost, orbits of few impacts may exist beside it.
+std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t size, const OrbitRequest& request,
+                                            const Progress& progress) {
+    std::vector<PeriodicOrbit> found;
+    OrbitRequest one = request;
+    one.turns = std::max(1, request.turns);
+    const double period = turn_time(problem) * one.turns;
+    for (int i = 0; i < kThrows; ++i) {
+        const double section = 2 * std::numbers::pi * i / kThrows;
+        try {
+            const auto place = thrown(problem, section, period, size, progress);
+            auto orbit = place ? orbit_through(problem, *place, one, progress) : std::nullopt;
+            if (!orbit || orbit->impacts.empty() || orbit->chatters) continue;
+            if (request.impacts && static_cast<int>(orbit->impacts.size()) != *request.impacts) continue;
+            if (std::none_of(found.begin(), found.end(), [&](const auto& o) { return same_orbit(o, *orbit); }))
+                found.push_back(std::move(*orbit));
+        } catch (const SolverError&) {  // thrown out of the machine
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stable() > b.stable(); });
+    return found;
+}
+
+}  // namespace
+
+double PeriodicOrbit::slowest_impact() const {
+    double slowest = impacts.empty() ? 0 : impacts.front().approach;
+    for (const OrbitImpact& impact : impacts) slowest = std::min(slowest, impact.approach);
+    return slowest;
+}
+
+std::optional<std::string> orbit_refusal(const Problem& problem) {
+    if (const auto refusal = tangent_refusal(problem)) return refusal;
+    if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
+    if (!std::holds_alternative<FreeDrive>(problem.hub.drive) &&
+        !std::holds_alternative<ConstantTorque>(problem.hub.drive))
+        return "periodic orbits need a hub.drive that does not depend on time: free, or a constant torque";
+    return std::nullopt;
+}
+
+std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest& request, const Progress& progress) {
+    require_tangents(given);
+    if (const auto refusal = orbit_refusal(given)) throw std::invalid_argument(*refusal);
+    const Problem problem = for_orbits(given);
+    const double turn = turn_time(problem);
+    const InitialState begin = initial_state(problem);
+    std::vector<PeriodicOrbit> found;
+    try {
+        Problem loose = problem;  // where the search begins need not be exact
+        loose.solver = given.solver;
+        Place place{problem.cam->phase, begin};
+        if (request.transient > 0)
+            place.state = motion_end(loose, begin, turn * std::ceil(request.transient / turn), progress);
+        place = longest_flight(problem, place, (1 + std::max(request.turns, request.most_turns)) * turn, progress);
+        auto orbit = orbit_through(problem, place, request, progress);
+        if (orbit && (!request.impacts || static_cast<int>(orbit->impacts.size()) == *request.impacts))
+            found.push_back(std::move(*orbit));
+    } catch (const SolverError&) {  // the motion leaves the machine; orbits may exist all the same
+    }
+    if (!found.empty() && !found.front().chatters) return found;
+    for (PeriodicOrbit& orbit : orbits_by_throws(problem, begin.y.size(), request, progress))
+        found.push_back(std::move(orbit));
+    return found;
+}
+
+}  // namespace beamcam::sim

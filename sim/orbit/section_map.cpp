@@ -1,0 +1,87 @@
+#include "sim/orbit/section_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;
+constexpr int kMostMapSteps = 3'000'000;  // of one section map: more is stiff contact, which this method is not for
+
+}  // namespace
+
+double turn_time(const Problem& problem) { return 2 * std::numbers::pi / std::fabs(problem.cam->speed); }
+
+Problem at_section(Problem problem, double section) {
+    problem.cam->phase = section;
+    return problem;
+}
+
+double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd& y) {
+    double fastest = 0;
+    for (const TangentTouch& touch : map.touches) fastest = std::max(fastest, touch.approach);
+    return fastest > 0 ? fastest * std::sqrt(problem.beam.line_density() * problem.beam.length) : y.norm();
+}
+
+Problem for_orbits(Problem problem) {
+    problem.solver.method = Method::rk8;
+    problem.solver.rtol = std::min(problem.solver.rtol, kTightRtol);
+    problem.solver.atol = std::min(problem.solver.atol, kTightAtol);
+    problem.solver.max_steps = std::min(problem.solver.max_steps, kMostMapSteps);
+    return problem;
+}
+
+SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit) {
+    const FlowMap map = flow_map(at_section(problem, orbit.section), orbit.start, orbit.period, false);
+    const Eigen::Map<const Eigen::VectorXd> state(orbit.start.y.data(), map.units.size());
+    return {map.units, size_of(problem, map, map.units.cwiseProduct(state))};
+}
+
+SectionMap::SectionMap(const Problem& problem, double section, int turns, InitialState like, Eigen::VectorXd units,
+                       double size)
+    : problem_(at_section(problem, section)),
+      section_(section),
+      period_(turns * turn_time(problem)),
+      size_(size),
+      turns_(turns),
+      like_(std::move(like)),
+      units_(std::move(units)) {
+    std::fill(like_.y.begin() + units_.size(), like_.y.end(), 0.0);
+}
+
+Eigen::VectorXd SectionMap::scaled(const InitialState& state) const {
+    return units_.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(state.y.data(), units_.size())) / size_;
+}
+
+SectionMap::Value SectionMap::at(const Eigen::VectorXd& y, bool derivative) const {
+    InitialState start = like_;
+    Eigen::Map<Eigen::VectorXd>(start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
+    Value value;
+    value.map = flow_map(problem_, start, period_, derivative);
+    value.image = scaled(value.map.end);
+    if (derivative) value.derivative = units_.asDiagonal() * value.map.derivative * units_.cwiseInverse().asDiagonal();
+    return value;
+}
+
+PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) const {
+    PeriodicOrbit orbit;
+    orbit.section = section_;
+    orbit.start = like_;
+    Eigen::Map<Eigen::VectorXd>(orbit.start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
+    orbit.turns = turns_;
+    orbit.period = period_;
+    orbit.chatters = value.map.holds > 0;
+    orbit.residual = (value.image - y).norm();
+    for (const TangentTouch& touch : value.map.touches)
+        orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach});
+    const Eigen::VectorXcd multipliers = value.derivative.eigenvalues();
+    orbit.multipliers.assign(multipliers.begin(), multipliers.end());
+    std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),
+                     [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+    return orbit;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,68 @@
+// beamcam lyapunov and beamcam orbits as scripts see them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using ::testing::StartsWith;
+
+// A torque presses a rigid beam on a fast cam: closed forms in MODEL.md (S78).
+constexpr const char* kPressed = R"({
+  "gravity": 0, "beam": {"model": "rigid"}, "hub": {"drive": {"type": "torque", "value": -1.009406}},
+  "cam": {"speed": 45, "eccentricity": "2 mm", "phase": 0.5},
+  "contact": {"model": "restitution", "restitution": 0.5}, "initial": {"angle": 0.46}})";
+
+TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(
+        folder, "$BEAMCAM orbits s.json --over cam.speed=41:52 --impacts 1 --transient 0 -q -o b.csv -o b.pdf --json");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const nlohmann::json table = nlohmann::json::parse(done.out);
+    EXPECT_EQ(table["key"], "cam.speed");
+    ASSERT_EQ(table["branches"].size(), 1u);
+    double fold = 0, doubling = 0;
+    for (const auto& point : table["branches"][0]["special"]) {
+        if (point["change"] == "fold") fold = point["value"];
+        if (point["change"] == "period doubling") doubling = point["value"];
+    }
+    EXPECT_NEAR(fold, 42.23567502238, 1e-4);  // as far as the torque has digits
+    EXPECT_NEAR(doubling, 50.86884987331, 1e-4);
+    EXPECT_THAT(testing::slurp((folder / "b.csv").string()), StartsWith("branch,point,value,turns,stable,"));
+    EXPECT_THAT(testing::slurp((folder / "b.pdf").string()), StartsWith("%PDF"));
+}
+
+TEST(OrbitsCommand, TellsWhatItCannotDo) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json -o b.pdf").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.speed").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.sped=1:2").code, 3);
+    EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set cam.speed=0").err, HasSubstr("cam.speed"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json --set beam.model=exact").err, HasSubstr("first-order"));
+}
+
+TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const std::string command = "$BEAMCAM lyapunov s.json -q --transient 1 --duration '5 s' ";
+    const Finished json = shell(folder, command + "--set contact.restitution=0.9 --json -o l.svg");
+    ASSERT_EQ(json.code, 0) << json.err;
+    const nlohmann::json found = nlohmann::json::parse(json.out);
+    EXPECT_EQ(found["exponents"].size(), 2u);
+    EXPECT_EQ(found["exponents"][0]["history"].size(), found["time"].size());
+    EXPECT_THAT(testing::slurp((folder / "l.svg").string()), HasSubstr("<svg"));
+    EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

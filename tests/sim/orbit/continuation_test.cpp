@@ -1,0 +1,166 @@
+// Periodic orbits and their branches against closed forms: folds and period doublings of a beam that a torque presses
+// on the cam, reciprocal multipliers, the limit of stiff contact.
+#include "sim/orbit/continuation.hpp"
+
+#include "tests/sim/orbit/pressed_beam.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+constexpr int kOneImpact = 1;
+
+const SpecialPoint* first_of(const Branch& branch, OrbitChange change) {
+    for (const SpecialPoint& point : branch.special)
+        if (point.change == change) return &point;
+    return nullptr;
+}
+
+// Where θ̈_c(t*) takes this value while θ̇_c(t*) = (αT/2)(1 − r)/(1 + r): fold at 0, period doubling at
+// −2α(1 + r²)/(1 + r)².
+double closed_form(const PressedBeam& b, double acceleration, double low, double high) {
+    const auto excess = [&](double speed) { return speed * speed * b.curve(b.strike_phase(speed)) - acceleration; };
+    return find_root(excess, low, high);
+}
+
+std::vector<Branch> branches_of(const Family& family, double from, const ContinuationRequest& request) {
+    OrbitRequest search;
+    search.transient = 0;
+    search.impacts = kOneImpact;
+    const std::vector<PeriodicOrbit> found = find_orbits(family(from), search);
+    if (found.empty()) return {};
+    return continue_orbit(family, {from, found.front()}, request);
+}
+
+TEST(Continuation_, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers) {
+    const PressedBeam b;
+    const auto branches = branches_of([&](double w) { return b.problem(w); }, 46, {41, 53, 0.02, 500, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
+    const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
+    ASSERT_TRUE(fold && doubling);
+    EXPECT_NEAR(fold->at.parameter, 42.23567502238, 1e-8);
+    EXPECT_NEAR(doubling->at.parameter, 50.86884987331, 1e-8);
+    // Traces 1 + r² and −(1 + r²), determinant r².
+    EXPECT_NEAR(std::abs(fold->at.orbit.multipliers[0] - 1.0), 0, 1e-5);  // a double root of the trace
+    EXPECT_NEAR(std::abs(doubling->at.orbit.multipliers[0] + 1.0), 0, 1e-9);
+    EXPECT_NEAR(std::abs(doubling->at.orbit.multipliers[1] + 0.25), 0, 1e-9);
+}
+
+TEST(Continuation_, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
+    struct Case {
+        PressedBeam beam;
+        double from;  // [rad/s], between fold and period doubling
+    };
+    for (const Case& c : {Case{{0.001, 0.7, 10, 0.3, 0.1}, 45}, Case{{0.004, 0.3, 20, 0.25, 0.08}, 47}}) {
+        const PressedBeam& b = c.beam;
+        const double r = b.restitution;
+        const double pd = closed_form(b, -2 * b.alpha * (1 + r * r) / ((1 + r) * (1 + r)), c.from, 1.6 * c.from);
+        const auto branches =
+            branches_of([&](double w) { return b.problem(w); }, c.from, {0.7 * c.from, 1.05 * pd, 0.02, 500, 0});
+        ASSERT_EQ(branches.size(), 1u);
+        const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
+        const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
+        ASSERT_TRUE(fold && doubling);
+        // At the fold the cam is fastest: θ̈_c = 0.
+        const double strike = fold->at.orbit.impacts.front().cam_angle;
+        EXPECT_NEAR(b.curve(strike), 0, 1e-6 * b.eccentricity);
+        const double needed = b.alpha * std::numbers::pi * (1 - r) / (1 + r);  // ω θ̇_c
+        EXPECT_NEAR(fold->at.parameter, std::sqrt(needed / -b.slope(strike)), 1e-8 * fold->at.parameter);
+        EXPECT_NEAR(doubling->at.parameter, pd, 1e-8 * pd);
+    }
+}
+
+// A cam of vanishing eccentricity is a table that shakes harmonically: Γ = Aω²/α with the amplitude A of θ_c.
+TEST(Continuation_, SmallEccentricityIsTheBouncingBall) {
+    PressedBeam b;
+    b.eccentricity = 2e-6;
+    const double amplitude = b.eccentricity / std::sqrt(b.distance * b.distance - b.radius * b.radius);
+    const auto speed = [&](double gamma) { return std::sqrt(b.alpha * gamma / amplitude); };
+    const auto branches =
+        branches_of([&](double w) { return b.problem(w); }, speed(1.2), {speed(1.0), speed(1.6), 0.02, 500, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
+    const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
+    ASSERT_TRUE(fold && doubling);
+    EXPECT_NEAR(fold->at.parameter, speed(1.0471975512), 1e-4 * fold->at.parameter);  // O(e/D)
+    EXPECT_NEAR(doubling->at.parameter, speed(1.5268237005), 1e-4 * doubling->at.parameter);
+}
+
+TEST(Continuation_, DoubledBranchesDoubleAgain) {
+    const PressedBeam b;
+    const auto branches = branches_of([&](double w) { return b.problem(w); }, 49, {48, 54, 0.02, 500, 2});
+    ASSERT_EQ(branches.size(), 3u);
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+        const PeriodicOrbit& orbit = branches[i].points.front().orbit;
+        EXPECT_EQ(orbit.turns, 1 << i);
+        EXPECT_EQ(orbit.impacts.size(), std::size_t(1) << i);
+    }
+    const double first = first_of(branches[0], OrbitChange::period_doubling)->at.parameter;
+    const double second = first_of(branches[1], OrbitChange::period_doubling)->at.parameter;
+    const double third = first_of(branches[2], OrbitChange::period_doubling)->at.parameter;
+    EXPECT_NEAR((second - first) / (third - second), 4.669, 0.3);  // on the way to Feigenbaum's number
+}
+
+// A map that keeps the area: with μ, 1/μ is a multiplier, too.
+TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
+    PressedBeam b;
+    b.restitution = 1;
+    Problem p = b.on_orbit(48);
+    p.contact.model = ContactModel::compliant;
+    p.contact.damping = DampingLaw::none;
+    p.contact.stiffness = 1e7;
+    OrbitRequest search;
+    search.transient = 0;
+    search.turns = 1;
+    const auto found = find_orbits(p, search);
+    ASSERT_FALSE(found.empty());
+    const auto& multipliers = found.front().multipliers;
+    EXPECT_LT(std::abs(multipliers[0] * multipliers[1] - 1.0), 1e-9);
+}
+
+// The period doubling of ever stiffer contact tends to Newton's like K^(−2/5).
+TEST(LongContinuation, StiffContactTendsToNewtonsPeriodDoubling) {
+    const PressedBeam b;
+    const auto doubling = [&](double stiffness) {
+        const Family family = [&, stiffness](double w) {
+            Problem p = b.on_orbit(w);
+            p.contact.model = ContactModel::compliant;
+            p.contact.stiffness = stiffness;
+            p.contact.damping = DampingLaw::zhang_sharf;
+            return p;
+        };
+        const auto branches = branches_of(family, 48, {47, 53, 0.1, 100, 0});
+        const SpecialPoint* found = branches.empty() ? nullptr : first_of(branches[0], OrbitChange::period_doubling);
+        return found ? found->at.parameter : std::numeric_limits<double>::quiet_NaN();
+    };
+    const double softer = doubling(1e9), stiffer = doubling(1e10);
+    const double limit = stiffer + (stiffer - softer) / (std::pow(10, 0.4) - 1);
+    EXPECT_NEAR(limit, 50.86884987331, 1e-3 * 50.87);
+    EXPECT_GT(std::fabs(stiffer - 50.86884987331), 10 * std::fabs(limit - 50.86884987331));
+}
+
+TEST(Orbits_, ChatteringAttractorComesWithTheOrbitsBesideIt) {
+    const auto found = find_orbits(PressedBeam().problem(45), {});
+    ASSERT_GE(found.size(), 2u);
+    EXPECT_TRUE(found[0].chatters);
+    EXPECT_EQ(std::abs(found[0].multipliers[0]), 0);
+    EXPECT_FALSE(found[1].chatters);
+    EXPECT_TRUE(found[1].stable());
+    EXPECT_EQ(found[1].impacts.size(), 1u);
+    EXPECT_LT(found[1].residual, 1e-10);
+}
+
+TEST(Orbits_, WhatHasNoPeriodIsRefusedInWords) {
+    Problem p;
+    p.cam->speed = 0;
+    EXPECT_TRUE(orbit_refusal(p).has_value());
+    p.cam->speed = 1;
+    EXPECT_FALSE(orbit_refusal(p).has_value());
+    p.hub.drive = HarmonicTorque{1, 1, 0};
+    EXPECT_TRUE(orbit_refusal(p).has_value());
+    EXPECT_THROW(find_orbits(p, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

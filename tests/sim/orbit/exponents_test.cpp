@@ -1,0 +1,108 @@
+// Lyapunov exponents: sum rules, a settled and a chaotic motion, near-grazing impacts.
+#include "sim/orbit/exponents.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <numeric>
+
+#include "tests/sim/orbit/pressed_beam.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+double sum(const Exponents& e) { return std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0); }
+
+TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
+    // Between fold and period doubling: a stable orbit of one impact a turn.
+    const Exponents e = lyapunov_exponents(PressedBeam().on_orbit(45), {0, 20, 50, 10});
+    ASSERT_EQ(e.lambda.size(), 2u);
+    EXPECT_LT(e.lambda[0], 0);
+    EXPECT_FALSE(e.chaotic());
+    const double impacts_per_second = 45 / (2 * std::numbers::pi);
+    EXPECT_NEAR(sum(e), 2 * impacts_per_second * std::log(0.5), 0.05);  // one impact more or less in 50 s
+}
+
+// Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of this very run.                                            (S73)
+TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
+    struct Case {
+        int modes;
+        double ratio, restitution, duration;
+    };
+    for (const Case& c : {Case{0, 0, 0.5, 20},
+                          {1, 0, 0.9, 0.3},
+                          {1, 2e-3, 0.9, 0.3},
+                          {2, 0, 0.9, 0.2},
+                          {2, 2e-3, 0.9, 0.2},
+                          {8, 0, 0.98, 0.2},
+                          {8, 1e-3, 0.98, 0.2}}) {
+        Problem p = PressedBeam().on_orbit(54);
+        if (c.modes > 0) {  // falling under gravity: pressed, it would chatter and rest on the cam
+            p = Problem{};
+            p.beam.modes = c.modes;
+            p.beam.damping_ratio = {c.ratio};
+            p.cam->speed = 12;
+            p.hub.radius = 0.05;
+            p.contact.model = ContactModel::restitution;
+            p.initial.angle = 0.6;
+        }
+        p.contact.restitution = c.restitution;
+        p.solver.rtol = 1e-12;
+        p.solver.atol = 1e-15;
+        const Exponents e = lyapunov_exponents(p, {0, 0, c.duration, 2});
+        double expected = 2 * static_cast<double>(e.impacts) / c.duration * std::log(c.restitution);
+        System system(p);
+        for (int i = 0; i < c.modes; ++i) expected -= 2 * c.ratio * system.model().frequency(i);
+        EXPECT_GT(e.impacts, 2);
+        ASSERT_TRUE(std::isfinite(sum(e))) << c.modes;
+        EXPECT_NEAR(sum(e), expected, 1e-9 * std::fabs(expected)) << c.modes << " modes, ratio " << c.ratio;
+    }
+}
+
+TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
+    const Problem p = PressedBeam().on_orbit(54);
+    const Exponents e = lyapunov_exponents(p, {1, 20, 400, 20});
+    EXPECT_TRUE(e.chaotic()) << e.lambda[0] << " ± " << e.error[0];
+    const Exponents longer = lyapunov_exponents(p, {1, 20, 4000, 20});
+    EXPECT_NEAR(e.lambda[0], longer.lambda[0], 0.02 * longer.lambda[0]);
+}
+
+TEST(Exponents_, AnAverageThatBeginsBeforeTheMotionHasSettledIsTold) {
+    EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(45), {1, 20, 50, 10}).settled);
+    EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(54), {1, 20, 200, 20}).settled);
+    // Started on the unstable orbit beyond the period doubling, it takes some seconds to leave for the doubled one.
+    const Exponents leaving = lyapunov_exponents(PressedBeam().on_orbit(52), {1, 0, 25, 10});
+    EXPECT_FALSE(leaving.settled);
+    EXPECT_FALSE(leaving.warnings.empty());
+}
+
+TEST(Exponents_, SustainedContactForgetsAtOnce) {
+    const Exponents e = lyapunov_exponents(PressedBeam().problem(5), {0, 20, 5, 5});
+    EXPECT_EQ(e.lambda, std::vector<double>(2, -std::numeric_limits<double>::infinity()));
+    EXPECT_FALSE(e.chaotic());
+    EXPECT_FALSE(e.warnings.empty());
+}
+
+// The slowest of the impacts at the end of a chatter are no base for a linearization.
+TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
+    const Exponents regular = lyapunov_exponents(PressedBeam().on_orbit(45), {1, 5, 20, 5});
+    EXPECT_EQ(regular.near_grazing, 0);
+    EXPECT_TRUE(regular.warnings.empty());
+    const Exponents chattering = lyapunov_exponents(PressedBeam().on_orbit(60), {1, 0, 50, 5});
+    EXPECT_GT(chattering.near_grazing, 0);
+    EXPECT_THAT(chattering.warnings.front(), ::testing::HasSubstr("near grazing"));
+}
+
+TEST(Exponents_, ModelsWithoutTangentFlowAreRefusedInWords) {
+    for (const ModelKind kind : {ModelKind::paper, ModelKind::second_order, ModelKind::exact}) {
+        Problem p;
+        p.beam.model = kind;
+        EXPECT_TRUE(exponents_refusal(p).has_value());
+        EXPECT_THROW(lyapunov_exponents(p, {}), std::invalid_argument);
+    }
+    EXPECT_FALSE(exponents_refusal(Problem{}).has_value());
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing

@@ -1,0 +1,172 @@
+// The tangent flow against differences of the motion itself, and the laws of volume and of reciprocal pairs.
+#include "sim/orbit/flow_map.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+// The default machine with a fast cam.
+Problem machine(ModelKind model, int modes, ContactModel contact) {
+    Problem p;
+    p.beam.model = model;
+    if (modes > 0) p.beam.modes = modes;
+    p.cam->speed = 12;
+    p.contact.model = contact;
+    p.contact.stiffness = 1e6;
+    p.contact.restitution = 0.9;
+    p.initial.angle = 0.6;
+    p.solver.method = Method::rk8;
+    p.solver.rtol = 1e-13;
+    p.solver.atol = 1e-16;
+    return p;
+}
+
+InitialState shifted(const InitialState& start, Eigen::Index i, double h) {
+    InitialState moved = start;
+    moved.y[static_cast<std::size_t>(i)] += h;
+    return moved;
+}
+
+Vector end_state(const Problem& p, const InitialState& start, double duration) {
+    const FlowMap map = flow_map(p, start, duration, false);
+    const auto n = static_cast<Eigen::Index>(2 * System(p).coordinates());
+    return Eigen::Map<const Vector>(map.end.y.data(), n);
+}
+
+struct MapCase {
+    const char* name;
+    Problem problem;
+    double duration;
+    double tolerance = 2e-7;  // of a row: rounding of the motion over h
+};
+
+class FlowMap_ : public ::testing::TestWithParam<MapCase> {};
+
+// Each column, measured in the sizes of rows: a difference in one coordinate against the exact tangent.
+TEST_P(FlowMap_, DerivativeIsTheLimitOfDifferences) {
+    const auto& [name, p, duration, tolerance] = GetParam();
+    const InitialState start = initial_state(p);
+    const FlowMap map = flow_map(p, start, duration, true);
+    ASSERT_GE(map.touches.size(), 1u);
+    const Matrix& exact = map.derivative;
+    for (Eigen::Index i = 0; i < exact.cols(); ++i) {
+        const double h = 1e-6 / std::max(1.0, exact.col(i).head(exact.rows() / 2).cwiseAbs().maxCoeff());
+        const Vector column = slope_at_zero([&](double s) { return end_state(p, shifted(start, i, s), duration); }, h);
+        const Vector rows = exact.rowwise().norm();
+        for (Eigen::Index r = 0; r < exact.rows(); ++r)
+            EXPECT_NEAR(column[r], exact(r, i), tolerance * rows[r]) << "row " << r << ", column " << i;
+    }
+}
+
+std::vector<MapCase> map_cases() {
+    std::vector<MapCase> all;
+    const auto add = [&](const char* name, Problem p, double duration) -> Problem& {
+        all.push_back({name, std::move(p), duration});
+        return all.back().problem;
+    };
+    using enum ModelKind;
+    using enum ContactModel;
+    add("RigidNewton", machine(rigid, 2, restitution), 2);
+    add("RigidTorque", machine(rigid, 2, restitution), 1).hub.drive = ConstantTorque{-0.5};
+    add("TwoModesNewton", machine(first_order, 2, restitution), 0.2);
+    add("ThreeModesDampedNewton", machine(first_order, 3, restitution), 0.2).beam.damping_ratio = {0.02};
+    add("ZerothOrderNewton", machine(zeroth_order, 2, restitution), 0.2);
+    Problem& radius = add("HubRadiusNewton", machine(first_order, 2, restitution), 0.32);
+    radius.hub.radius = 0.1;
+    radius.hub.inertia = 0.02;
+    Problem& clamped = add("CantileverNewton", machine(first_order, 2, restitution), 0.32);
+    clamped.beam.basis = Basis::cantilever;
+    clamped.hub.inertia = 0.05;
+    clamped.beam.damping_ratio = {0.02};
+    add("RigidCompliant", machine(rigid, 2, compliant), 2);
+    add("RigidConservative", machine(rigid, 2, compliant), 1.3).contact.damping = DampingLaw::none;
+    add("TwoModesCompliant", machine(first_order, 2, compliant), 0.5);
+    all[all.size() - 2].tolerance = 5e-6;  // the touch gives back all that it amplified
+    Problem& friction = add("TwoModesCoulombOffset", machine(first_order, 2, compliant), 0.5);
+    friction.contact.friction = CoulombFriction{0.3, 0.05};
+    friction.contact.offset = 0.01;
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FlowMap_, ::testing::ValuesIn(map_cases()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// det = r²ⁿ over n impacts, whatever gravity, torque and cam do between them.                             (S73)
+TEST(FlowMapLaw, DeterminantOfARigidBeamIsThatOfItsImpacts) {
+    for (const double torque : {0.0, -0.4}) {
+        Problem p = machine(ModelKind::rigid, 2, ContactModel::restitution);
+        if (torque != 0) p.hub.drive = ConstantTorque{torque};
+        const FlowMap map = flow_map(p, initial_state(p), 3, true);
+        ASSERT_GE(map.touches.size(), 3u);
+        const double expected = std::pow(0.9, 2.0 * static_cast<double>(map.touches.size()));
+        EXPECT_NEAR(map.derivative.determinant() / expected, 1, 1e-9) << map.touches.size();
+    }
+}
+
+// Conservative compliant contact keeps the area.
+TEST(FlowMapLaw, DeterminantOfConservativeContactIsOne) {
+    Problem p = machine(ModelKind::rigid, 2, ContactModel::compliant);
+    p.contact.damping = DampingLaw::none;
+    const FlowMap map = flow_map(p, initial_state(p), 1.3, true);
+    ASSERT_GE(map.touches.size(), 1u);
+    EXPECT_NEAR(map.derivative.determinant(), 1, 1e-9);
+}
+
+// ∂(ξ, ∂T/∂ξ̇)/∂(ξ, ξ̇): the inertia is quadratic in ξ, so central differences are exact.
+Matrix canonical(Model& model, const std::vector<double>& y) {
+    const Eigen::Index n = model.size();
+    const Vector xi = Eigen::Map<const Vector>(y.data(), n), rate = Eigen::Map<const Vector>(y.data() + n, n);
+    Matrix c = Matrix::Identity(2 * n, 2 * n);
+    c.bottomRightCorner(n, n) = mass_from_energy(model, xi);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Vector step = 1e-2 * Vector::Unit(n, i);
+        c.block(n, i, n, 1) =
+            (mass_from_energy(model, xi + step) - mass_from_energy(model, xi - step)) * rate / (2 * 1e-2);
+    }
+    return c;
+}
+
+// With modes it is symplectic: with μ, 1/μ is an eigenvalue of the map in canonical coordinates, too.
+TEST(FlowMapLaw, ConservativeContactHasReciprocalPairs) {
+    Problem p = machine(ModelKind::first_order, 2, ContactModel::compliant);
+    p.contact.damping = DampingLaw::none;
+    const InitialState start = initial_state(p);
+    const FlowMap map = flow_map(p, start, 0.4, true);
+    ASSERT_GE(map.touches.size(), 1u);
+    ASSERT_FALSE(map.end.phase.touching);
+    System system(p);
+    const Matrix m =
+        canonical(system.model(), map.end.y) * map.derivative * canonical(system.model(), start.y).inverse();
+    const Eigen::VectorXcd eigenvalues = m.eigenvalues();
+    for (const std::complex<double> a : eigenvalues) {
+        double nearest = 1e9;
+        for (const std::complex<double> b : eigenvalues) nearest = std::min(nearest, std::abs(a * b - 1.0));
+        EXPECT_LT(nearest, 1e-9) << a;
+    }
+}
+
+// With modes the volume is that of (ξ, ∂T/∂ξ̇), and damping takes 2Σζω from its rate.                        (S73)
+TEST(FlowMapLaw, VolumeShrinksByImpactsAndDampingAlone) {
+    for (const int modes : {1, 2})
+        for (const double zeta : {0.0, 1e-3}) {
+            Problem p = machine(ModelKind::first_order, modes, ContactModel::restitution);
+            p.hub.radius = 0.05;
+            p.beam.damping_ratio = {zeta};
+            const double duration = 0.2;
+            const FlowMap map = flow_map(p, initial_state(p), duration, true);
+            ASSERT_GE(map.touches.size(), 2u);
+            ASSERT_FALSE(map.end.phase.held);
+            double damping = 0;
+            for (int i = 0; i < modes; ++i) damping += 2 * zeta * System(p).model().frequency(i);
+            const double expected =
+                2 * static_cast<double>(map.touches.size()) * std::log(p.contact.restitution) - damping * duration;
+            const double volume = std::log(std::fabs(map.derivative.determinant())) + std::log(map.inertia_share);
+            EXPECT_NEAR(volume, expected, 1e-9 * std::fabs(expected)) << modes << " modes, ratio " << zeta;
+        }
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
