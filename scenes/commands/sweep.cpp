@@ -214,7 +214,10 @@ std::string quoted(const std::string& word) {
     const bool plain =
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/:=,@+") ==
         std::string::npos;
-    return plain && !word.empty() ? word : "'" + word + "'";
+    if (plain && !word.empty()) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
 }
 
 // The command as it was given, without its output.
