@@ -1,4 +1,6 @@
 #include "scenes/commands/commands.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/sweep/sweep_plan.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -13,7 +15,11 @@ int act(const PlanArguments& args) {
     std::vector<Scene> scenes;
     for (const std::string& path : args.scenes)
         scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
-    print_plans(scenes, run_options(args.common, args.directory), args.common.json);
+    const RunOptions options = run_options(args.common, args.directory);
+    print_plans(scenes, options, args.common.json);
+    for (const Scene& scene : scenes)
+        if (scene.sweep && !args.common.json)
+            print_text("\n" + sweep_plan(SweepGrid(scene), thread_count(options.threads), false));
     return 0;
 }
 

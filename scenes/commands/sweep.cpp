@@ -17,6 +17,7 @@
 #include "scenes/motions/identity.hpp"
 #include "scenes/sweep/diagram.hpp"
 #include "scenes/sweep/make_points.hpp"
+#include "scenes/sweep/parts.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/problem/number_keys.hpp"
@@ -32,6 +33,8 @@ struct SweepArguments {
     std::optional<std::string> sample, transient, keep, seed;
     std::optional<std::string> diagram, figure, ordinate, caption;
     std::string column = "elsevier";
+    std::optional<std::string> shard, emit;
+    int parts = 16;
 };
 
 double number_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
@@ -173,13 +176,15 @@ void write_diagram(const SweepArguments& args, const SweepGrid& grid, const outp
 }
 
 void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOptions& options) {
-    const SweepPart part;
+    const SweepPart part = args.shard ? part_argument(*args.shard, std::getenv) : SweepPart();
     std::vector<std::string> files;
-    if (!args.file.empty() && args.file != "-") files.push_back(args.file);
+    if (!args.file.empty() && args.file != "-") files.push_back(part_file(args.file, part));
     std::vector<std::string> pictures;
     if (args.diagram) pictures.push_back(*args.diagram);
     if (args.diagram && args.caption) pictures.push_back(*args.caption);
-    const std::string inputs = output::sha256("sweep files\n" + grid.identity());
+    output::Origin origin = sweep_origin(grid.scene());
+    if (!part.whole()) origin.inputs = output::sha256(fmt::format("{}\n{}/{}", origin.inputs, part.part, part.parts));
+    const std::string& inputs = origin.inputs;
     const std::string drawn = output::sha256(
         fmt::format("{}\n{}\n{}\n{}", inputs, args.figure.value_or(""), args.ordinate.value_or(""), args.column));
     output::Manifest manifest(options.force);
@@ -198,7 +203,6 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
         output::write_sweep_csv(std::cout, data);
         output::flush_data();
     }
-    const output::Origin origin{inputs, program_identity(), to_json(grid.scene())};
     for (const std::string& file : files) output::write_sweep(manifest.target(file, origin), data);
     if (args.diagram) write_diagram(args, grid, data, manifest, {drawn, origin.version, origin.scene});
     manifest.save();
@@ -206,14 +210,47 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
     store.remove();
 }
 
+std::string quoted(const std::string& word) {
+    const bool plain =
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/:=,@+") ==
+        std::string::npos;
+    if (plain && !word.empty()) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+// The command as it was given, without its output.
+std::string command_of(const SweepArguments& args) {
+    std::string text = "beamcam sweep " + quoted(args.scene);
+    for (const std::string& each : args.common.overrides) text += " --set " + quoted(each);
+    for (const std::string& each : args.over) text += " --over " + quoted(each);
+    for (const auto& [option, value] : {std::pair{"--sample", &args.sample}, std::pair{"--transient", &args.transient},
+                                        std::pair{"--keep", &args.keep}, std::pair{"--seed", &args.seed}})
+        if (*value) text += fmt::format(" {} {}", option, quoted(**value));
+    return text;
+}
+
+// Parts are read back to be joined, and a carried row is one task.
+void judge_parts(const SweepArguments& args) {
+    if (!args.shard && !args.emit) return;
+    if (args.file.empty() || args.file == "-") throw UsageError("parts of a sweep are files; name one with -o FILE.nc");
+    need_ending("-o", args.file, {".nc"});
+    if (args.diagram) throw UsageError("--diagram: a part has no diagram; collect the parts first");
+}
+
 int act(const SweepArguments& args) {
+    judge_parts(args);
     if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
     if (args.diagram) need_ending("--diagram", *args.diagram, {".pdf", ".svg", ".png"});
     if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
     const Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
     const RunOptions options = run_options(args.common, "");
     const SweepGrid grid(scene);
-    if (args.common.dry_run)
+    if (args.emit)
+        print_text(engine_script(*args.emit, command_of(args), args.file,
+                                 static_cast<int>(std::min<std::uint64_t>(args.parts, grid.tasks()))));
+    else if (args.common.dry_run)
         print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
     else
         make_files(args, grid, options);
@@ -246,6 +283,13 @@ void add_sweep(Grammar& grammar) {
     app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
         .one_of(render::figure::column_names());
     app.option("--caption", &args->caption, "FILE", "Write the caption of the figure too, .txt or .tex");
+    app.option(
+        "--shard", &args->shard, "I/N",
+        "The I-th of N parts, a file of its own: 2/3 makes NAME.2of3.nc, which collect joins; auto: by the array "
+        "task of Slurm, Grid Engine or PBS");
+    app.option("--emit", &args->emit, "ENGINE", "Print a script that makes all parts: slurm, parallel or snakemake")
+        .one_of({"slurm", "parallel", "snakemake"});
+    app.option("--parts", &args->parts, "N", "Into how many parts --emit cuts the sweep (default: 16)").range(1, 1000);
     add_work(app, args->common);
     app.bind(args, act);
 }

@@ -11,6 +11,7 @@
 #include "output/files/interrupt.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/scene/version.hpp"
 #include "sim/sweep/sweep_point.hpp"
@@ -197,7 +198,9 @@ output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store
         {"tolerance", fmt::format("rtol {:g}, atol {:g}; a rigid beam with impulsive contact is followed to rounding",
                                   grid.scene().problem.solver.rtol, grid.scene().problem.solver.atol)},
         {"beamcam_scene", to_json(grid.scene())},
-        {"beamcam_sweep", grid.identity()}};
+        {"beamcam_program", program_identity()},
+        {"beamcam_sweep", grid.digest()}};
+    if (!part.whole()) data.attributes.emplace_back("beamcam_part", fmt::format("{}/{}", part.part + 1, part.parts));
     data.has = [mine = points_of(grid, part)](std::uint64_t k) { return bool(mine[k]); };
     const std::size_t width = data.columns.size();
     data.rows = [&store, width](std::uint64_t k) { return store.numbers(k) / width; };

@@ -132,8 +132,13 @@ sim::Problem SweepGrid::problem(std::uint64_t point) const {
     return out;
 }
 
-std::string SweepGrid::identity() const {
-    return output::sha256("sweep\n" + program_identity() + "\n" + to_json(scene_));
+std::string SweepGrid::digest() const { return output::sha256("sweep\n" + to_json(scene_)); }
+std::string SweepGrid::identity() const { return output::sha256(program_identity() + "\n" + digest()); }
+
+output::Origin sweep_origin(const Scene& scene) {
+    const std::string text = to_json(scene);
+    return {output::sha256(fmt::format("files of a sweep\n{}\n{}", program_identity(), text)), program_identity(),
+            text};
 }
 
 }  // namespace beamcam::scenes

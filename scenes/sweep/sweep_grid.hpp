@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "output/data/records.hpp"
 #include "output/data/sweep_data.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -34,7 +35,8 @@ class SweepGrid {
 
     // The scene with nothing but what decides about the points, values of tables written out.
     const Scene& scene() const { return scene_; }
-    std::string identity() const;  // a digest of it and of this program
+    std::string digest() const;    // of it
+    std::string identity() const;  // the same with this program
 
   private:
     void judge() const;
@@ -47,5 +49,8 @@ class SweepGrid {
     std::uint64_t cells_ = 1;
     std::vector<std::uint64_t> single_, carried_;  // seeds by whether they carry
 };
+
+// What the files of this sweep are made from, for the manifest.
+output::Origin sweep_origin(const Scene& scene);
 
 }  // namespace beamcam::scenes

@@ -11,7 +11,8 @@ namespace {
 constexpr double kSameState = 1e-5;   // of the cam's lift and of its rate: states closer than this are one
 constexpr double kLeastLift = 1e-3;   // [rad] where the cam does not lift the beam
 constexpr int kRepeats = 3;           // a period must fit so often into the turns that are compared
-constexpr double kSettling = 0.7;     // differences of the later turns, of those of the earlier: still falling
+constexpr double kNoise = 1e-7;       // of the lift: changes of a difference that mean nothing
+constexpr double kSettled = 0.1;      // of a difference: its limit is no farther
 constexpr double kNear = 0.02;        // of the lift: differences from a period that may still vanish
 constexpr std::size_t kBlocks = 10;   // of the exponent
 constexpr double kSureErrors = 3;     // standard errors
@@ -34,10 +35,11 @@ Scale scale_of(const Problem& problem) {
     return {lift, lift / cam_period(problem)};
 }
 
-// The largest distance between states n turns apart.
+// The largest distance of the states from those of the last n turns, so that slow drifts add up.
 double mismatch(const Scale& scale, Strobes s, std::size_t n) {
     double most = 0;
-    for (std::size_t k = n; k < s.size(); ++k) most = std::max(most, scale.between(s[k], s[k - n]));
+    for (std::size_t k = 0; k + n < s.size(); ++k)
+        most = std::max(most, scale.between(s[k], s[s.size() - n + (k - s.size() % n + n) % n]));
     return most;
 }
 
@@ -48,13 +50,29 @@ std::size_t period_of(const Scale& scale, Strobes s) {
     return 0;
 }
 
-// The later states are nearer to some period than the earlier ones, and near it.                             (S88)
-bool settles(const Scale& scale, Strobes s) {
-    const Strobes early = s.first(s.size() / 2), late = s.last(s.size() / 2);
-    for (std::size_t n = 1; n * kRepeats < late.size(); ++n) {
-        const double now = mismatch(scale, late, n);
-        if (now < kNear && now < kSettling * mismatch(scale, early, n)) return true;
+// States n turns apart are equal, but those of a shorter period draw together, or apart, and it cannot be told whether
+// a difference stays: three of them, equally far apart, lead to a limit (Aitken) that is not near the last one.
+bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
+    for (std::size_t d = 1; d <= n / 2; ++d) {
+        const std::size_t apart = n * ((s.size() - 1 - d) / (2 * n));
+        if (n % d != 0 || apart == 0) continue;
+        const auto difference = [&](std::size_t back) {
+            const std::size_t k = s.size() - 1 - back;
+            return scale.between(s[k], s[k - d]);
+        };
+        const double first = difference(2 * apart), middle = difference(apart), last = difference(0);
+        if (std::fabs(last - first) < kNoise) continue;
+        const double bend = (last - middle) - (middle - first), step = last - middle;
+        if (!(std::fabs(step * step) < kSettled * last * std::fabs(bend))) return true;
     }
+    return false;
+}
+
+// They stay near some period without having it.                                                            (S88)
+bool is_near_period(const Scale& scale, Strobes s) {
+    const Strobes late = s.last(s.size() / 2);
+    for (std::size_t n = 1; n * kRepeats < late.size(); ++n)
+        if (mismatch(scale, late, n) < kNear) return true;
     return false;
 }
 
@@ -84,11 +102,12 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
 }
 
 // Where no period is found. Without an exponent: aperiodic.                                                  (S89)
-AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool settling) {
-    if (settling) return AttractorClass::unsettled;
+AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool near_period) {
+    const bool grows = exponent.value > kSureErrors * exponent.error && exponent.grows_late;
+    if (std::isfinite(exponent.value) && grows) return AttractorClass::chaotic;
+    if (near_period) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
     if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // it forgets, so it has a period
-    if (exponent.value > kSureErrors * exponent.error && exponent.grows_late) return AttractorClass::chaotic;
     const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
     const bool known = exponent.error * cam_period(problem) < kSmallError;
     return zero && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
@@ -142,20 +161,18 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         return static_cast<double>(s[to].impacts - s[from].impacts);
     };
     out.exponent = exponent_of(problem, s);
-    if (const std::size_t n = period_of(scale, s.last(s.size() / 3 + 1))) {
+    // The period of the last third must be that of all of them.
+    std::size_t n = period_of(scale, s.last(s.size() / 3 + 1));
+    if (n == 0) n = period_of(scale, s);
+    if (n > 0) {
         const bool throughout = n * kRepeats < s.size() && mismatch(scale, s, n) < kSameState;
-        out.kind = throughout ? AttractorClass::periodic : AttractorClass::unsettled;
-        if (throughout) out.period = static_cast<int>(n);
-        if (throughout) out.impacts_per_period = impacts(turns - n, turns);
-        return out;
-    }
-    if (const std::size_t n = period_of(scale, s)) {
+        if (!throughout || period_changes(scale, s, n)) return out;
         out.kind = AttractorClass::periodic;
         out.period = static_cast<int>(n);
         out.impacts_per_period = impacts(turns - n, turns);
         return out;
     }
-    out.kind = class_without_period(problem, out.exponent, settles(scale, s));
+    out.kind = class_without_period(problem, out.exponent, is_near_period(scale, s));
     out.impacts_per_period = impacts(0, turns) / static_cast<double>(turns);
     return out;
 }

@@ -77,6 +77,12 @@ std::string udunits(const std::string& unit) {
     return unit;
 }
 
+std::string from_udunits(const std::string& unit) {
+    for (const char* ours : {"rad/s", "m/s"})
+        if (udunits(ours) == unit) return ours;
+    return unit;
+}
+
 class Writer {
   public:
     Writer(File& file, const SweepData& data)
@@ -241,7 +247,7 @@ class Reader {
             char name[NC_MAX_NAME + 1];
             std::size_t size = 0;
             need(nc_inq_dim(file_->id, dimensions[d], name, &size));
-            SweepAxis axis{name, file_->text(file_->variable(name), "units"), std::vector<double>(size)};
+            SweepAxis axis{name, from_udunits(file_->text(file_->variable(name), "units")), std::vector<double>(size)};
             need(nc_get_var_double(file_->id, file_->variable(name), axis.values.data()));
             data.axes.push_back(std::move(axis));
         }
@@ -314,7 +320,7 @@ class Reader {
             need(nc_inq_var(file_->id, v, name, nullptr, &count, dimensions, nullptr));
             if (count < 3 || dimensions[count - 1] != sample) continue;
             columns_.push_back(v);
-            data.columns.push_back({name, file_->text(v, "units"), file_->text(v, "long_name")});
+            data.columns.push_back({name, from_udunits(file_->text(v, "units")), file_->text(v, "long_name")});
         }
     }
 

@@ -39,10 +39,10 @@ output::SweepData data(const SweepGrid& grid, const std::vector<AttractorClass>&
     return out;
 }
 
-const char* const kSpeeds = R"({"over": [{"key": "cam.speed", "values": [1, 2, 3, 4, 5, 6, 7, 8]}]})";
+const char* const kEightSpeeds = R"({"over": [{"key": "cam.speed", "values": [1, 2, 3, 4, 5, 6, 7, 8]}]})";
 
 TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
-    const SweepGrid speeds = grid(kSpeeds);
+    const SweepGrid speeds = grid(kEightSpeeds);
     using enum AttractorClass;
     const auto figure =
         diagram("bifurcation", speeds,
@@ -87,7 +87,7 @@ TEST(Diagram, IsAMapOfTwoKeysAndBasinsOfTwoInitialValues) {
 }
 
 TEST(Diagram, PairsEachImpactWithTheNext) {
-    const SweepGrid speeds = grid(kSpeeds);
+    const SweepGrid speeds = grid(kEightSpeeds);
     const auto figure = diagram("impact-map", speeds, data(speeds, {AttractorClass::periodic}), "");
     EXPECT_THAT(figure.panels.at(0).clouds.at(0).x, Each(0.1));
     EXPECT_THAT(figure.panels.at(0).clouds.at(0).y, Each(0.2));

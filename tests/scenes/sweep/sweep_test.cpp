@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using testing::shell;
 using testing::slurp;
 
-constexpr const char* kScene = R"({
+constexpr const char* kSweptScene = R"({
     "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
     "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
     "sweep": {"over": [{"key": "cam.speed", "from": 30, "to": 60, "count": 31}],
@@ -36,7 +36,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
 
 TEST(SweepCommand, WritesARowASampleWithTheColumnsThatScriptsRelyOn) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     const Finished done = shell(folder, "$BEAMCAM sweep s.json");
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_TRUE(
@@ -54,7 +54,7 @@ TEST(SweepCommand, WritesARowASampleWithTheColumnsThatScriptsRelyOn) {
 
 TEST(SweepCommand, HasTheSameBytesWithAnyNumberOfThreads) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     for (const char* seed : {"same", "carry-up,carry-down", "random:3"}) {
         const std::string command = std::string("$BEAMCAM sweep s.json --force -q --seed ") + seed;
         ASSERT_EQ(shell(folder,
@@ -67,7 +67,7 @@ TEST(SweepCommand, HasTheSameBytesWithAnyNumberOfThreads) {
 
 TEST(SweepCommand, GoesOnAfterItWasKilled) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     const char* sweep = "$BEAMCAM sweep s.json -q --seed carry-up,same --transient 400 -o ";
     ASSERT_EQ(shell(folder, std::string(sweep) + "whole.csv").code, 0);
     ASSERT_EQ(shell(folder, std::string(sweep) + "part.csv & pid=$!; while [ ! -s part.csv.part ]; do :; done; "
@@ -81,7 +81,7 @@ TEST(SweepCommand, GoesOnAfterItWasKilled) {
 
 TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv").code, 0);
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("up to date"));
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv --keep 21").err, HasSubstr("31 points in"));
@@ -92,7 +92,7 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
 
 TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv -q && $BEAMCAM sweep s.json -o a.npz -q").code, 0);
     const output::NamedTable table = output::read_table(folder / "a.npz");
     const auto rows = rows_of(slurp(folder / "a.csv"));
@@ -111,7 +111,7 @@ TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
 
 TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     folder.write("w.csv", "w\n40\n41.5\n");
     const auto first_column = [&](const std::string& over) {
         const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --transient 5 --keep 1 --over '" + over + "'");
@@ -132,7 +132,7 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
 
 TEST(SweepCommand, RefusesInWords) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     for (const auto& [arguments, code, words] :
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
           {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
@@ -151,7 +151,7 @@ TEST(SweepCommand, RefusesInWords) {
 
 TEST(SweepCommand, PlansPointsSecondsAndBytes) {
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     const auto plan = nlohmann::json::parse(shell(folder, "$BEAMCAM sweep s.json -n --json --seed random:4").out);
     EXPECT_EQ(plan["points"], 124);
     EXPECT_GT(plan["seconds"].get<double>(), 0);
@@ -163,7 +163,7 @@ TEST(SweepCommand, CarriesAStateAlongTheValues) {
     // Two attractors may live side by side: up and down need not agree, but each point of a carried row goes on from
     // the one before, so a slow row of one value repeats a long motion.
     Folder folder;
-    folder.write("s.json", kScene);
+    folder.write("s.json", kSweptScene);
     const Finished row = shell(folder,
                                "$BEAMCAM sweep s.json -q --over cam.speed=48,48,48 --seed carry-up --transient 0 "
                                "--keep 10 --sample section:cam_angle=1");
@@ -178,9 +178,9 @@ TEST(SweepCommand, CarriesAStateAlongTheValues) {
 
 TEST(SweepGrid, CutsIntoPartsThatAreAPartition) {
     const Scene scene =
-        *testing::read(kScene, {"sweep.seed=[\"same\", \"carry-up\"]",
-                                "sweep.over=[{\"key\": \"cam.speed\", \"values\": [1, 2, 3]}, {\"key\": "
-                                "\"contact.restitution\", \"values\": [0.1, 0.2]}]"})
+        *testing::read(kSweptScene, {"sweep.seed=[\"same\", \"carry-up\"]",
+                                     "sweep.over=[{\"key\": \"cam.speed\", \"values\": [1, 2, 3]}, {\"key\": "
+                                     "\"contact.restitution\", \"values\": [0.1, 0.2]}]"})
              .scene;
     const SweepGrid grid(scene);
     EXPECT_EQ(grid.points(), 12u);

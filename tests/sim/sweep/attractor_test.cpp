@@ -58,11 +58,26 @@ TEST(Attractor, IsUnsettledWhenAPeriodBeginsWithinTheSamples) {
 TEST(Attractor, IsUnsettledWhileItStillDrawsNearAPeriod) {
     const auto spiral = [](double rate) {
         return strobed(60, [=](int k) {
-            return Strobe{0.4 + 1e-3 * std::exp(-rate * k) * (k % 2 ? 1 : -1), 0, k, false, true, 0.1};
+            return Strobe{0.4 + 1e-3 * std::exp(-rate * k) * (k % 2 ? 1 : -1), 0, k, false, true, -rate};
         });
     };
     EXPECT_EQ(kind(spiral(0.05)), AttractorClass::unsettled);
     EXPECT_EQ(kind(spiral(0)), AttractorClass::periodic);
+}
+
+TEST(Attractor, IsUnsettledWhileAShorterPeriodDrawsTogetherTooSlowlyToBeSeen) {
+    // States two turns apart agree within 10⁻⁵ while those one turn apart still fall, exponentially or as 1/√k: period
+    // one.
+    const auto alternating = [](const std::function<double(int)>& size) {
+        return strobed(60,
+                       [=](int k) { return Strobe{0.4 + 1e-7 * size(k) * (k % 2 ? 1 : -1), 0, k, false, true, 0}; });
+    };
+    const double scale = 100;  // of the lift's 10⁻⁵
+    EXPECT_EQ(kind(alternating([=](int k) { return scale * std::exp(-1e-4 * k); })), AttractorClass::unsettled);
+    EXPECT_EQ(kind(alternating([=](int k) { return scale / std::sqrt(1 + k / 5000.0); })), AttractorClass::unsettled);
+    EXPECT_EQ(kind(alternating([=](int k) { return scale * std::exp(1e-4 * k); })), AttractorClass::unsettled);
+    EXPECT_EQ(kind(alternating([=](int k) { return scale * (1 + 1e-3 * std::exp(-0.3 * k)); })),
+              AttractorClass::periodic);
 }
 
 TEST(Attractor, FollowsWhereTheContactLasts) {

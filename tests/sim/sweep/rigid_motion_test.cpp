@@ -125,11 +125,11 @@ Problem torque_case(double speed) {
     return p;
 }
 
-// It starts on the orbit with one impact a turn: θ̇_c = (αT/2)(1 − r)/(1 + r) at the impact, where θ̈_c < 0.
-Problem on_its_orbit(double speed) {
-    Problem p = torque_case(speed);
-    const double alpha = 15, half = 0.5 * alpha * cam_period(p), impact = half * 0.5 / 1.5;
-    const CamSurface surface(*p.cam, 0.1, 0, -alpha);
+// It starts on the orbit with one impact a turn under a steady pull α: θ̇_c = (αT/2)(1 − r)/(1 + r) at the impact,
+// where θ̈_c < 0.
+Problem on_its_orbit(Problem p, double alpha) {
+    const double speed = p.cam->speed, half = 0.5 * alpha * cam_period(p), impact = half * 0.5 / 1.5;
+    const CamSurface surface(*p.cam, p.cam->radius, 0, -alpha);
     const auto rate = [&](double s) { return surface.rate(surface.at(s)) - impact; };
     const double turn = surface.period();
     for (int i = 0; i < 2000; ++i) {
@@ -148,7 +148,7 @@ Attractor attractor_at(double speed, double turns) {
     Sampling s;
     s.transient.turns = turns;
     s.keep.turns = 60;
-    return sweep_point(on_its_orbit(speed), s, nullptr, {}).attractor;
+    return sweep_point(on_its_orbit(torque_case(speed), 15), s, nullptr, {}).attractor;
 }
 
 TEST(RigidMotion, HasTheFoldAndTheDoublingOfTheTorqueCaseWhereTheyMustBe) {
@@ -167,11 +167,38 @@ TEST(RigidMotion, HasTheFoldAndTheDoublingOfTheTorqueCaseWhereTheyMustBe) {
 }
 
 TEST(RigidMotion, FollowsADifferenceAsTheMultipliersDemand) {
-    // One impact a turn: μ₁μ₂ = r², μ₁ + μ₂ = 1 + r² + (1 + r)² θ̈_c/(2α)·… is −(1 + r²) at the doubling, so there
-    // μ = −1 and the largest exponent vanishes; between fold and doubling |μ| = r on a stretch of complex pairs.
+    // One impact a turn: μ₁μ₂ = r². At the doubling μ₁ = −1, so the largest exponent vanishes; in the middle of the
+    // window the multipliers are complex, |μ| = r.
     const Attractor doubling = attractor_at(50.8688, 20000), middle = attractor_at(46.5, 2000);
     EXPECT_NEAR(doubling.exponent.value, 0, 1e-3);
     EXPECT_NEAR(middle.exponent.value, std::log(0.5) / cam_period(torque_case(46.5)), 0.2);
+}
+
+// Contact far from a small cam is a ball on a table: amplitude e, pull a = kℓ cos θ; Γ = eω²/a.
+Attractor bouncing_ball(double gamma) {
+    Problem p = rigid_newton(0, 1e-6, 0.5);
+    p.cam->centre = {0.25, -0.0};
+    p.cam->radius = 1e-3;
+    const double lever = std::sqrt(0.25 * 0.25 - 1e-6), fall = 1.5 * 9.81 * std::cos(std::asin(1e-3 / 0.25));
+    p.cam->speed = std::sqrt(gamma * fall * lever / p.cam->eccentricity);
+    Sampling s;
+    s.transient.turns = 3000;
+    s.keep.turns = 60;
+    return sweep_point(on_its_orbit(p, fall), s, nullptr, {}).attractor;
+}
+
+TEST(RigidMotion, IsABouncingBallWhereTheCamIsSmall) {
+    // r = 0.5, one turn a flight: fold at 1.0471975512, period doubling at 1.5268237005.
+    EXPECT_THROW(bouncing_ball(1.0465), std::logic_error);
+    for (const double gamma : {1.0480, 1.3, 1.5255}) {
+        const Attractor a = bouncing_ball(gamma);
+        EXPECT_EQ(a.kind, AttractorClass::periodic) << gamma;
+        EXPECT_EQ(a.period, 1) << gamma;
+        EXPECT_EQ(a.impacts_per_period, 1) << gamma;
+    }
+    const Attractor doubled = bouncing_ball(1.5285);
+    EXPECT_EQ(doubled.kind, AttractorClass::periodic);
+    EXPECT_EQ(doubled.period, 2);
 }
 
 TEST(RigidMotion, RestsOnACamThatStandsStill) {

@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "output/data/manifest.hpp"
+#include "scenes/commands/commands.hpp"
+#include "scenes/sweep/parts.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct CollectArguments {
+    Common common;
+    std::vector<std::string> parts;
+    std::string file;
+};
+
+int act(const CollectArguments& args) {
+    need_ending("-o", args.file, {".nc", ".csv", ".npz"});
+    if (args.file == "-") throw UsageError("-o -: name a file that ends in .nc, .csv or .npz");
+    output::Manifest manifest(args.common.force);
+    manifest.require_replaceable(args.file);
+    const CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
+    output::write_sweep(manifest.target(args.file, sweep_origin(all.scene)), all.data);
+    manifest.save();
+    say(args.common, fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
+    return 0;
+}
+
+}  // namespace
+
+void add_collect(Grammar& grammar) {
+    auto args = std::make_shared<CollectArguments>();
+    Command& app = grammar.command("collect", "Join the parts of a sweep (sweep --shard)");
+    app.positional("PART", &args->parts, "The parts, .nc, in any order").required();
+    app.option("-o,--output", &args->file, "FILE", "Table to make: .nc, .csv or .npz").required();
+    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_quiet(app, args->common);
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,177 @@
+#include "scenes/sweep/parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "output/data/sweep_library.hpp"
+#include "output/files/numbers.hpp"
+#include "scenes/format/reader.hpp"
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/exit_code.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr std::uint64_t kMostParts = 1'000'000;
+
+SweepPart part_of(std::uint64_t number, std::uint64_t parts, const std::string& option) {
+    if (parts < 1 || parts > kMostParts || number < 1 || number > parts)
+        throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3, or auto", option));
+    return {number - 1, parts};
+}
+
+// The variables of an engine: number of the task, first, last or count, step.
+struct ArrayTask {
+    const char *number, *first, *last, *count, *step;
+};
+constexpr ArrayTask kArrayTasks[] = {
+    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_COUNT",
+     "SLURM_ARRAY_TASK_STEP"},
+    {"SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", nullptr, "SGE_TASK_STEPSIZE"},
+    {"PBS_ARRAY_INDEX", nullptr, nullptr, nullptr, nullptr},
+    {"PBS_ARRAYID", nullptr, nullptr, nullptr, nullptr},
+};
+
+const std::string* attribute(const output::SweepData& data, const std::string& name) {
+    const auto found = std::ranges::find(data.attributes, name, &std::pair<std::string, std::string>::first);
+    return found == data.attributes.end() ? nullptr : &found->second;
+}
+
+// One file of a sweep that was cut.
+struct Part {
+    std::filesystem::path file;
+    output::SweepData data;
+    SweepPart part;
+};
+
+Part open_part(const std::filesystem::path& file) {
+    Part found{file, output::sweep_library().open(file), {}};
+    const std::string *which = attribute(found.data, "beamcam_part"), *scene = attribute(found.data, "beamcam_scene");
+    if (!scene) throw output::IoError(file.string() + ": is no sweep of beamcam");
+    if (!which) throw output::IoError(file.string() + ": is a whole sweep and no part of one");
+    found.part = part_argument(*which, [](const char*) { return nullptr; });
+    return found;
+}
+
+// Every number from 1 to N once, all of one sweep.
+void require_whole(const std::vector<Part>& parts) {
+    const Part& first = parts.front();
+    std::map<std::uint64_t, const Part*> found;
+    for (const Part& part : parts) {
+        for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
+            const std::string *one = attribute(first.data, name), *other = attribute(part.data, name);
+            if (!one || !other || *one != *other)
+                throw output::IoError(fmt::format(
+                    "{}: is part of another {} than {}", part.file.string(),
+                    std::string_view(name) == "beamcam_sweep" ? "sweep" : "program's sweep", first.file.string()));
+        }
+        if (part.part.parts != first.part.parts)
+            throw output::IoError(fmt::format("{}: is one of {} parts, {} one of {}", part.file.string(),
+                                              part.part.parts, first.file.string(), first.part.parts));
+        if (const auto [there, added] = found.emplace(part.part.part, &part); !added)
+            throw output::IoError(
+                fmt::format("{}: is the same part as {}", part.file.string(), there->second->file.string()));
+    }
+    std::vector<std::uint64_t> missing;
+    for (std::uint64_t k = 0; k < first.part.parts; ++k)
+        if (!found.contains(k)) missing.push_back(k + 1);
+    if (!missing.empty())
+        throw output::IoError(fmt::format(
+            "of {} parts these are missing: {}", first.part.parts,
+            fmt::join(missing.begin(),
+                      missing.begin() + std::ssize(missing) - std::max<std::ptrdiff_t>(0, std::ssize(missing) - 20),
+                      ", ")));
+}
+
+}  // namespace
+
+SweepPart part_argument(const std::string& text, const std::function<const char*(const char*)>& variable) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::string head = text.substr(0, slash), tail = text.substr(std::min(slash + 1, text.size()));
+    const auto parts = output::number_in<std::uint64_t>(tail);
+    if (head != "auto") return part_of(output::number_in<std::uint64_t>(head).value_or(0), parts.value_or(0), text);
+    const auto value = [&](const char* name) -> std::optional<std::uint64_t> {
+        const char* found = name ? variable(name) : nullptr;
+        return output::number_in<std::uint64_t>(found ? found : "");
+    };
+    for (const ArrayTask& task : kArrayTasks) {
+        const auto number = value(task.number);
+        if (!number) continue;
+        const std::uint64_t first = value(task.first).value_or(1),
+                            step = std::max<std::uint64_t>(1, value(task.step).value_or(1));
+        std::optional<std::uint64_t> count = parts;
+        if (!count) count = value(task.count);
+        if (!count && value(task.last)) count = (*value(task.last) - first) / step + 1;
+        if (!count)
+            throw UsageError(fmt::format("--shard {}: {} does not tell of how many; write auto/N", text, task.number));
+        return part_of(*number < first ? 0 : (*number - first) / step + 1, *count, text);
+    }
+    throw UsageError(
+        fmt::format("--shard {}: no task of an array: neither SLURM_ARRAY_TASK_ID, SGE_TASK_ID nor "
+                    "PBS_ARRAY_INDEX is set; write I/N",
+                    text));
+}
+
+std::string part_file(const std::string& file, const SweepPart& part) {
+    if (part.whole()) return file;
+    return shard_file(file, static_cast<int>(part.part) + 1, static_cast<int>(part.parts));
+}
+
+CollectedSweep collect(const std::vector<std::filesystem::path>& files) {
+    auto parts = std::make_shared<std::vector<Part>>();
+    for (const std::filesystem::path& file : files) parts->push_back(open_part(file));
+    require_whole(*parts);
+    Reading reading =
+        read_scene({"scene of " + files.front().string(), *attribute(parts->front().data, "beamcam_scene"), true});
+    if (!reading.scene || !reading.scene->sweep)
+        throw output::IoError(files.front().string() + ": its scene has no sweep");
+    CollectedSweep out{std::move(*reading.scene), parts->front().data};
+    std::erase_if(out.data.attributes, [](const auto& each) { return each.first == "beamcam_part"; });
+    // Which part has which point.
+    auto owner = std::make_shared<std::vector<std::uint32_t>>(out.data.points(), 0);
+    for (std::uint64_t point = 0; point < owner->size(); ++point) {
+        const auto found = std::ranges::find_if(*parts, [&](const Part& part) { return part.data.has(point); });
+        if (found == parts->end())
+            throw output::IoError(fmt::format("point {} is in none of the parts: one of them was not finished", point));
+        (*owner)[point] = static_cast<std::uint32_t>(found - parts->begin());
+    }
+    out.data.has = [](std::uint64_t) { return true; };
+    out.data.rows = [parts, owner](std::uint64_t point) { return (*parts)[(*owner)[point]].data.rows(point); };
+    out.data.read = [parts, owner](std::uint64_t point) { return (*parts)[(*owner)[point]].data.read(point); };
+    return out;
+}
+
+std::string engine_script(const std::string& engine, const std::string& command, const std::string& file, int parts) {
+    const std::filesystem::path path = file;
+    const std::string stem = (path.parent_path() / path.stem()).string(), ending = path.extension().string();
+    const std::string all = fmt::format("{}.*of{}{}", stem, parts, ending);
+    if (engine == "slurm")
+        return fmt::format(
+            "#!/bin/sh\n#SBATCH --job-name=sweep\n#SBATCH --array=1-{0}\n#SBATCH --cpus-per-task=1\n"
+            "#SBATCH --output=%x.%A_%a.log\n"
+            "# sbatch this file; a part that was killed goes on where it was, a finished one is left alone. Then:\n"
+            "#   sbatch --dependency=afterok:JOB --wrap 'beamcam collect {1} -o {2}'\n"
+            "exec {3} -o {2} --shard auto -j \"${{SLURM_CPUS_PER_TASK:-1}}\" --progress plain\n",
+            parts, all, file, command);
+    if (engine == "parallel")
+        return fmt::format(
+            "#!/bin/sh\n# GNU parallel on all cores; several hosts: add --sshlogin HOST,HOST --workdir .\n"
+            "# Run again, it makes what failed or is missing.\nset -e\n"
+            "seq {0} | parallel --joblog {1}.joblog --resume-failed --retries 3 \\\n"
+            "    {2} -o {3} --shard '{{}}/{0}' -j1 -q\n"
+            "beamcam collect {4} -o {3}\n",
+            parts, stem, command, file, all);
+    return fmt::format(
+        "# snakemake --cores all\nrule all:\n    input: \"{3}\"\n\n"
+        "rule part:\n    output: \"{1}.{{i}}of{0}{4}\"\n    threads: 1\n"
+        "    shell: \"{2} -o {3} --shard {{wildcards.i}}/{0} -j {{threads}} -q\"\n\n"
+        "rule collect:\n    input: expand(\"{1}.{{i}}of{0}{4}\", i=range(1, {5}))\n    output: \"{3}\"\n"
+        "    shell: \"beamcam collect {{input}} -o {{output}} -q\"\n",
+        parts, stem, command, file, ending, parts + 1);
+}
+
+}  // namespace beamcam::scenes
