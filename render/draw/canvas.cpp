@@ -160,6 +160,23 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     if (!there.empty()) touch(there);
 }
 
+void Canvas::image_fitted(const Image& source, const Box& into) {
+    cairo_surface_t* const surface = surface_of(source);
+    cairo_save(cr_);
+    cairo_rectangle(cr_, into.x, into.y, into.w, into.h);
+    cairo_clip(cr_);
+    cairo_translate(cr_, into.x, into.y);
+    cairo_scale(cr_, into.w / source.width, into.h / source.height);
+    cairo_set_source_surface(cr_, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_BEST);
+    cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
+    cairo_paint(cr_);
+    cairo_restore(cr_);
+    use({});
+    cairo_surface_destroy(surface);
+    touch(into);
+}
+
 void Canvas::image_tiles(const Image& source, int x, int y, const Tiles& tiles) {
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {

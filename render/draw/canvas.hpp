@@ -50,6 +50,8 @@ class Canvas : public Brush {
     void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
+    // Fills the box with the whole of it, made smaller or larger.
+    void image_fitted(const Image& source, const Box& into);
     // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
     // What `draw` draws shows within the box only.

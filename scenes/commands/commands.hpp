@@ -28,6 +28,7 @@ void add_check(Grammar& grammar);
 void add_plan(Grammar& grammar);
 void add_cache(Grammar& grammar);
 void add_concat(Grammar& grammar);
+void add_sheet(Grammar& grammar);
 void add_init(Grammar& grammar);
 void add_stress(Grammar& grammar);
 void add_examples(Grammar& grammar);
@@ -49,10 +50,10 @@ void add_manual(Grammar& grammar);
 
 // In the order of --help.
 inline constexpr void (*kCommands[])(Grammar&) = {
-    add_run,    add_render,   add_simulate, add_sweep, add_collect, add_lyapunov,   add_orbits,
-    add_modes,  add_check,    add_plan,     add_cache, add_concat,  add_init,       add_examples,
-    add_schema, add_keys,     add_hash,     add_diff,  add_test,    add_accept,     add_info,
-    add_doctor, add_accuracy, add_figure,   add_paper, add_stress,  add_completion, add_manual,
+    add_run,    add_render, add_simulate, add_sweep,      add_collect, add_lyapunov, add_orbits,   add_modes,
+    add_check,  add_plan,   add_cache,    add_concat,     add_sheet,   add_init,     add_examples, add_schema,
+    add_keys,   add_hash,   add_diff,     add_test,       add_accept,  add_info,     add_doctor,   add_accuracy,
+    add_figure, add_paper,  add_stress,   add_completion, add_manual,
 };
 
 // ---- options that several commands share --------------------------------------------------------

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/data/manifest.hpp"
+#include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/film/picture_source.hpp"
+#include "output/image/png.hpp"
+#include "render/draw/canvas.hpp"
+#include "scenes/commands/commands.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct SheetArguments {
+    Common common;
+    std::string film, file;
+    int count = 12, columns = 4, width = 1920;
+};
+
+// Where the pictures of a sheet stand.
+struct Grid {
+    int columns, rows;
+    int width, height;  // of a picture [px]
+    int gap, words;     // between pictures, and below each for its words [px]
+
+    Grid(const SheetArguments& args, int shown, const output::Raster& picture)
+        : columns(std::min(args.columns, shown)), rows((shown + columns - 1) / columns), gap(args.width / 160) {
+        width = (args.width - gap * (columns + 1)) / columns;
+        height = std::max(1, static_cast<int>(std::lround(double(width) * picture.height / picture.width)));
+        words = std::max(12, width / 16);
+    }
+    int total_height() const { return gap + rows * (height + words + gap); }
+    render::Box at(int k) const {
+        return {double(gap + k % columns * (width + gap)), double(gap + k / columns * (height + words + gap)),
+                double(width), double(height)};
+    }
+};
+
+long count_of(const std::string& film) {
+    output::PictureSource source(film);
+    output::Raster picture;
+    std::string name;
+    long count = 0;
+    for (; source.next(picture, name); ++count)
+        if (output::interrupted()) throw Stopped();
+    return count;
+}
+
+// The pictures that a sheet shows, evenly over the film, its first and its last among them.
+bool is_shown(long frame, long frames, int shown, int k) {
+    return frame == (shown == 1 ? 0 : std::lround(double(k) * double(frames - 1) / (shown - 1)));
+}
+
+render::Image sheet_of(const SheetArguments& args) {
+    const long frames = count_of(args.film);
+    const int shown = static_cast<int>(std::min<long>(args.count, frames));
+    output::PictureSource source(args.film);
+    output::Raster picture;
+    std::string name;
+    const render::Fonts fonts;
+    render::Image sheet;
+    int k = 0;
+    std::optional<Grid> grid;
+    for (long frame = 0; k < shown && source.next(picture, name); ++frame) {
+        if (output::interrupted()) throw Stopped();
+        if (!is_shown(frame, frames, shown, k)) continue;
+        if (!grid) {
+            grid.emplace(args, shown, picture);
+            sheet = render::Image(args.width, grid->total_height());
+            render::Canvas(sheet, fonts).paint(render::rgb(0xFFFFFF));
+        }
+        render::Canvas canvas(sheet, fonts);
+        const render::Box box = grid->at(k++);
+        canvas.image_fitted(output::to_image(picture), box);
+        canvas.text({box.x, box.bottom() + 0.75 * grid->words}, fmt::format("{} of {}", frame + 1, frames),
+                    {.size = 0.62 * grid->words, .color = render::rgb(0x555555)});
+    }
+    return sheet;
+}
+
+int act(const SheetArguments& args) {
+    need_ending("-o", args.file, {".png"});
+    output::Manifest manifest(args.common.force);
+    if (args.file != "-") manifest.require_replaceable(args.file);
+    const std::string bytes = output::encode_png(sheet_of(args));
+    if (args.file == "-") {
+        print_data(bytes);
+        return kDone;
+    }
+    output::write_file(manifest.target(args.file), bytes);
+    manifest.save();
+    say(args.common, fmt::format("wrote {}", args.file));
+    return kDone;
+}
+
+}  // namespace
+
+void add_sheet(Grammar& grammar) {
+    auto args = std::make_shared<SheetArguments>();
+    Command& app =
+        grammar.command("sheet", "A contact sheet: pictures of a film, evenly over its length, in one picture");
+    app.positional("FILM", &args->film, "Film, directory or sequence (name-####.png)").required();
+    app.option("-o,--output", &args->file, "FILE", "Picture to make, .png").required();
+    app.option("--count", &args->count, "N", "How many pictures (default: 12)").range(1, 1000);
+    app.option("--columns", &args->columns, "N", "How many beside each other (default: 4)").range(1, 100);
+    app.option("--width", &args->width, "W", "Of the sheet in pixels (default: 1920)").range(160, 16384);
+    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_quiet(app, args->common);
+    app.bind(args, act);
+}
+
+}  // namespace beamcam::scenes
