@@ -13,7 +13,6 @@ struct Missing {
 constexpr Missing kMissing[] = {
     {"outputs.type", "apng", "write a \"video\" whose \"file\" ends in .apng"},
     {"outputs.type", "gif", "write a \"video\" whose \"file\" ends in .gif"},
-    {"command", "sweep", "run beamcam once for each value with --set"},
 };
 
 }  // namespace
