@@ -13,6 +13,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kInside = 1e-3;            // of the length: the contact keeps this distance from the beam's ends
+constexpr double kAccuracy = 1e-13;         // [rad] of a settled motion: some hundred roundings
 constexpr double kOpening = 1e-13;          // [rad] below the surface while it opens: rounding
 constexpr double kAngleRounding = 2e-16;    // [rad]
 constexpr double kShortestAdvance = 1e-15;  // [s]
@@ -78,6 +79,7 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       reach_(problem.cam->radius),
       floor_(problem.contact.approach_floor.value),
       section_phase_(section_phase(problem, sampling.level)) {
+    motion_.accuracy = kAccuracy;
     begin(start_);
 }
 

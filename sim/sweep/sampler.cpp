@@ -7,6 +7,11 @@
 #include "sim/observe/extrema.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+constexpr double kErrors = 10;  // of the tolerance: errors of a settled motion
+
+}  // namespace
 
 bool points_away(const Problem& problem, double theta) {
     if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
@@ -21,6 +26,7 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       section_phase_(section_phase(system.problem(), sampling.level)),
       next_strobe_(span_.from),
       next_section_(span_.from) {
+    motion_.accuracy = kErrors * system_.problem().solver.rtol;
     if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
         finder_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{sampling.channel});
 }
