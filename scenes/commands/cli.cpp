@@ -22,7 +22,6 @@
 #include "render/base/memory.hpp"
 #include "render/gl/gl_environment.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/capabilities.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/format/source.hpp"
 #include "scenes/format/suggest.hpp"
@@ -40,7 +39,6 @@ void refuse_unknown_command(int argc, const char* const* argv, const Grammar& gr
     std::vector<std::string> known;
     for (const Command& command : grammar.commands) known.push_back(command.name);
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
-    if (const auto planned = not_available("command", word)) throw UsageError(*planned);
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("no command before the scene; write beamcam run {}", word));
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));

@@ -197,7 +197,13 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
     output::PointStore store(store_of(files.empty() ? pictures : files), grid.points(), grid.identity());
     Progress progress(options.progress);
     if (store.count() > 0) say(args.common, fmt::format("{} points are there already", store.count()));
-    make_points(grid, part, options.threads, progress, store);
+    try {
+        make_points(grid, part, options.threads, progress, store);
+    } catch (const Stopped&) {
+        progress.end();
+        say(args.common, fmt::format("{} points are kept; the same command goes on from there", store.count()));
+        throw;
+    }
     const output::SweepData data = data_of(grid, store, part);
     if (files.empty() && pictures.empty()) {
         output::write_sweep_csv(std::cout, data);

@@ -9,7 +9,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kSameState = 1e-5;   // of the cam's lift and of its rate: states closer than this are one
-constexpr double kLeastLift = 1e-3;   // [rad] where the cam does not lift the beam
+constexpr double kUsualLift = 1e-3;   // [rad] where the cam does not lift the beam
 constexpr int kRepeats = 3;           // a period must fit so often into the turns that are compared
 constexpr double kNoise = 1e-7;       // of the lift: changes of a difference that mean nothing
 constexpr double kSettled = 0.1;      // of a difference: its limit is no farther
@@ -28,10 +28,11 @@ struct Scale {
         return std::max(std::fabs(a.theta - b.theta) / angle, std::fabs(a.theta_dot - b.theta_dot) / rate);
     }
 };
-Scale scale_of(const Problem& problem) {
+Scale scale_of(const Problem& problem, const SampledMotion& motion) {
     double lift = 0;
     if (problem.cam && norm(problem.cam->centre) > 0) lift = problem.cam->eccentricity / norm(problem.cam->centre);
-    lift = std::max(lift, kLeastLift);
+    if (lift == 0) lift = kUsualLift;
+    lift = std::max(lift, motion.accuracy / kSameState);
     return {lift, lift / cam_period(problem)};
 }
 
@@ -144,7 +145,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
     }
     const Strobes s = motion.strobes;
     if (!motion.failure.empty() || s.size() < 2) return out;
-    const Scale scale = scale_of(problem);
+    const Scale scale = scale_of(problem, motion);
     const bool lasts = std::ranges::all_of(s, &Strobe::touching) && std::ranges::none_of(s.subspan(1), &Strobe::left);
     if (nothing_moves(problem, scale, s)) {
         out.kind = AttractorClass::rest;

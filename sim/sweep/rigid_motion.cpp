@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/numerics.hpp"
 #include "sim/observe/warnings.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/sweep/sampler.hpp"
@@ -12,6 +13,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kInside = 1e-3;            // of the length: the contact keeps this distance from the beam's ends
+constexpr double kAccuracy = 1e-13;         // [rad] of a settled motion: some hundred roundings
 constexpr double kOpening = 1e-13;          // [rad] below the surface while it opens: rounding
 constexpr double kAngleRounding = 2e-16;    // [rad]
 constexpr double kShortestAdvance = 1e-15;  // [s]
@@ -77,6 +79,7 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       reach_(problem.cam->radius),
       floor_(problem.contact.approach_floor.value),
       section_phase_(section_phase(problem, sampling.level)) {
+    motion_.accuracy = kAccuracy;
     begin(start_);
 }
 
@@ -120,19 +123,25 @@ void RigidMotion::fly() {
     const bool ends = !touch && h == rest;
     const double until = ends ? end() : s_ + dt;
     observe(until, [&](double s) { return series_.at(s - s_); });
+    motion_.over_the_top = leaves(dt);
     swing_ = series_.at(dt);
     touched_ = false;
     move_to(until);
-    if (touch)
-        strike();
-    else
-        motion_.over_the_top = points_away(problem_, mirrored_.side * swing_.theta);
+    if (touch) strike();
     const double size = std::hypot(swing_.d_theta, swing_.d_rate * period_);
     if (size > kLargestDifference || (size > 0 && size < 1 / kLargestDifference)) {
         growth_ += std::log(size);
         swing_.d_theta /= size;
         swing_.d_rate /= size;
     }
+}
+
+// The beam points away from the cam at an end of the stretch, or where it turns back.                       (S80)
+bool RigidMotion::leaves(double dt) const {
+    const auto away = [&](double t) { return points_away(problem_, mirrored_.side * series_.theta(t)); };
+    const auto rate = [&](double t) { return series_.rate(t); };
+    const double first = rate(0), last = rate(dt);
+    return away(0) || away(dt) || (first * last < 0 && away(find_root(rate, 0, dt, first, last)));
 }
 
 // By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and

@@ -37,6 +37,7 @@ class RigidMotion {
     void lie();
     std::optional<double> first_touch(double h);
     double falling(double t, double latest, double h);
+    bool leaves(double dt) const;
     void strike();
     bool sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const;
     void rest_on(const SurfaceAngle& c);

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/observe/extrema.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+constexpr double kErrors = 10;  // of the tolerance: errors of a settled motion
+
+}  // namespace
 
 bool points_away(const Problem& problem, double theta) {
     if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
@@ -20,6 +26,7 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       section_phase_(section_phase(system.problem(), sampling.level)),
       next_strobe_(span_.from),
       next_section_(span_.from) {
+    motion_.accuracy = kErrors * system_.problem().solver.rtol;
     if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
         finder_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{sampling.channel});
 }
@@ -54,10 +61,26 @@ void Sampler::segment(const SegmentInterval& s) {
         if (sampling_.kind == SampleKind::section) sections(s);
         if (finder_ && s.to > s.from) events(s);
     }
+    motion_.over_the_top = leaves(s);
     evaluate(s, s.to);
-    system_.place(s.to, y_.data());
-    motion_.over_the_top = points_away(system_.problem(), system_.model().hub_angle());
     motion_.end.y = y_;
+}
+
+// The beam points away from the cam at an end of the step, or where it turns back.                         (S80)
+bool Sampler::leaves(const SegmentInterval& s) {
+    if (!system_.has_cam() || is_prescribed(system_.problem().hub.drive)) return false;
+    const auto model = [&](double t) -> const Model& {
+        evaluate(s, t);
+        system_.place(t, y_.data());
+        return system_.model();
+    };
+    const auto away = [&](double t) { return points_away(system_.problem(), model(t).hub_angle()); };
+    const auto rate = [&](double t) { return model(t).hub_rate(); };
+    if (away(s.from)) return true;
+    const double first = system_.model().hub_rate();
+    if (away(s.to)) return true;
+    const double last = system_.model().hub_rate();
+    return first * last < 0 && away(find_root(rate, s.from, s.to, first, last));
 }
 
 void Sampler::strobes(const SegmentInterval& s) {
@@ -105,10 +128,10 @@ void Sampler::events(const SegmentInterval& s) {
     }
 }
 
-// Chatter that was summed up ends in contact without an approach: no impact.
+// Chatter that was summed up ends in contact without an approach, and a motion may start in contact: no impacts.
 void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
     impact_.reset();
-    if (!(contact.gap_rate < 0)) return;
+    if (!(contact.gap_rate < 0) || t == 0) return;
     ++motion_.impacts;
     if (!kept(t)) return;
     ++kept_impacts_;

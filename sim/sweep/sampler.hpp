@@ -32,6 +32,7 @@ class Sampler final : public MotionObserver {
     void strobes(const SegmentInterval& s);
     void sections(const SegmentInterval& s);
     void events(const SegmentInterval& s);
+    bool leaves(const SegmentInterval& s);
     void evaluate(const SegmentInterval& s, double t);
 
     const Sampling& sampling_;

@@ -93,6 +93,7 @@ struct SampledMotion {
     bool all_following = false;   // it follows the cam for ever, by the sign of the contact force over a whole turn
     InitialState end;             // to go on from at another parameter; its ledger is that of a start
     long impacts = 0;             // all, with those of the transient
+    double accuracy = 0;          // of its angles, about [rad]
     std::string failure;          // why the motion could not be followed to its end
 };
 

@@ -20,6 +20,7 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
         if (start) moved = carried(problem, *start);
         point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
     }
+    if (point.motion.over_the_top) point.motion.samples.clear();  // of no attractor
     point.attractor = classify(problem, point.motion);
     return point;
 }
