@@ -98,11 +98,13 @@ std::vector<MapCase> map_cases() {
     friction.contact.offset = 0.01;
     for (const int kind : {0, 1, 2}) {
         const char* names[] = {"StickSlip", "StickSlipStaticLarger", "StickSlipLagging"};
-        Problem& sticky = add(names[kind], machine(first_order, 2, compliant), 0.5);
-        sticky.contact.friction = StickSlipFriction{0.3, kind == 1 ? std::optional(0.4) : std::nullopt, 2e5,
-                                                    kind == 2 ? std::optional(300.0) : std::nullopt};
-        sticky.contact.offset = 0.01;
+        Problem& sticky = add(names[kind], machine(first_order, 2, compliant), 0.4);
+        sticky.cam->speed = 0.5;  // so slow that the bristle catches, breaks away and catches again
+        sticky.contact.offset = 0.05;
+        sticky.contact.friction = StickSlipFriction{0.8, kind == 1 ? std::optional(0.9) : std::nullopt, 2e4,
+                                                    kind == 2 ? std::optional(30.0) : std::nullopt};
     }
+    all.back().tolerance = 2e-6;  // more steps, more rounding
     Problem& rests = add("OneModeRestsOnTheCam", machine(first_order, 1, restitution), 0.3);
     rests.contact.restitution = 0.6;
     rests.hub.radius = 0.05;
