@@ -155,6 +155,26 @@ std::string content(const output::BranchTable& table, const OrbitsArguments& arg
     return figure_files(branches_figure(table, scene.problem, how.lang), how, to_json(scene)).front().second;
 }
 
+void write_results(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
+                   output::Manifest& manifest) {
+    const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
+    if (args.common.json) {
+        print_json(output::orbits_json(table));
+    } else if (!prints_data) {
+        for (const sim::PeriodicOrbit& orbit : table.orbits) print_text(orbit_text(orbit));
+        print_text(branches_text(table));
+    }
+    for (const std::string& file : args.files) {
+        const std::string text = content(table, args, scene, file);
+        if (file == "-") {
+            print_data(text);
+            continue;
+        }
+        output::write_file(manifest.target(file), text);
+        say(args.common, "wrote " + file);
+    }
+}
+
 int act(const OrbitsArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     std::optional<KeyRange> range;
@@ -199,22 +219,7 @@ int act(const OrbitsArguments& args) {
     }
     progress.end();
 
-    const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
-    if (args.common.json) {
-        print_json(output::orbits_json(table));
-    } else if (!prints_data) {
-        for (const sim::PeriodicOrbit& orbit : table.orbits) print_text(orbit_text(orbit));
-        print_text(branches_text(table));
-    }
-    for (const std::string& file : args.files) {
-        const std::string text = content(table, args, scene, file);
-        if (file == "-") {
-            print_data(text);
-            continue;
-        }
-        output::write_file(manifest.target(file), text);
-        say(args.common, "wrote " + file);
-    }
+    write_results(table, args, scene, manifest);
     manifest.save();
     if (table.orbits.empty())
         say(args.common, "no periodic orbit was found: try another initial state, --turns, --impacts or --transient");

@@ -20,8 +20,9 @@ constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
 constexpr double kArcDifference =
     1e-6;                              // of the range: the derivative by the parameter, which only steers the corrector
 constexpr double kSmallestArc = 1e-9;  // of the range: what stops the branch is located so far
-constexpr double kArcGrowth = 1.4, kLeastCosine = 0.98;  // of a step; cosine between neighbouring tangents
-constexpr double kFirstArc = 0.1;                        // of the longest
+constexpr double kArcShrink = 0.3, kArcGrowth = 1.4,
+                 kLeastCosine = 0.98;  // of a step; cosine between neighbouring tangents
+constexpr double kFirstArc = 0.1;      // of the longest
 
 // A corrected point of the branch: the orbit's state and the parameter's share of the range; the arc's direction there.
 struct ArcPoint {
@@ -74,13 +75,16 @@ class Continuation {
 std::optional<ArcPoint> Continuation::correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const try {
     const Eigen::Index n = z.size() - 1;
     const Eigen::VectorXd predicted = z;
+    Eigen::VectorXd by_parameter;
     double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMostArcNewton; ++i) {
         const Eigen::VectorXd y = z.head(n);
         ArcPoint point;
         point.value = map(z[n]).at(y, true);
-        const auto image = [&](double shift) { return map(z[n] + shift).at(y, false).image; };
-        const Eigen::VectorXd by_parameter = (image(kArcDifference) - image(-kArcDifference)) / (2 * kArcDifference);
+        if (i == 0) {  // it only steers
+            const auto image = [&](double shift) { return map(z[n] + shift).at(y, false).image; };
+            by_parameter = (image(kArcDifference) - image(-kArcDifference)) / (2 * kArcDifference);
+        }
         Eigen::MatrixXd bordered(n + 1, n + 1);
         bordered << point.value.derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
         Eigen::VectorXd residual(n + 1);
@@ -177,9 +181,9 @@ void Continuation::follow(ArcPoint from, const Progress& progress, Branch& branc
         const bool same = next && next->orbit.impacts.size() == from.orbit.impacts.size() &&
                           next->orbit.start.phase.touching == from.orbit.start.phase.touching;
         if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
-            const bool stuck = 0.5 * step < kSmallestArc;
+            const bool stuck = kArcShrink * step < kSmallestArc;
             if (stuck) return end_at_impact(from, next, step, branch, end);
-            step *= 0.5;
+            step *= kArcShrink;
             continue;
         }
         find_changes(from, *next, branch);

@@ -50,6 +50,16 @@ inline Jet tanh(const Jet& a) {
     return chain(a, t, 1 - t * t);
 }
 
+inline Jet fabs(const Jet& a) { return a.v < 0 ? -a : a; }
+
+// By the values alone.
+inline bool isfinite(const Jet& a) { return std::isfinite(a.v); }
+inline bool operator<(const Jet& a, const Jet& b) { return a.v < b.v; }
+inline bool operator>(const Jet& a, const Jet& b) { return a.v > b.v; }
+inline bool operator<=(const Jet& a, const Jet& b) { return a.v <= b.v; }
+inline bool operator>=(const Jet& a, const Jet& b) { return a.v >= b.v; }
+inline bool operator==(const Jet& a, const Jet& b) { return a.v == b.v; }
+
 // A vector of the plane.
 struct Jet2 {
     Jet x, y;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/contact/impulse_of.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -12,6 +14,12 @@ std::size_t entry(int i) { return static_cast<std::size_t>(i); }
 Jet power(const Jet& a, double n) {
     const double p = std::pow(a.v, n - 1);
     return chain(a, p * a.v, n * p);
+}
+
+// B − C (S23).
+Jet2 cam_arm(const Cam& cam, const Jet& t) {
+    const Jet psi = cam.phase - cam.speed * t;
+    return {cam.eccentricity * cos(psi), cam.eccentricity * sin(psi)};
 }
 
 // F = K δⁿ (1 + D δ̇/δ̇₋), never negative (S30).
@@ -36,11 +44,6 @@ std::optional<std::string> tangent_refusal(const Problem& problem) {
             return fmt::format("the tangent flow of the model {} is not known; use beam.model first-order or rigid",
                                name(problem.beam.model));
     }
-    if (problem.cam && std::holds_alternative<StickSlipFriction>(problem.contact.friction))
-        return "the tangent flow through stick and slip is not known; use contact.friction none or coulomb";
-    if (problem.cam && problem.contact.model == ContactModel::restitution &&
-        !std::holds_alternative<NoFriction>(problem.contact.friction))
-        return "the tangent map of an impact with friction is not known; use contact.friction none";
     return std::nullopt;
 }
 
@@ -93,7 +96,7 @@ void ModalJets::set(const JetState& s) {
 }
 
 // The centre line at x, which may move with the tangents: ModalModel::point, jacobian and convective in jets.
-void ModalJets::line(const JetState&, const Jet& x) {
+void ModalJets::line(const Jet& x) {
     const bool shortened = model_.foreshortening() && modes_ > 0;
     const double a = problem_.hub.radius;
     model_.shapes().evaluate(x.v, y_.data(), y1_.data(), y2_.data(), y3_.data());
@@ -153,14 +156,12 @@ void ModalJets::line(const JetState&, const Jet& x) {
 // Foot, gap, slip and the rows of the contact. The foot moves with the tangents as r′·(r − B) = 0 demands.      (S24)
 void ModalJets::contact(const JetState& s, const ContactState& near) {
     const Cam& cam = *problem_.cam;
-    const Jet psi = cam.phase - cam.speed * s.t;
-    const Jet2 arm{cam.eccentricity * cos(psi), cam.eccentricity * sin(psi)};
-    const Jet2 disc = Jet2{cam.centre.x, cam.centre.y} + arm;
+    const Jet2 arm = cam_arm(cam, s.t), disc = Jet2{cam.centre.x, cam.centre.y} + arm;
     const Jet2 disc_rate{cam.speed * arm.y, -cam.speed * arm.x};
-    line(s, near.x);
+    line(near.x);
     if (!near.at_end) {
         const Jet foot = dot(c_.r1, c_.r - disc);
-        line(s, {near.x, -foot.d / (dot(c_.r2, c_.r - disc).v + dot(c_.r1, c_.r1).v)});
+        line({near.x, -foot.d / (dot(c_.r2, c_.r - disc).v + dot(c_.r1, c_.r1).v)});
     }
     const Jet2 d = c_.r - disc, w = c_.v - disc_rate;
     c_.distance = sqrt(dot(d, d));
@@ -226,8 +227,7 @@ Jet ModalJets::friction_ratio() const { return -friction_.kinetic * tanh(c_.slip
 // The force of sustained contact (S45); force_ is the assembled one.
 Jet ModalJets::hold(const JetState& s, bool at_end) {
     const Cam& cam = *problem_.cam;
-    const Jet psi = cam.phase - cam.speed * s.t;
-    const Jet2 arm{cam.eccentricity * cos(psi), cam.eccentricity * sin(psi)};
+    const Jet2 arm = cam_arm(cam, s.t);
     const Jet2 d = c_.distance * c_.normal, w = c_.v - Jet2{cam.speed * arm.y, -cam.speed * arm.x};
     const Jet rate = at_end ? Jet() : -(dot(c_.v1, d) + dot(c_.r1, w)) / (dot(c_.r2, d) + dot(c_.r1, c_.r1));
     const Jet2 d_rate = w + rate * c_.r1;
@@ -251,6 +251,33 @@ Jet ModalJets::hold(const JetState& s, bool at_end) {
     return -(decay + gap_acceleration) / per_newton;
 }
 
+Jet ModalJets::sliding_bristle(Grip grip, const Forces& f) const {
+    return (FrictionLaw::sign(grip) * friction_.kinetic / friction_.stiffness) * f.normal;
+}
+
+// After `assemble` and `contact`; friction as FrictionLaw::force.
+ModalJets::Forces ModalJets::placed_forces(const JetState& s, const Phase& phase, bool at_end) {
+    Forces f;
+    f.slip = c_.slip;
+    const Jet depth = problem_.cam->radius + offset_ - phase.gap_offset - c_.distance;
+    f.normal = phase.held ? hold(s, at_end) : normal_force(law_, depth, -c_.gap_rate, s.approach);
+    if (friction_.none()) return f;
+    if (!friction_.bristle)
+        f.friction = friction_ratio() * f.normal;
+    else if (phase.grip == Grip::stick)
+        f.friction = -(friction_.stiffness * s.bristle + friction_.damping * c_.slip);
+    else
+        f.friction = (-FrictionLaw::sign(phase.grip) * friction_.kinetic) * f.normal;
+    return f;
+}
+
+ModalJets::Forces ModalJets::forces(const JetState& s, const Phase& phase, const ContactState& near) {
+    set(s);
+    assemble(s);
+    contact(s, near);
+    return placed_forces(s, phase, near.at_end);
+}
+
 void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& near, std::vector<Jet>& acceleration,
                      Jet& bristle_rate) {
     set(s);
@@ -258,16 +285,13 @@ void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& 
     bristle_rate = 0;
     if (phase.touching) {
         contact(s, near);
-        Jet normal;
-        if (phase.held) {
-            normal = hold(s, near.at_end);
-        } else {
-            const Jet depth = problem_.cam->radius + offset_ - phase.gap_offset - c_.distance;
-            normal = normal_force(law_, depth, -c_.gap_rate, s.approach);
-        }
-        const Jet friction = friction_.none() ? Jet() : friction_ratio() * normal;
+        const Forces f = placed_forces(s, phase, near.at_end);
         for (int i = 0; i < n_; ++i)
-            force_[entry(i)] += normal * c_.jn[entry(i)] + friction * c_.jt[entry(i)];  // (S28)
+            force_[entry(i)] += f.normal * c_.jn[entry(i)] + f.friction * c_.jt[entry(i)];  // (S28)
+        if (friction_.bristle && phase.grip == Grip::stick)
+            bristle_rate = f.slip;
+        else if (friction_.lags)
+            bristle_rate = (friction_.stiffness / friction_.damping) * (sliding_bristle(phase.grip, f) - s.bristle);
     }
     solve(s, force_, true);
     acceleration = force_;
@@ -279,17 +303,24 @@ ModalJets::Gap ModalJets::gap(const JetState& s, const ContactState& near) {
     return {c_.distance - (problem_.cam->radius + offset_), c_.gap_rate};
 }
 
-// ξ̇ ← ξ̇ − (1 + r) ġ M⁻¹J_n/(J_n M⁻¹J_nᵀ)                                                                       (S43)
+// ξ̇ ← ξ̇ + M⁻¹(J_nᵀP_n + J_tᵀP_t)                                                                               (S43)
 void ModalJets::strike(JetState& s, const ContactState& near, double restitution) {
     set(s);
     assemble(s);
     contact(s, near);
-    std::vector<Jet> jump = c_.jn;
-    solve(s, jump, false);
-    Jet compliance;
-    for (int i = 0; i < n_; ++i) compliance += c_.jn[entry(i)] * jump[entry(i)];
-    const Jet impulse = -(1 + restitution) * (c_.gap_rate / compliance);
-    for (int i = 0; i < n_; ++i) s.rate[entry(i)] += impulse * jump[entry(i)];
+    std::vector<Jet> by_n = c_.jn, by_t = c_.jt;
+    solve(s, by_n, false);
+    solve(s, by_t, false);
+    ComplianceOf<Jet> compliance{0, 0, 0};
+    for (int i = 0; i < n_; ++i) {
+        compliance.nn += c_.jn[entry(i)] * by_n[entry(i)];
+        compliance.nt += 0.5 * (c_.jt[entry(i)] * by_n[entry(i)] + c_.jn[entry(i)] * by_t[entry(i)]);
+        compliance.tt += c_.jt[entry(i)] * by_t[entry(i)];
+    }
+    const ImpactResultOf<Jet> impact =
+        resolve_impact<Jet>(compliance, c_.gap_rate, c_.slip, friction_.kinetic, restitution, problem_.contact.law);
+    for (int i = 0; i < n_; ++i)
+        s.rate[entry(i)] += impact.impulse_n * by_n[entry(i)] + impact.impulse_t * by_t[entry(i)];
 }
 
 double ModalJets::inertia_share(const double* q) const {

@@ -39,7 +39,13 @@ class ModalJets {
         Jet gap, rate;
     };
     Gap gap(const JetState& s, const ContactState& near);
-    // ξ̇ after a frictionless strike that returns this share of the normal speed, in place.
+    // Of a contact that lasts.
+    struct Forces {
+        Jet normal, friction, slip;
+    };
+    Forces forces(const JetState& s, const Phase& phase, const ContactState& near);
+    Jet sliding_bristle(Grip grip, const Forces& f) const;  // deflection that carries the sliding force (S36)
+    // ξ̇ after a strike with this restitution, by the problem's law and friction, in place.
     void strike(JetState& s, const ContactState& near, double restitution);
 
     // What the volume of (ξ, ξ̇) must be multiplied with to be that of (ξ, ∂T/∂ξ̇), over its value at q = 0.
@@ -53,10 +59,11 @@ class ModalJets {
         std::vector<Jet> jn, jt;
     };
     void set(const JetState& s);
-    void line(const JetState& s, const Jet& x);
+    void line(const Jet& x);
     void contact(const JetState& s, const ContactState& near);
     void assemble(const JetState& s);
     void solve(const JetState& s, std::vector<Jet>& f, bool driven) const;
+    Forces placed_forces(const JetState& s, const Phase& phase, bool at_end);
     Jet hold(const JetState& s, bool at_end);
     Jet friction_ratio() const;
 

@@ -12,6 +12,7 @@ constexpr double kSameInstantRounding = 4e-16;  // of the time: steps that end s
 // Rows of tangents beside the coordinates and their rates: z and δ̇₋.
 constexpr int kMemories = 2;
 
+constexpr double kPlastic = 1e-9;       // of the approach speed: a slower rebound is none
 constexpr int kFlow = kDirections - 1;  // the direction of the motion itself at events
 // Touches with this share of difference in speed are one and the same: the gap's rounding was taken out between.
 constexpr double kSameSpeed = 1e-9;
@@ -196,6 +197,8 @@ void TangentIntegrator::saltation(double t, const double* after, const Phase& wa
         touch(t, was, is);
     else if (was.touching && !is.touching)
         release();
+    else if (was.grip != is.grip)
+        change_grip(t, after, was, is);
 }
 
 // The state before an event as jets: tangents from column `first` on, and in the last direction the motion itself.
@@ -213,6 +216,7 @@ JetState TangentIntegrator::event_jets(double t, const Phase& was, Eigen::Index 
         s.xi[i].d[kFlow] = flow[i];
         s.rate[i].d[kFlow] = flow[s.xi.size() + i];
     }
+    if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * s.xi.size()];
     for (int k = 0; k < kFlow && first + k < columns_; ++k)
         seed_column(s, k, tangents_.col(first + k).data(), units_.data());
     return s;
@@ -229,7 +233,7 @@ void TangentIntegrator::strike(double t, const double* after, const Phase& was, 
         if (first == 0) touches_.push_back({t, -near_.gap_rate});
         const double pre_set = probe_.problem().contact.restitution;
         const Jet gap = jets_.gap(s, near_).gap;
-        jets_.strike(s, near_, !is.held && rebound > -0.5 * pre_set * near_.gap_rate ? pre_set : 0);
+        jets_.strike(s, near_, !is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
         for (int k = 0; k < kFlow && first + k < columns_; ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
             for (int i = 0; i < n_; ++i) {
@@ -279,10 +283,42 @@ void TangentIntegrator::touch(double t, const Phase& was, const Phase& is) {
                            std::fabs(is.approach + near_.gap_rate) < kSameSpeed * is.approach;
         const ModalJets::Gap gap = jets_.gap(s, near_);
         for (int k = 0; k < kFlow && first + k < columns_; ++k) {
+            tangents_(2 * n_, first + k) = 0;  // the bristle is relaxed
             double& row = tangents_(rows_ - 1, first + k);
             const double delay = -gap.gap.d[k] / gap.gap.d[kFlow];
             if (keeps) row = -units_[rows_ - 1] * (gap.rate.d[k] + gap.rate.d[kFlow] * delay);
             if (is.approach == floor) row = 0;
+        }
+    }
+}
+
+// Break-away drops the force if the static coefficient is larger; at the catch the bristle is put where it carries the
+// sliding force, and its rate goes on. A lagging bristle is a state throughout.                              (S36, S71)
+void TangentIntegrator::change_grip(double t, const double* after, const Phase& was, const Phase& is) {
+    const FrictionLaw& friction = probe_.friction();
+    std::vector<double> flow(static_cast<std::size_t>(probe_.size));
+    probe_.set_phase(is);
+    probe_.rhs(t, after, flow.data());
+    for (Eigen::Index first = 0; first < columns_; first += kFlow) {
+        const JetState s = event_jets(t, was, first);
+        const ModalJets::Forces f = jets_.forces(s, was, near_);
+        std::vector<Jet> acceleration;
+        Jet bristle_rate;
+        jets_.flow(s, was, near_, acceleration, bristle_rate);
+        const Jet guard = friction.limit * f.normal - fabs(f.friction);
+        const Jet caught = jets_.sliding_bristle(was.grip, f) - (friction.damping / friction.stiffness) * f.slip;
+        for (int k = 0; k < kFlow && first + k < columns_; ++k) {
+            double& bristle = tangents_(2 * n_, first + k);
+            if (is.grip == Grip::stick) {
+                if (!friction.lags) bristle = units_[2 * n_] * caught.d[k];
+                continue;
+            }
+            const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
+            for (int i = 0; i < n_; ++i) {
+                const auto j = static_cast<std::size_t>(i);
+                tangents_(n_ + i, first + k) += units_[n_ + i] * (acceleration[j].v - flow[s.xi.size() + j]) * delay;
+            }
+            bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * s.xi.size()]) * delay : 0;
         }
     }
 }

@@ -57,6 +57,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     void strike(double t, const double* after, const Phase& was, const Phase& is);
     void touch(double t, const Phase& was, const Phase& is);
     JetState event_jets(double t, const Phase& was, Eigen::Index first);
+    void change_grip(double t, const double* after, const Phase& was, const Phase& is);
     void release();
     void keep_on_cam(double t, const double* y);
     const Segment& arrive(const Segment& inner);
