@@ -8,16 +8,17 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSameState = 1e-5;   // of the cam's lift and of its rate: states closer than this are one
-constexpr double kUsualLift = 1e-3;   // [rad] where the cam does not lift the beam
-constexpr int kRepeats = 3;           // a period must fit so often into the turns that are compared
-constexpr double kNoise = 1e-7;       // of the lift: changes of a difference that mean nothing
-constexpr double kSettled = 0.1;      // of a difference: its limit is no farther
-constexpr double kNear = 0.02;        // of the lift: differences from a period that may still vanish
-constexpr std::size_t kBlocks = 10;   // of the exponent
-constexpr double kSureErrors = 3;     // standard errors
-constexpr double kLateGrowth = 3;     // of the logarithm
-constexpr double kSmallError = 0.02;  // per turn, of an exponent that is zero
+constexpr double kSameState = 1e-5;       // of the cam's lift and of its rate: states closer than this are one
+constexpr double kUsualLift = 1e-3;       // [rad] where the cam does not lift the beam
+constexpr int kRepeats = 3;               // a period must fit so often into the turns that are compared
+constexpr std::size_t kFewestTurns = 12;  // in which a motion without a period is told from one that settles
+constexpr double kNoise = 1e-7;           // of the lift: changes of a difference that mean nothing
+constexpr double kSettled = 0.1;          // of a difference: its limit is no farther
+constexpr double kNear = 0.02;            // of the lift: differences from a period that may still vanish
+constexpr std::size_t kBlocks = 10;       // of the exponent
+constexpr double kSureErrors = 3;         // standard errors
+constexpr double kLateGrowth = 3;         // of the logarithm
+constexpr double kSmallError = 0.02;      // per turn, of an exponent that is zero
 
 using Strobes = std::span<const Strobe>;
 
@@ -173,7 +174,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         out.impacts_per_period = impacts(turns - n, turns);
         return out;
     }
-    out.kind = class_without_period(problem, out.exponent, is_near_period(scale, s));
+    if (s.size() >= kFewestTurns) out.kind = class_without_period(problem, out.exponent, is_near_period(scale, s));
     out.impacts_per_period = impacts(0, turns) / static_cast<double>(turns);
     return out;
 }

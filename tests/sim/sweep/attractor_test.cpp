@@ -91,6 +91,12 @@ TEST(Attractor, FollowsWhereTheContactLasts) {
     EXPECT_EQ(classify(still, contact(false, 0)).kind, AttractorClass::rest);
 }
 
+TEST(Attractor, IsUnsettledInFewTurns) {
+    SampledMotion motion = circle(5.3137, 0.4);
+    motion.strobes.resize(11);
+    EXPECT_EQ(kind(motion), AttractorClass::unsettled);
+}
+
 TEST(Attractor, SaysThatAFailedMotionIsUnsettled) {
     SampledMotion motion = circle(5, kNan);
     motion.failure = "too slow";
