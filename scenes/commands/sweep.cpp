@@ -8,6 +8,7 @@
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
+#include "output/files/numbers.hpp"
 #include "output/files/sha256.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
@@ -60,7 +61,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, for example cam.speed=40:52:601");
+        throw UsageError(option + ": write KEY=FIRST:LAST:STEP, for example cam.speed=40:52:0.02");
     SweptKey over;
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
@@ -82,16 +83,20 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     }
     if (parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear")) over.logarithmic = parts[3] == "log";
     if (parts.size() != 3 && !(parts.size() == 4 && (over.logarithmic || parts[3] == "linear")))
-        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, and :log for logarithmic spacing");
+        throw UsageError(option +
+                         ": write KEY=FIRST:LAST:STEP, or KEY=FIRST:LAST:COUNTn, with :log for logarithmic spacing");
     over.from = number_argument(option, parts[0], dimension);
     over.to = number_argument(option, parts[1], dimension);
-    const double third = number_argument(option, parts[2], dimension);
-    const bool whole = parts[2].find_first_not_of("0123456789") == std::string::npos;
-    const double count = whole ? third : 1 + std::round((*over.to - *over.from) / third);
-    if (!(count >= 1 && count <= 1e8) || (!whole && over.logarithmic))
-        throw UsageError(fmt::format("{}: {} is neither a count nor a step", option, parts[2]));
-    // The last value is a whole number of steps away.
-    if (!whole) over.to = *over.from + (count - 1) * third;
+    std::string& third = parts[2];
+    const bool is_count = third.ends_with('n') || over.logarithmic;  // "601n" values; else a step
+    if (third.ends_with('n')) third.pop_back();
+    const double step = is_count ? 0 : number_argument(option, third, dimension);
+    const double count = is_count ? output::number_in<int>(third).value_or(0)
+                                  : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
+    if (!(count >= 1 && count <= 1e8))
+        throw UsageError(fmt::format("{}: {} is no {} from {} to {}", option, parts[2],
+                                     is_count ? "number of values" : "step", parts[0], parts[1]));
+    if (!is_count) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
     over.count = static_cast<int>(count);
     return over;
 }
@@ -269,9 +274,10 @@ void add_sweep(Grammar& grammar) {
     auto args = std::make_shared<SweepArguments>();
     Command& app = grammar.command("sweep", "Many motions over one or two keys: samples, classes, diagrams");
     add_scene(app, args->scene, args->common);
-    app.option("--over", &args->over, "KEY=VALUES",
-               "What varies: KEY=FIRST:LAST:COUNT (or a step such as 0.02; :log), KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
-               "twice for a grid");
+    app.option(
+        "--over", &args->over, "KEY=VALUES",
+        "What varies: KEY=FIRST:LAST:STEP, KEY=FIRST:LAST:COUNTn (with :log too), KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
+        "twice for a grid");
     app.option("--sample", &args->sample, "WHAT",
                "impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: impacts)");
     app.option("--transient", &args->transient, "N", "Turns of the cam, or a time, before samples are kept (200)");

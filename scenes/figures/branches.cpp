@@ -90,8 +90,8 @@ Figure branches_figure(const output::BranchTable& table, const sim::Problem& pro
     }
     Panel panel;
     panel.name = "branches";
-    panel.x = {.label = table.key, .tight = true};
-    panel.y = {.label = en ? "approach speed of impacts / (m/s)" : "碰撞接近速度 / (m/s)"};
+    panel.x = {.label = key_label(table.key, problem), .tight = true};
+    panel.y = {.label = en ? "approach speed of impacts / (m s^{−1})" : "碰撞接近速度 / (m s^{−1})"};
     panel.legend = render::figure::Legend::box;
     const std::string special = add_special(table, high - low, panel);
     for (Series* series : {&stable, &unstable})
@@ -107,7 +107,7 @@ Figure branches_figure(const output::BranchTable& table, const sim::Problem& pro
                     "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, R release. {}. {}"
                   : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
                     "Neimark–Sacker，BP 分支点，G 擦边，R 脱离。{}。{}",
-               table.key, special, facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+               symbol_of(table.key), special, facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
     figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
                          : "截面映射上的 Newton 法，相对容差 10^{−12}。";
     return figure;

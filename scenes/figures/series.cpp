@@ -8,6 +8,7 @@
 
 #include "render/plot/channel_label.hpp"
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/key_label.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/reproducible.hpp"
 
@@ -28,21 +29,13 @@ constexpr std::size_t kMostRules = 60;  // more lines than these hide the curves
 // A quantity along an axis: its unit, with the prefix that suits its values.
 struct Measure {
     double factor = 1;
-    std::string unit;  // markup; may be empty
+    std::string unit;  // may be empty
 };
 
 Measure measure_of(const std::string& unit, double largest) {
     const bool prefixed = unit == "m" || unit == "N" || unit == "J" || unit == "s";
     const render::Prefix prefix = render::prefix_for(prefixed && largest > 0 && std::isfinite(largest) ? largest : 1);
-    Measure out{1 / prefix.factor, prefix.symbol + unit};
-    if (unit == "rad/s") out.unit = "(rad s^{−1})";
-    if (unit == "m/s") out.unit = "(m s^{−1})";
-    if (unit == "m/s^2") out.unit = "(m s^{−2})";
-    return out;
-}
-
-std::string labelled(const std::string& symbols, const std::string& unit) {
-    return unit.empty() ? symbols : symbols.empty() ? unit : fmt::format("{} / {}", symbols, unit);
+    return {1 / prefix.factor, prefix.symbol + unit};
 }
 
 // Only differences of potential energy mean anything: its least value is the zero.
@@ -139,7 +132,7 @@ class SeriesFigure {
         const Measure measure = measure_of(unit(channels.front(), motions_.front().problem), most);
         std::vector<std::string> symbols;
         for (const Channel& channel : channels) symbols.push_back(render::print_symbol(channel));
-        axis.label = labelled(fmt::format("{}", fmt::join(symbols, ", ")), measure.unit);
+        axis.label = axis_label(fmt::format("{}", fmt::join(symbols, ", ")), measure.unit);
         for (std::size_t i = 0; i < all.size(); ++i) {
             const Motion& motion = motions_[i % motions_.size()];
             const std::string& symbol = symbols[i / motions_.size()];
@@ -210,7 +203,7 @@ class SeriesFigure {
         std::string symbol = render::print_symbol(channel);
         if (keys_.against == "turns") measure = {1, ""}, symbol = en() ? "turns of the cam" : "凸轮转数";
         for (Panel& each : figure.panels) {
-            each.x.label = labelled(symbol, measure.unit);
+            each.x.label = axis_label(symbol, measure.unit);
             each.x.tight = !abscissa_;
             for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);
             for (auto& rule : each.rules) rule.at *= measure.factor;

@@ -242,7 +242,7 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
             all.push_back(
                 {at, fmt::format("{} is no number of this scene{}", in_quotes(key), suggestion_or_list(key, known))});
     };
-    if (sweep.over.empty()) all.push_back({"over", "say what varies, for example cam.speed=40:52:601"});
+    if (sweep.over.empty()) all.push_back({"over", "say what varies, for example cam.speed=40:52:0.02"});
     if (sweep.over.size() > 2) all.push_back({"over", "a sweep varies one key, or two"});
     if (sweep.over.size() == 2 && sweep.over[0].key == sweep.over[1].key)
         all.push_back({"over.1.key", fmt::format("{} stands twice", sweep.over[0].key)});

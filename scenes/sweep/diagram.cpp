@@ -8,6 +8,7 @@
 #include <map>
 
 #include "scenes/figures/caption.hpp"
+#include "scenes/figures/key_label.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -53,30 +54,8 @@ bool is_section(AttractorClass kind) {
            kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
 }
 
-std::string symbol(const std::string& key) {
-    static const std::map<std::string, std::string> kSymbols{{"cam.speed", "$ω$"},
-                                                             {"cam.eccentricity", "$e$"},
-                                                             {"cam.radius", "$R$"},
-                                                             {"contact.restitution", "$r$"},
-                                                             {"gravity", "$g$"},
-                                                             {"initial.angle", "$θ_{0}$"},
-                                                             {"theta", "$θ$"},
-                                                             {"theta_dot", "$\\dot{θ}$"},
-                                                             {"v_n_before", "$v_{n}$ before impact"},
-                                                             {"v_n_after", "$v_{n}$ after impact"},
-                                                             {"contact_x", "$x_{c}$"},
-                                                             {"cam_phase", "cam phase"},
-                                                             {"t", "$t$"},
-                                                             {"initial.angular_velocity", "$\\dot{θ}_{0}$"}};
-    const auto found = kSymbols.find(key);
-    if (found != kSymbols.end()) return found->second;
-    std::string escaped;
-    for (const char c : key) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
-    return escaped;
-}
 std::string label_of(const std::string& name, const std::string& unit) {
-    if (name == "cam_phase") return "cam phase / turn";
-    return unit.empty() || unit == "1" ? symbol(name) : fmt::format("{} / ({})", symbol(name), unit);
+    return name == "cam_phase" ? "cam phase / turn" : axis_label(symbol_of(name), unit);
 }
 std::string axis_label(const output::SweepAxis& axis) { return label_of(axis.name, axis.unit); }
 
@@ -151,7 +130,7 @@ std::string caption(const SweepGrid& grid, const output::SweepData& data) {
     };
     std::string text;
     for (const output::SweepAxis& axis : grid.axes())
-        text += fmt::format("{} = {:.6g} … {:.6g}{} in {} values; ", symbol(axis.name),
+        text += fmt::format("{} = {:.6g} … {:.6g}{} in {} values; ", symbol_of(axis.name),
                             *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
                             axis.unit == "1" ? "" : " " + axis.unit, axis.values.size());
     text += fmt::format("samples: {}; transient {}, then {} kept; starts: ", text_of_sample(s), span(s.transient),

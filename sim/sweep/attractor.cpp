@@ -110,6 +110,8 @@ AttractorClass class_without_period(const Problem& problem, const LargestExponen
     if (near_period) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
     if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // it forgets, so it has a period
+    // A map of the plane that contracts areas keeps no closed curve: a rigid beam that loses energy has no torus.
+    if (problem.beam.model == ModelKind::rigid && problem.contact.restitution < 1) return AttractorClass::unsettled;
     const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
     const bool known = exponent.error * cam_period(problem) < kSmallError;
     return zero && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;

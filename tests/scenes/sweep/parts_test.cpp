@@ -117,18 +117,18 @@ TEST(SweepParts, AreMadeByTheEngines) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
     const std::string emit =
-        "$BEAMCAM sweep s.json --set 'contact.restitution=0.6' --over cam.speed=40:44:9 -o 'r.nc' "
+        "$BEAMCAM sweep s.json --set 'contact.restitution=0.6' --over cam.speed=40:44:9n -o 'r.nc' "
         "--parts 3 --emit ";
     const std::string slurm = shell(folder, emit + "slurm").out;
     EXPECT_THAT(slurm, HasSubstr("#SBATCH --array=1-3\n"));
     EXPECT_THAT(slurm, HasSubstr("--shard auto"));
     EXPECT_THAT(shell(folder, emit + "snakemake").out, HasSubstr("range(1, 4)"));
-    ASSERT_EQ(
-        shell(folder, "mkdir bin && ln -s \"$BEAMCAM\" bin/beamcam && " + emit +
-                          "parallel > run.sh && "
-                          "$BEAMCAM sweep s.json -q --set contact.restitution=0.6 --over cam.speed=40:44:9 -o whole.nc")
-            .code,
-        0);
+    ASSERT_EQ(shell(folder,
+                    "mkdir bin && ln -s \"$BEAMCAM\" bin/beamcam && " + emit +
+                        "parallel > run.sh && "
+                        "$BEAMCAM sweep s.json -q --set contact.restitution=0.6 --over cam.speed=40:44:9n -o whole.nc")
+                  .code,
+              0);
     if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
     const Finished done = shell(folder, "PATH=\"$PWD/bin:$PATH\" sh run.sh");
     ASSERT_EQ(done.code, 0) << done.err;

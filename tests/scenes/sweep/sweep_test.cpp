@@ -122,9 +122,10 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
         return values;
     };
     using ::testing::ElementsAre;
-    EXPECT_THAT(first_column("cam.speed=40:44:3"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:44:3n"), ElementsAre("40", "42", "44"));
     EXPECT_THAT(first_column("cam.speed=40:41.1:0.5"), ElementsAre("40", "40.5", "41"));
-    EXPECT_THAT(first_column("cam.speed=25:100:3:log"), ElementsAre("25", "50", "100"));
+    EXPECT_THAT(first_column("cam.speed=40:44:2"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=25:100:3n:log"), ElementsAre("25", "50", "100"));
     EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
     EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
     EXPECT_EQ(first_column("cam.speed=300 rpm").at(0).substr(0, 6), "31.415");
@@ -135,14 +136,14 @@ TEST(SweepCommand, RefusesInWords) {
     folder.write("s.json", kSweptScene);
     for (const auto& [arguments, code, words] :
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
-          {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
-          {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
+          {"--over cam.speed", 2, "KEY=FIRST:LAST:STEP"},
+          {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:STEP"},
           {"--seed up", 2, "carry-up"},
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},
           {"--transient -1", 2, "turns of the cam"},
-          {"--over cam.eccentricity=0:0.2:3", 3, "sweep at cam.eccentricity = 0.1"},
-          {"--over beam.modes=1:2:3", 3, "whole number"}}) {
+          {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},
+          {"--over beam.modes=1:2:3n", 3, "whole number"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json ") + arguments);
         EXPECT_EQ(done.code, code) << arguments;
         EXPECT_THAT(done.err, HasSubstr(words)) << arguments;
