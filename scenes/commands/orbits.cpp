@@ -155,6 +155,27 @@ std::string content(const output::BranchTable& table, const OrbitsArguments& arg
     return figure_files(branches_figure(table, scene.problem, how.lang), how, to_json(scene)).front().second;
 }
 
+// The first that can be continued.
+const sim::PeriodicOrbit* first_smooth(const std::vector<sim::PeriodicOrbit>& orbits) {
+    for (const sim::PeriodicOrbit& orbit : orbits)
+        if (!orbit.chatters) return &orbit;
+    return nullptr;
+}
+
+// Where the start has no orbit to continue, another value of the range may have.
+void begin_elsewhere(output::BranchTable& table, const SceneFamily& family, const KeyRange& range,
+                     sim::OrbitRequest request, const sim::Progress& progress) {
+    request.transient = 0;
+    for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
+        const double value = range.from + share * (range.to - range.from);
+        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family.scene(value).problem, request, progress);
+        if (!first_smooth(found)) continue;
+        table.start = value;
+        table.orbits = std::move(found);
+        return;
+    }
+}
+
 void write_results(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
                    output::Manifest& manifest) {
     const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
@@ -210,12 +231,11 @@ int act(const OrbitsArguments& args) {
     if (range) {
         table.key = range->key;
         table.start = start;
-        const auto smooth = std::find_if(table.orbits.begin(), table.orbits.end(),
-                                         [](const sim::PeriodicOrbit& orbit) { return !orbit.chatters; });
+        if (!first_smooth(table.orbits)) begin_elsewhere(table, *family, *range, request, goes_on);
         const sim::ContinuationRequest how{range->from, range->to, args.step, args.most_points, args.doublings};
-        if (smooth != table.orbits.end())
-            table.branches =
-                sim::continue_orbit([&](double value) { return (*family)(value); }, {start, *smooth}, how, goes_on);
+        if (const sim::PeriodicOrbit* orbit = first_smooth(table.orbits))
+            table.branches = sim::continue_orbit([&](double value) { return (*family)(value); }, {table.start, *orbit},
+                                                 how, goes_on);
     }
     progress.end();
 

@@ -1,5 +1,5 @@
 // Branches of periodic orbits over a parameter: pseudo-arc-length continuation through folds, with the points where
-// stability or the pattern of impacts changes. MODEL.md §16a.
+// stability or the pattern of impacts changes. MODEL.md §16a; its closed forms (S78) are what this is tested against.
 #pragma once
 
 #include <functional>

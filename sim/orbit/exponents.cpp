@@ -19,13 +19,15 @@ constexpr double kMostDecay = 5;
 constexpr double kUnsettled = 4;  // standard errors between the halves of an average
 constexpr double kUnsettledRounding =
     1e-3;                              // of the whole: blocks of a periodic motion may agree better than they cut it
+constexpr double kCompliant = 0.02;    // [s]
 constexpr double kNoRank = 1e-13;      // of a unit tangent: what is left of it is rounding
 constexpr double kGrazing = 0.01;      // of the typical approach speed: slower impacts are near grazing
 constexpr std::size_t kHistory = 400;  // points of the convergence, at most about
 
 // The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
 double longest_interval(const Problem& problem) {
-    double interval = 1;
+    // Compliant contact may damp strongly for as long as it lasts.
+    double interval = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
     if (problem.cam && problem.cam->speed != 0)
         interval = std::min(interval, 2 * std::numbers::pi / std::fabs(problem.cam->speed));
     System system(problem);
@@ -40,13 +42,13 @@ double longest_interval(const Problem& problem) {
 
 // Gram and Schmidt, twice for the rounding; returns the length that is left of each column. A column without any is
 // lost in sustained contact and stays zero.
-Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v) {
+Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
     Eigen::VectorXd lengths = Eigen::VectorXd::Zero(v.cols());
     for (Eigen::Index i = 0; i < v.cols(); ++i) {
         const auto before = v.leftCols(i);
         for (int repeat = 0; repeat < 2; ++repeat) v.col(i) -= before * (before.transpose() * v.col(i)).eval();
         const double length = v.col(i).norm();
-        if (length > kNoRank) lengths[i] = length;
+        if (length > lost) lengths[i] = length;
         v.col(i) *= lengths[i] > 0 ? 1 / length : 0;
     }
     return lengths;
@@ -68,7 +70,7 @@ class Stretching {
 
     double at(double t, TangentIntegrator& integrator) {
         Eigen::MatrixXd v = integrator.tangents(true);
-        const Eigen::VectorXd left = orthonormalize(v);
+        const Eigen::VectorXd left = orthonormalize(v, integrator.holds() > 0 ? kNoRank : 0);
         integrator.set_tangents(v, true);
         if (done_ >= settling_) sum_.array() += left.array().log();
         if (t >= instant(done_ + 1)) advance();

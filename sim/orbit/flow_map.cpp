@@ -22,7 +22,7 @@ InitialState motion_end(const Problem& problem, const InitialState& start, doubl
 }
 
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
-                 const Progress& progress) {
+                 const Progress& progress, StartOnCam on_cam) {
     Request request;
     request.end_time = duration;
     request.turning_points = false;
@@ -33,6 +33,7 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
         auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol,
                                                         Eigen::MatrixXd::Identity(n, derivative ? n : 0));
         made->pause_at(duration, {});
+        if (on_cam == StartOnCam::kept) made->start_on_cam();
         tangents = made.get();
         return made;
     };

@@ -20,10 +20,13 @@ struct FlowMap {
     long steps = 0;
 };
 
+// What differences a derivative allows at a start in sustained contact.
+enum class StartOnCam { free, kept };
+
 // From `start` at t = 0, by rk8 at the problem's tolerances, for what `require_tangents` lets pass. Throws SolverError,
 // Interrupted.
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
-                 const Progress& progress = {});
+                 const Progress& progress = {}, StartOnCam on_cam = StartOnCam::free);
 
 // Where the motion from `start` at t = 0 is after the time, by the problem's own method.
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration,

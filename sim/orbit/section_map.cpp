@@ -77,7 +77,10 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     orbit.residual = (value.image - y).norm();
     for (const TangentTouch& touch : value.map.touches)
         orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach});
-    const Eigen::VectorXcd multipliers = value.derivative.eigenvalues();
+    Eigen::MatrixXd derivative = value.derivative;
+    if (like_.phase.held)  // neighbours on the cam only: leaving it is no freedom of the motion
+        derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;
+    const Eigen::VectorXcd multipliers = derivative.eigenvalues();
     orbit.multipliers.assign(multipliers.begin(), multipliers.end());
     std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });

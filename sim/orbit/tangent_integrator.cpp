@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -150,6 +153,11 @@ void TangentIntegrator::start(double t, const double* y) {
         saltation(t, y, phase_, is);
     }
     phase_ = is;
+    if (is.held && !std::exchange(starts_free_, true)) {
+        probe_.set_phase(is);
+        near_ = probe_.contact(t, y, true);
+        keep_on_cam(t, y);
+    }
     flow_->insert(y, end_.data());
     if (pause_ && touches_.size() > touched) next_pause_ = pause_(t);
     std::copy_n(tangents_.data(), tangents_.size(), end_.data() + flow_->tangents_begin());
@@ -230,7 +238,7 @@ void TangentIntegrator::strike(double t, const double* after, const Phase& was, 
     const double rebound = probe_.contact(t, after, true).gap_rate;
     for (Eigen::Index first = 0; first == 0 || first < columns_; first += kFlow) {
         JetState s = event_jets(t, was, first);
-        if (first == 0) touches_.push_back({t, -near_.gap_rate});
+        if (first == 0 && -near_.gap_rate > kRestSpeed) touches_.push_back({t, -near_.gap_rate});
         const double pre_set = probe_.problem().contact.restitution;
         const Jet gap = jets_.gap(s, near_).gap;
         jets_.strike(s, near_, !is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
@@ -277,7 +285,7 @@ void TangentIntegrator::keep_on_cam(double t, const double* y) {
 void TangentIntegrator::touch(double t, const Phase& was, const Phase& is) {
     for (Eigen::Index first = 0; first == 0 || first < columns_; first += kFlow) {
         const JetState s = event_jets(t, was, first);
-        if (first == 0) touches_.push_back({t, -near_.gap_rate});
+        if (first == 0 && -near_.gap_rate > kRestSpeed) touches_.push_back({t, -near_.gap_rate});
         const double floor = probe_.problem().contact.approach_floor.value;
         const bool keeps = -near_.gap_rate > floor && is.approach > 0 &&
                            std::fabs(is.approach + near_.gap_rate) < kSameSpeed * is.approach;

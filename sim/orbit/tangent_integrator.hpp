@@ -37,6 +37,9 @@ class TangentIntegrator final : public Integrator, private Segment {
         next_pause_ = t;
         pause_ = std::move(pause);
     }
+    // A start on the cam lets the tangents keep what remains on it; else gap and gap rate are free there, and decay
+    // as (S45) has it.
+    void start_on_cam() { starts_free_ = false; }
     // At the end of the last step; ξ̇ in units of its canonical momentum (S73) where `canonical`.
     Eigen::MatrixXd tangents(bool canonical = false) const;
     void set_tangents(const Eigen::MatrixXd& tangents, bool canonical = false);
@@ -79,6 +82,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     std::function<double(double)> pause_;
     std::vector<TangentTouch> touches_;
     long holds_ = 0;
+    bool starts_free_ = true;
 };
 
 }  // namespace beamcam::sim

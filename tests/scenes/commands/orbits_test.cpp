@@ -30,6 +30,7 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     const nlohmann::json table = nlohmann::json::parse(done.out);
     EXPECT_EQ(table["key"], "cam.speed");
     ASSERT_EQ(table["branches"].size(), 1u);
+    EXPECT_EQ(table["start"], 45);
     double fold = 0, doubling = 0;
     for (const auto& point : table["branches"][0]["special"]) {
         if (point["change"] == "fold") fold = point["value"];
@@ -39,6 +40,17 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     EXPECT_NEAR(doubling, 50.86884987331, 1e-4);
     EXPECT_THAT(testing::slurp((folder / "b.csv").string()), StartsWith("branch,point,value,turns,stable,"));
     EXPECT_THAT(testing::slurp((folder / "b.pdf").string()), StartsWith("%PDF"));
+}
+
+// Below the fold there is no orbit to begin with.
+TEST(OrbitsCommand, BeginsElsewhereInTheRangeWhereTheSceneHasNoOrbit) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(folder,
+                                "$BEAMCAM orbits s.json --set cam.speed=41 --over cam.speed=40:48 --impacts 1 "
+                                "--transient 0 -q");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("fold             cam.speed = 42.235"));
 }
 
 TEST(OrbitsCommand, TellsWhatItCannotDo) {
