@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/base/error.hpp"
+#include "scenes/figures/key_label.hpp"
 
 namespace beamcam::scenes {
 namespace {

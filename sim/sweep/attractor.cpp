@@ -140,6 +140,12 @@ std::span<const Named<AttractorClass>> names(AttractorClass) {
 
 const char* name(AttractorClass kind) { return names(kind)[static_cast<std::size_t>(kind)].name; }
 
+Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent) {
+    attractor.exponent = exponent;
+    attractor.kind = class_without_period(problem, exponent, false);
+    return attractor;
+}
+
 Attractor classify(const Problem& problem, const SampledMotion& motion) {
     Attractor out;
     if (motion.over_the_top) {

@@ -34,6 +34,9 @@ struct Attractor {
     LargestExponent exponent;  // NaN where it is not known; −∞ where lasting contact forgets every difference
 };
 
+// The class of a motion without period when its exponent has become known.                                     (S89)
+Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent);
+
 // (S86)–(S89)
 Attractor classify(const Problem& problem, const SampledMotion& motion);
 

@@ -2,10 +2,33 @@
 
 #include <optional>
 
+#include "sim/orbit/exponents.hpp"
 #include "sim/sweep/rigid_motion.hpp"
 #include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+// The motion goes on for as long as its samples were taken, with its largest exponent. The cam stands then where it
+// stood at the start: samples are taken over whole turns.
+Attractor by_tangents(const Problem& problem, const Sampling& sampling, const SweepPoint& point,
+                      const Progress& progress) {
+    constexpr double kLateGrowth = 3;  // of the later half, as in (S89)
+    const SampleSpan span = sample_span(problem, sampling);
+    ExponentsRequest request;
+    request.duration = static_cast<double>(span.kept()) * cam_period(problem);
+    request.start = carried(problem, point.motion.end);
+    try {
+        const Exponents found = lyapunov_exponents(problem, request, progress);
+        const double value = found.lambda.front();
+        const bool grows_late = found.settled && value * request.duration / 2 > kLateGrowth;
+        return with_exponent(problem, point.attractor, {value, found.error.front(), grows_late});
+    } catch (const SolverError&) {
+        return point.attractor;  // its exponent stays unknown
+    }
+}
+
+}  // namespace
 
 SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const InitialState* start,
                        const Progress& progress) {
@@ -22,6 +45,8 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
     }
     if (point.motion.over_the_top) point.motion.samples.clear();  // of no attractor
     point.attractor = classify(problem, point.motion);
+    if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
+        point.attractor = by_tangents(problem, sampling, point, progress);
     return point;
 }
 
