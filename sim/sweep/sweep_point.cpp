@@ -20,6 +20,7 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     request.start = carried(problem, point.motion.end);
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
+        if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
         const double value = found.lambda.front();
         const bool grows_late = found.settled && value * request.duration / 2 > kLateGrowth;
         return with_exponent(problem, point.attractor, {value, found.error.front(), grows_late});
