@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -40,13 +41,14 @@ std::string list(const Scene& scene, Lang lang) {
 
 Node value_node(const std::string& text) {
     const auto number = output::number_in<double>(text);
-    return number ? number_node(*number) : text_node(text);
+    Node node = number && std::isfinite(*number) ? number_node(*number) : text_node(text);
+    node.text = text;  // for messages
+    return node;
 }
 
 // The keys of "series" that options name, read as if the scene said so.
 SeriesKeys series_keys(const FigureArguments& args, const Scene& scene) {
-    if (args.channels.empty())
-        throw UsageError("figure series: name its --channels, for example theta,contact_force");
+    if (args.channels.empty()) throw UsageError("figure series: name its --channels, for example theta,contact_force");
     Node output = object_node();
     add(output, "type", text_node(FigureOutput::kType));
     add(output, "figure", text_node("series"));

@@ -37,8 +37,10 @@ std::string report(const sim::Exponents& e) {
                     : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
     }
     text += fmt::format("  sum  {:16.12g}\n", sum);
-    text += e.chaotic() ? "the largest exponent is positive beyond its error: the motion is chaotic\n"
-                        : "the largest exponent is not positive beyond its error: no chaos is shown\n";
+    text += e.chaotic()
+                ? "the largest exponent is positive beyond its error: the motion is chaotic\n"
+                : "no chaos is shown: the largest exponent is not positive beyond its error, differences grow by "
+                  "less than e³ in the later half, or the motion had not settled\n";
     return text;
 }
 

@@ -103,9 +103,11 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
 
 sim::CamSpan span_argument(const char* option, const std::string& text) {
     sim::CamSpan span;
+    constexpr double kMost = 1e9;  // more than any integration reaches
     const QuantityText read = parse_quantity(text);
-    if (!read.quantity || !(read.quantity->value >= 0))
-        throw UsageError(fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\"", option, text));
+    if (!read.quantity || !(read.quantity->value >= 0 && read.quantity->value <= kMost))
+        throw UsageError(
+            fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\", up to {:g}", option, text, kMost));
     if (same(read.quantity->dimension, dimension::kNone))
         span.turns = read.quantity->value;
     else
@@ -248,10 +250,22 @@ void judge_parts(const SweepArguments& args) {
     if (args.file.empty() || args.file == "-") throw UsageError("parts of a sweep are files; name one with -o FILE.nc");
     need_ending("-o", args.file, {".nc"});
     if (args.diagram) throw UsageError("--diagram: a part has no diagram; collect the parts first");
+    if (args.emit && args.shard) throw UsageError("--emit and --shard exclude each other: the script makes all parts");
+    if (args.emit && args.scene == "-") throw UsageError("--emit: the script needs a scene in a file");
+    if (args.emit && quoted(args.file) != args.file)
+        throw UsageError(fmt::format("--emit: -o {}: scripts take names of letters, digits and ._-/ only", args.file));
+}
+
+void refuse_idle_options(const SweepArguments& args) {
+    if (args.diagram) return;
+    if (args.caption) throw UsageError("--caption belongs to --diagram");
+    if (args.figure) throw UsageError("--figure belongs to --diagram");
+    if (args.ordinate) throw UsageError("--ordinate belongs to --diagram");
 }
 
 int act(const SweepArguments& args) {
     judge_parts(args);
+    refuse_idle_options(args);
     if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
     if (args.diagram) need_ending("--diagram", *args.diagram, {".pdf", ".svg", ".png"});
     if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "render/plot/channel_label.hpp"
@@ -44,6 +45,10 @@ std::vector<double> above_zero(std::vector<double> values, Channel channel) {
     const double least = *std::ranges::min_element(values);
     for (double& v : values) v -= least;
     return values;
+}
+
+bool has_values(const sim::Table* table) {
+    return std::ranges::any_of(table->values.back(), [](double v) { return std::isfinite(v); });
 }
 
 double largest(const std::vector<double>& values) {
@@ -129,6 +134,9 @@ class SeriesFigure {
             all.push_back(&results[motion.study]->tables[tables_[table++]]);
             most = std::max(most, largest(above_zero(all.back()->values.back(), channels[i / motions_.size()])));
         }
+        if (!(most > 0) && std::ranges::none_of(all, has_values))
+            throw render::PictureError(
+                fmt::format("series: {} has no value from {:g} s to {:g} s", name(channels.front()), keys_.from, end_));
         const Measure measure = measure_of(unit(channels.front(), motions_.front().problem), most);
         std::vector<std::string> symbols;
         for (const Channel& channel : channels) symbols.push_back(render::print_symbol(channel));
@@ -195,16 +203,21 @@ class SeriesFigure {
 
     // All panels have one axis along x.
     void share_abscissa(Figure& figure) const {
-        double most = 0;
+        double most = 0, low = std::numeric_limits<double>::infinity(), high = -low;
         for (const Panel& each : figure.panels)
-            for (const Series& curve : each.series) most = std::max(most, largest(curve.x));
+            for (const Series& curve : each.series)
+                for (const double x : curve.x)
+                    if (std::isfinite(x))
+                        most = std::max(most, std::abs(x)), low = std::min(low, x), high = std::max(high, x);
+        // A logarithmic panel leaves out what is not positive; its axis stays that of the others.
+        const double air = abscissa_ ? 0.03 * (high - low) : 0;
         const Channel channel = abscissa_.value_or(Channel{});
         Measure measure = measure_of(unit(channel, motions_.front().problem), most);
         std::string symbol = render::print_symbol(channel);
         if (keys_.against == "turns") measure = {1, ""}, symbol = en() ? "turns of the cam" : "凸轮转数";
         for (Panel& each : figure.panels) {
             each.x.label = axis_label(symbol, measure.unit);
-            each.x.tight = !abscissa_;
+            if (high > low) each.x.from = (low - air) * measure.factor, each.x.to = (high + air) * measure.factor;
             for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);
             for (auto& rule : each.rules) rule.at *= measure.factor;
         }

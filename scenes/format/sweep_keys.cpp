@@ -260,6 +260,11 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
             all.push_back({at, "logarithmic spacing needs ends of one sign, neither of them 0"});
         if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column belong together"});
     }
+    const bool carries = std::ranges::any_of(
+        sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
+    for (const SweptKey& over : sweep.over)
+        if (carries && over.key.starts_with("initial."))
+            all.push_back({"seed", fmt::format("a carried motion does not begin at {}; use \"same\"", over.key)});
     for (const RandomKey& key : sweep.seeds.keys) need_key("seed.key", key.key);
     if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
         all.push_back({"seed.key", "only random starts have random keys"});

@@ -150,7 +150,7 @@ std::string caption(const SweepGrid& grid, const output::SweepData& data) {
     Varied varied;
     varied.cam_speed =
         grid.axes()[0].name == "cam.speed" || (grid.axes().size() > 1 && grid.axes()[1].name == "cam.speed");
-    return text + facts(grid.scene().problem, Lang::en, varied);
+    return text + "But for what is swept: " + facts(grid.scene().problem, Lang::en, varied);
 }
 
 std::string accuracy(const SweepGrid& grid) {

@@ -182,6 +182,12 @@ void Continuation::follow(ArcPoint from, const Progress& progress, Branch& branc
                           next->orbit.start.phase.touching == from.orbit.start.phase.touching;
         if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
             const bool stuck = kArcShrink * step < kSmallestArc;
+            constexpr double kEnd = 1e-5;  // of the range; what lies beyond it may be impossible
+            const bool at_end = !next && (from.z[n] < kEnd || from.z[n] > 1 - kEnd);
+            if (stuck && at_end) {
+                end = "the range ends";
+                return;
+            }
             if (stuck) return end_at_impact(from, next, step, branch, end);
             step *= kArcShrink;
             continue;

@@ -38,8 +38,11 @@ struct Exponents {
     bool settled = true;
     std::vector<std::string> warnings;
 
-    // The largest exponent is positive beyond three times its error: neighbouring motions part exponentially.
-    bool chaotic() const { return !lambda.empty() && lambda.front() > 3 * error.front(); }
+    // The largest exponent is positive beyond three times its error, the motion had settled, and the later half alone
+    // multiplies differences by more than e³, which linear growth does not: neighbouring motions part exponentially.
+    bool chaotic() const {
+        return settled && !lambda.empty() && lambda.front() > 3 * error.front() && lambda.front() * duration / 2 > 3;
+    }
 };
 
 // Nothing where the tangent flow of this problem is known; else why not, with the remedy: models beyond first order.

@@ -77,6 +77,21 @@ std::optional<PeriodicOrbit> newton_quietly(const SectionMap& map, const Eigen::
     }
 }
 
+// A shorter orbit that was gone through more than once.
+bool repeats(const PeriodicOrbit& orbit) {
+    const std::size_t count = orbit.impacts.size(), turns = static_cast<std::size_t>(orbit.turns);
+    for (std::size_t times = 2; times <= turns; ++times) {
+        if (turns % times != 0 || count % times != 0) continue;
+        const std::size_t once = count / times;
+        bool same = true;
+        for (std::size_t i = 0; same && i + once < count; ++i)
+            same = std::fabs(orbit.impacts[i].approach - orbit.impacts[i + once].approach) <
+                   kSame * orbit.impacts[i].approach;
+        if (same) return true;
+    }
+    return false;
+}
+
 // Orbits through the place, the fewest turns first among those after which the motion comes back.
 std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& place, const OrbitRequest& request,
                                            const Progress& progress) {
@@ -94,7 +109,7 @@ std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& 
         if (turns > 1) map = flow_map(here, map.end, turn_time(problem), false, progress);
         if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
         const SectionMap section(problem, place.section, turns, place.state, units, size);
-        if (auto orbit = newton_quietly(section, start / size)) return orbit;
+        if (auto orbit = newton_quietly(section, start / size); orbit && !repeats(*orbit)) return orbit;
     }
     return std::nullopt;
 }

@@ -21,6 +21,25 @@ constexpr const char* kPressed = R"({
   "cam": {"speed": 45, "eccentricity": "2 mm", "phase": 0.5},
   "contact": {"model": "restitution", "restitution": 0.5}, "initial": {"angle": 0.46}})";
 
+// The orbit of one turn, gone through three times, is none of three.
+TEST(OrbitsCommand, ReportsTheShortestPeriod) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished three = shell(folder, "$BEAMCAM orbits s.json --turns 3 --transient 0");
+    EXPECT_THAT(three.err, HasSubstr("no periodic orbit was found"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turns 1 --transient 0").out, StartsWith("period 1 turn"));
+}
+
+// Beyond r = 1 there is no scene: the branch ends there, and grazes nothing.
+TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over contact.restitution=0.5:1 --impacts 1 --transient 0 -q");
+    EXPECT_THAT(done.out, HasSubstr("the range ends"));
+    EXPECT_THAT(done.out, ::testing::Not(HasSubstr("grazing")));
+}
+
 TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     const Folder folder;
     folder.write("s.json", kPressed);

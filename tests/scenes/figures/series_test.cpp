@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/base/error.hpp"
 #include "render/plot/text.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "tests/scenes/support.hpp"
@@ -89,6 +90,20 @@ TEST(Series, TakesLimitsInTheUnitsOfTheScene) {
     const Figure figure = figure_of(R"("panels": [{"channels": ["tip_deflection"], "low": -0.02, "high": 0.01}])");
     EXPECT_NEAR(*figure.panels[0].y.from, -20, 1e-12);
     EXPECT_NEAR(*figure.panels[0].y.to, 10, 1e-12);
+}
+
+// What a logarithmic panel leaves out stays on the axis that all panels share.
+TEST(Series, PanelsShareOneAxis) {
+    const Figure figure =
+        figure_of(R"("panels": [{"channels": ["theta"]}, {"channels": ["contact_force"], "scale": "log"}])");
+    for (const auto& panel : figure.panels) {
+        EXPECT_EQ(panel.x.from, 0);
+        EXPECT_NEAR(*panel.x.to, 400, 1e-9);
+    }
+}
+
+TEST(Series, AChannelWithoutValuesIsTold) {
+    EXPECT_THROW(figure_of(R"("channels": ["contact_x"])", R"("cam": null,)"), render::PictureError);
 }
 
 // Their potential energy is nothing by itself.

@@ -142,6 +142,11 @@ TEST(SweepCommand, RefusesInWords) {
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},
           {"--transient -1", 2, "turns of the cam"},
+          {"--transient 1e19", 2, "up to 1e+09"},
+          {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
+          {"--caption c.txt", 2, "belongs to --diagram"},
+          {"-o 'a b.nc' --emit slurm", 2, "letters, digits"},
+          {"-o a.nc --emit slurm --shard 1/2", 2, "exclude each other"},
           {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},
           {"--over beam.modes=1:2:3n", 3, "whole number"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json ") + arguments);

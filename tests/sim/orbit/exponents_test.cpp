@@ -24,6 +24,16 @@ TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
     EXPECT_NEAR(sum(e), 2 * impacts_per_second * std::log(0.5), 0.05);  // one impact more or less in 50 s
 }
 
+// Differences of a free rotor grow in proportion to the time.
+TEST(Exponents_, LinearGrowthIsNoChaos) {
+    Problem problem = PressedBeam().on_orbit(45);
+    problem.cam.reset();
+    problem.hub.drive = FreeDrive{};
+    const Exponents e = lyapunov_exponents(problem, {0, 0, 100, 20});
+    EXPECT_GT(e.lambda[0], 0);
+    EXPECT_FALSE(e.chaotic());
+}
+
 // Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of this very run.                                            (S73)
 TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
     struct Case {
