@@ -248,19 +248,17 @@ std::string exponents_json(const sim::Exponents& e) {
     Json all = Json::array();
     for (std::size_t i = 0; i < e.lambda.size(); ++i)
         all.push_back({{"lambda", e.lambda[i]}, {"error", e.error[i]}, {"history", e.history[i]}});
-    return Json{{"units", {{"lambda", "1/s"}, {"error", "1/s"}, {"history", "1/s"}, {"time", "s"}}},
-                {"exponents", std::move(all)},
-                {"chaotic", e.chaotic()},
-                {"settled", e.settled},
-                {"transient", e.transient},
-                {"duration", e.duration},
-                {"impacts", e.impacts},
-                {"near_grazing", e.near_grazing},
-                {"slowest_impact", e.slowest_impact},
-                {"time", e.time},
-                {"warnings", e.warnings}}
-               .dump(2) +
-           "\n";
+    return text_of({{"units", {{"lambda", "1/s"}, {"error", "1/s"}, {"history", "1/s"}, {"time", "s"}}},
+                    {"exponents", std::move(all)},
+                    {"chaotic", e.chaotic()},
+                    {"settled", e.settled},
+                    {"transient", e.transient},
+                    {"duration", e.duration},
+                    {"impacts", e.impacts},
+                    {"near_grazing", e.near_grazing},
+                    {"slowest_impact", e.slowest_impact},
+                    {"time", e.time},
+                    {"warnings", e.warnings}});
 }
 
 namespace {

@@ -11,6 +11,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/font_handles.hpp"
+#include "render/draw/surface.hpp"
 
 namespace beamcam::render {
 
@@ -38,12 +39,6 @@ struct Canvas::Handles {
 };
 
 namespace {
-
-cairo_surface_t* surface_of(const Image& image) {
-    // Cairo writes only through surfaces that are drawn to; sources are read.
-    auto* bytes = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(image.pixels.data()));
-    return cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
-}
 
 // The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
 void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> within) {

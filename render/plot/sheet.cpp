@@ -13,6 +13,7 @@
 #include "render/base/error.hpp"
 #include "render/draw/cairo_status.hpp"
 #include "render/draw/font_handles.hpp"
+#include "render/draw/surface.hpp"
 #include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
@@ -161,10 +162,7 @@ void Sheet::gradient(const Box& box, std::span<const Color> colors) {
 }
 
 void Sheet::picture(const Image& image, const Box& box) {
-    // Cairo reads the pixels through a pointer that is not const, and leaves them as they are.
-    auto* pixels = const_cast<std::uint32_t*>(image.pixels.data());
-    cairo_surface_t* surface = cairo_image_surface_create_for_data(
-        reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width);
+    cairo_surface_t* surface = surface_of(image);
     cairo_save(cr_);
     cairo_translate(cr_, box.x, box.y);
     cairo_scale(cr_, box.w / image.width, box.h / image.height);

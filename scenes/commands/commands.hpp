@@ -88,7 +88,9 @@ RunOptions run_options(const Common& common, std::string directory);
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
 
-// The value of an option with a unit or without; throws UsageError. Not negative.
+// The value of an option with a unit or without; throws UsageError.
+double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
+// The same, not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 double seconds_argument(const char* option, const std::string& text);
 std::string ending_of(const std::string& file);  // ".png"

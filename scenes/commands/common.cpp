@@ -109,14 +109,19 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
         run(scenes, options);
 }
 
-double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {
+double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
     const QuantityText read = parse_quantity(text);
     if (!read.quantity) throw UsageError(fmt::format("{} {}: {}", option, text, read.problem));
     const bool plain = same(read.quantity->dimension, dimension::kNone) && text.find('%') == std::string::npos;
     if (!plain && !same(read.quantity->dimension, dimension))
         throw UsageError(fmt::format("{} {}: it is measured in {}", option, text, si_unit(dimension)));
-    if (!(read.quantity->value >= 0)) throw UsageError(fmt::format("{} {}: must not be negative", option, text));
     return read.quantity->value;
+}
+
+double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {
+    const double value = signed_argument(option, text, dimension);
+    if (!(value >= 0)) throw UsageError(fmt::format("{} {}: must not be negative", option, text));
+    return value;
 }
 
 double seconds_argument(const char* option, const std::string& text) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -47,7 +48,7 @@ Node value_node(const std::string& text) {
 }
 
 // The keys of "series" that options name, read as if the scene said so.
-SeriesKeys series_keys(const FigureArguments& args, const Scene& scene) {
+SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
     if (args.channels.empty()) throw UsageError("figure series: name its --channels, for example theta,contact_force");
     Node output = object_node();
     add(output, "type", text_node(FigureOutput::kType));
@@ -61,20 +62,11 @@ SeriesKeys series_keys(const FigureArguments& args, const Scene& scene) {
         if (text) add(output, key, value_node(*text));
     if (args.impacts) add(output, "impacts", truth_node(true));
 
-    const Source source{args.scene, to_json(scene), true};
-    const Parsed parsed = parse(source.text);
     SceneFiles files;
-    Findings found;
-    Scene read = scene;
-    read.set_outputs({});
-    read_outputs({scene, parsed.root, source, files}, found, array_node({output}), read);
-    for (Message& message : found.take()) {
-        if (!message.fatal) continue;
-        std::string& text = message.text;
-        for (std::size_t at = 0; (at = text.find("outputs.0.", at)) != std::string::npos;) text.replace(at, 10, "--");
-        throw UsageError(text);
-    }
-    return std::get<FigureOutput>(read.outputs.front()).series;
+    std::vector<Message> messages;
+    if (!read_only_output(output, args.scene, "--", files, scene, messages))
+        throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
+    return std::get<FigureOutput>(scene.outputs.front()).series;
 }
 
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {

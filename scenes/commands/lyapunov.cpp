@@ -4,14 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "output/data/manifest.hpp"
 #include "output/data/records.hpp"
-#include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
-#include "render/plot/style.hpp"
-#include "scenes/commands/commands.hpp"
+#include "scenes/commands/answer_files.hpp"
 #include "scenes/figures/exponents.hpp"
-#include "scenes/figures/make.hpp"
 #include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
@@ -20,9 +16,8 @@ namespace {
 struct LyapunovArguments {
     Common common;
     std::string scene;
-    std::vector<std::string> files;
+    AnswerFiles files;
     std::optional<std::string> transient, duration;
-    std::string column = "elsevier", lang = "en";
     int count = 0, blocks = 20;
 };
 
@@ -44,16 +39,6 @@ std::string report(const sim::Exponents& e) {
     return text;
 }
 
-std::string diagram(const sim::Exponents& found, Scene scene, const LyapunovArguments& args, const std::string& file) {
-    FigureOutput how;
-    how.file = file;
-    how.figure = "exponents";
-    how.column = args.column;
-    how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
-    scene.outputs.clear();
-    return figure_files(exponents_figure(found, scene.problem, how.lang), how, to_json(scene)).front().second;
-}
-
 int act(const LyapunovArguments& args) {
     const Scene scene = read_or_refuse(args.scene, args.common);
     if (const auto refusal = sim::exponents_refusal(scene.problem)) throw UsageError(*refusal);
@@ -64,10 +49,7 @@ int act(const LyapunovArguments& args) {
     request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
     if (!(request.duration > 0)) throw UsageError("--duration must be positive");
     output::Manifest manifest(args.common.force);
-    for (const std::string& file : args.files) {
-        need_ending("-o", file, {".json", ".png", ".svg", ".pdf"});
-        if (file != "-") manifest.require_replaceable(file);
-    }
+    need_room(args.files, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
     progress.begin("exponents", request.transient + request.duration, "s");
     const sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, [&](double t) {
@@ -75,22 +57,12 @@ int act(const LyapunovArguments& args) {
         return !output::interrupted();
     });
     progress.end();
-    const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
-    if (args.common.json)
-        print_json(output::exponents_json(found));
-    else if (!prints_data)
-        print_text(report(found));
-    for (const std::string& file : args.files) {
-        const bool json = file == "-" || file.ends_with(".json");
-        const std::string text = json ? output::exponents_json(found) : diagram(found, scene, args, file);
-        if (file == "-") {
-            print_data(text);
-            continue;
-        }
-        output::write_file(manifest.target(file), text);
-        say(args.common, "wrote " + file);
-    }
-    manifest.save();
+    const auto content = [&](const std::string& file) {
+        if (file == "-" || file.ends_with(".json")) return output::exponents_json(found);
+        return args.files.drawn(exponents_figure(found, scene.problem, args.files.lang()), scene, file);
+    };
+    write_answer({[&] { return output::exponents_json(found); }, [&] { return report(found); }, content}, args.files,
+                 args.common, manifest);
     for (const std::string& warning : found.warnings) say(args.common, "warning: " + warning);
     return 0;
 }
@@ -101,19 +73,13 @@ void add_lyapunov(Grammar& grammar) {
     auto args = std::make_shared<LyapunovArguments>();
     Command& app = grammar.command("lyapunov", "Lyapunov exponents of a motion: is it chaotic?");
     add_scene(app, args->scene, args->common);
-    app.option("-o,--output", &args->files, "FILE",
+    app.option("-o,--output", &args->files.names, "FILE",
                "Also as .json, or their convergence as .png, .svg or .pdf (repeatable)");
     app.option("--count", &args->count, "K", "Only the K largest (default: the whole spectrum)").range(1, 82);
     app.option("--transient", &args->transient, "T", "Left out at the start (default: 20 s)");
     app.option("--duration", &args->duration, "T", "Averaged over (default: 100 s)");
     app.option("--blocks", &args->blocks, "N", "Blocks whose spread gives the error (default: 20)").range(2, 1000);
-    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column, for the diagram")
-        .one_of(render::figure::column_names());
-    app.option("--lang", &args->lang, "LANG", "Language of the diagram: en or zh").one_of({"en", "zh"});
-    app.option("--progress", &args->common.progress, "STYLE",
-               "Progress on standard error: auto, bar, plain, json or none");
-    app.flag("--json", args->common.json, "As JSON on standard output");
-    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    add_answer_files(app, args->files, args->common);
     app.bind(args, act);
 }
 

@@ -5,17 +5,14 @@
 #include <numbers>
 #include <optional>
 
-#include "output/data/manifest.hpp"
 #include "output/data/records.hpp"
-#include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
-#include "render/plot/style.hpp"
-#include "scenes/commands/commands.hpp"
+#include "scenes/commands/answer_files.hpp"
 #include "scenes/figures/branches.hpp"
-#include "scenes/figures/make.hpp"
-#include "scenes/format/reader.hpp"
+#include "scenes/format/suggest.hpp"
 #include "scenes/motions/progress.hpp"
 #include "sim/base/ode.hpp"
+#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -23,70 +20,60 @@ namespace {
 struct OrbitsArguments {
     Common common;
     std::string scene;
-    std::vector<std::string> files;
+    AnswerFiles files;
     std::optional<std::string> transient, over;
     std::optional<double> at;
-    std::string column = "elsevier", lang = "en";
     int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000;
     double step = 0.01;
 };
 
 // "cam.speed=40:60"
 struct KeyRange {
-    std::string key;
+    sim::NumberKey key;
     double from = 0, to = 0;
 };
 
-double bound(const std::string& over, const std::string& text) {
-    const QuantityText read = parse_quantity(text);
-    if (!read.quantity) throw UsageError(fmt::format("--over {}: {}", over, read.problem));
-    return read.quantity->value;
-}
-
-KeyRange range_argument(const std::string& over) {
+KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
     const std::size_t equals = over.find('='), colon = over.find(':', equals);
     if (equals == std::string::npos || colon == std::string::npos)
         throw UsageError(fmt::format("--over {}: write KEY=FROM:TO, for example cam.speed=40:60", over));
-    KeyRange range{over.substr(0, equals), bound(over, over.substr(equals + 1, colon - equals - 1)),
-                   bound(over, over.substr(colon + 1))};
-    if (!(range.from < range.to)) throw UsageError(fmt::format("--over {}: the range must ascend", over));
+    const std::string path = over.substr(0, equals), option = "--over " + over;
+    const std::vector<sim::NumberKey> keys = sim::number_keys(problem);
+    const auto key = std::ranges::find(keys, path, &sim::NumberKey::path);
+    if (key == keys.end()) {
+        std::vector<std::string> known;
+        for (const sim::NumberKey& each : keys) known.push_back(each.path);
+        throw SceneError(fmt::format("{}: {} is no number of this scene{}", option, in_quotes(path),
+                                     suggestion_or_list(path, known)));
+    }
+    KeyRange range{*key, signed_argument(option, over.substr(equals + 1, colon - equals - 1), key->dimension),
+                   signed_argument(option, over.substr(colon + 1), key->dimension)};
+    if (!(range.from < range.to)) throw UsageError(fmt::format("{}: the range must ascend", option));
     return range;
 }
 
-// The scene's own number at the key; nothing where it has none.
-std::optional<double> own_value(const Scene& scene, const std::string& key) {
-    Node node = node_of(to_json(scene));
-    for (std::size_t from = 0; from <= key.size();) {
-        const std::size_t dot = std::min(key.find('.', from), key.size());
-        const Member* member = node.find(std::string_view(key).substr(from, dot - from));
-        if (!member) return std::nullopt;
-        node = Node(member->value);
-        from = dot + 1;
-    }
-    return node.kind == Node::Kind::number ? std::optional(node.number) : std::nullopt;
-}
-
-// Reads the scene anew for each value.
-class SceneFamily {
+// The problems of the range.
+class ProblemFamily {
   public:
-    SceneFamily(const OrbitsArguments& args, std::string key)
-        : source_(load_source(args.scene)), overrides_(args.common.overrides), key_(std::move(key)) {
-        overrides_.emplace_back();
-    }
-    Scene scene(double value) const {
-        overrides_.back() = fmt::format("{}={}", key_, value);
-        Reading reading = read_scene(source_, overrides_);
-        if (!reading.scene) throw SceneError(reading.report());
-        return std::move(*reading.scene);
+    ProblemFamily(sim::Problem problem, std::string key) : problem_(std::move(problem)), key_(std::move(key)) {}
+
+    // Throws SceneError where the problem is impossible.
+    sim::Problem at(double value) const {
+        sim::Problem problem = problem_;
+        if (!sim::set_number(problem, key_, value))
+            throw SceneError(fmt::format("{} = {:.10g} is outside its range or no whole number", key_, value));
+        for (const sim::Finding& finding : sim::validate(problem))
+            if (finding.fatal)
+                throw SceneError(fmt::format("at {} = {:.10g}: {}: {}", key_, value, finding.path, finding.message));
+        return problem;
     }
     // Between the ends of the range a value may still be impossible.
-    sim::Problem operator()(double value) const try { return scene(value).problem; } catch (const SceneError& error) {
+    sim::Problem operator()(double value) const try { return at(value); } catch (const SceneError& error) {
         throw sim::StepFailure(error.what());
     }
 
   private:
-    Source source_;
-    mutable std::vector<std::string> overrides_;
+    sim::Problem problem_;
     std::string key_;
 };
 
@@ -134,25 +121,20 @@ std::string branches_text(const output::BranchTable& table) {
 }
 
 // The scene's value if it lies in the range, else its middle.
-double start_value(const OrbitsArguments& args, const Scene& scene, const KeyRange& range) {
-    const double middle = 0.5 * (range.from + range.to);
-    const double start = args.at.value_or(own_value(scene, range.key).value_or(middle));
+double start_value(const OrbitsArguments& args, const KeyRange& range) {
+    const double middle = 0.5 * (range.from + range.to), start = args.at.value_or(range.key.value);
     if (args.at && !(start >= range.from && start <= range.to))
         throw UsageError("--at lies outside the range of --over");
     return start >= range.from && start <= range.to ? start : middle;
 }
 
-std::string content(const output::BranchTable& table, const OrbitsArguments& args, Scene scene,
+bool is_table(const std::string& file) { return file == "-" || file.ends_with(".json") || file.ends_with(".csv"); }
+
+std::string content(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
                     const std::string& file) {
     if (file == "-" || file.ends_with(".json")) return output::orbits_json(table);
     if (file.ends_with(".csv")) return output::orbits_csv(table);
-    FigureOutput how;
-    how.file = file;
-    how.figure = "branches";
-    how.column = args.column;
-    how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
-    scene.outputs.clear();
-    return figure_files(branches_figure(table, scene.problem, how.lang), how, to_json(scene)).front().second;
+    return args.files.drawn(branches_figure(table, scene.problem, args.files.lang()), scene, file);
 }
 
 // The first that can be continued.
@@ -163,12 +145,12 @@ const sim::PeriodicOrbit* first_smooth(const std::vector<sim::PeriodicOrbit>& or
 }
 
 // Where the start has no orbit to continue, another value of the range may have.
-void begin_elsewhere(output::BranchTable& table, const SceneFamily& family, const KeyRange& range,
+void begin_elsewhere(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
                      sim::OrbitRequest request, const sim::Progress& progress) {
     request.transient = 0;
     for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
         const double value = range.from + share * (range.to - range.from);
-        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family.scene(value).problem, request, progress);
+        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family.at(value), request, progress);
         if (!first_smooth(found)) continue;
         table.start = value;
         table.orbits = std::move(found);
@@ -176,45 +158,28 @@ void begin_elsewhere(output::BranchTable& table, const SceneFamily& family, cons
     }
 }
 
-void write_results(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
-                   output::Manifest& manifest) {
-    const bool prints_data = std::find(args.files.begin(), args.files.end(), "-") != args.files.end();
-    if (args.common.json) {
-        print_json(output::orbits_json(table));
-    } else if (!prints_data) {
-        for (const sim::PeriodicOrbit& orbit : table.orbits) print_text(orbit_text(orbit));
-        print_text(branches_text(table));
-    }
-    for (const std::string& file : args.files) {
-        const std::string text = content(table, args, scene, file);
-        if (file == "-") {
-            print_data(text);
-            continue;
-        }
-        output::write_file(manifest.target(file), text);
-        say(args.common, "wrote " + file);
-    }
+std::string in_words(const output::BranchTable& table) {
+    std::string text;
+    for (const sim::PeriodicOrbit& orbit : table.orbits) text += orbit_text(orbit);
+    return text + branches_text(table);
 }
 
 int act(const OrbitsArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     std::optional<KeyRange> range;
-    if (args.over) range = range_argument(*args.over);
+    if (args.over) range = range_argument(*args.over, scene.problem);
     output::Manifest manifest(args.common.force);
-    for (const std::string& file : args.files) {
-        need_ending("-o", file, {".json", ".csv", ".png", ".svg", ".pdf"});
-        const bool table = file == "-" || file.ends_with(".json") || file.ends_with(".csv");
-        if (!table && !range) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
-        if (file != "-") manifest.require_replaceable(file);
-    }
-    std::optional<SceneFamily> family;
+    need_room(args.files, {".json", ".csv", ".png", ".svg", ".pdf"}, manifest);
+    for (const std::string& file : args.files.names)
+        if (!range && !is_table(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
+    std::optional<ProblemFamily> family;
     double start = 0;
     if (range) {
-        family.emplace(args, range->key);
-        family->scene(range->from);  // refused with its place in the scene
-        family->scene(range->to);
-        start = start_value(args, scene, *range);
-        scene.problem = family->scene(start).problem;
+        family.emplace(scene.problem, range->key.path);
+        family->at(range->from);  // an impossible end is refused
+        family->at(range->to);
+        start = start_value(args, *range);
+        scene.problem = family->at(start);
     }
     if (const auto refusal = sim::orbit_refusal(scene.problem)) throw UsageError(*refusal);
 
@@ -229,7 +194,7 @@ int act(const OrbitsArguments& args) {
     output::BranchTable table;
     table.orbits = sim::find_orbits(scene.problem, request, goes_on);
     if (range) {
-        table.key = range->key;
+        table.key = range->key.path;
         table.start = start;
         if (!first_smooth(table.orbits)) begin_elsewhere(table, *family, *range, request, goes_on);
         const sim::ContinuationRequest how{range->from, range->to, args.step, args.most_points, args.doublings};
@@ -239,8 +204,9 @@ int act(const OrbitsArguments& args) {
     }
     progress.end();
 
-    write_results(table, args, scene, manifest);
-    manifest.save();
+    write_answer({[&] { return output::orbits_json(table); }, [&] { return in_words(table); },
+                  [&](const std::string& file) { return content(table, args, scene, file); }},
+                 args.files, args.common, manifest);
     if (table.orbits.empty())
         say(args.common, "no periodic orbit was found: try another initial state, --turns, --impacts or --transient");
     else if (range && table.branches.empty())
@@ -254,7 +220,7 @@ void add_orbits(Grammar& grammar) {
     auto args = std::make_shared<OrbitsArguments>();
     Command& app = grammar.command("orbits", "Periodic orbits, their stability, and their branches over a parameter");
     add_scene(app, args->scene, args->common);
-    app.option("-o,--output", &args->files, "FILE",
+    app.option("-o,--output", &args->files.names, "FILE",
                "Also as .json or .csv, or a branch diagram as .png, .svg or .pdf (repeatable)");
     app.option("--over", &args->over, "KEY=FROM:TO",
                "Continue the orbit over this key of the scene, through folds, for example cam.speed=40:60");
@@ -271,13 +237,7 @@ void add_orbits(Grammar& grammar) {
         .range(1e-6, 0.5);
     app.option("--most-points", &args->most_points, "N", "Points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
-    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column, for the diagram")
-        .one_of(render::figure::column_names());
-    app.option("--lang", &args->lang, "LANG", "Language of the diagram: en or zh").one_of({"en", "zh"});
-    app.option("--progress", &args->common.progress, "STYLE",
-               "Progress on standard error: auto, bar, plain, json or none");
-    app.flag("--json", args->common.json, "As JSON on standard output");
-    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    add_answer_files(app, args->files, args->common);
     app.bind(args, act);
 }
 

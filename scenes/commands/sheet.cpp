@@ -41,6 +41,7 @@ struct Grid {
 
 long count_of(const std::string& film) {
     output::PictureSource source(film);
+    if (!source.is_film()) return std::ssize(source.files());
     output::Raster picture;
     std::string name;
     long count = 0;

@@ -38,14 +38,6 @@ struct SweepArguments {
     int parts = 16;
 };
 
-double number_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
-    const QuantityText read = parse_quantity(text);
-    if (!read.quantity) throw UsageError(fmt::format("{}: {}", option, read.problem));
-    if (!same(read.quantity->dimension, dimension::kNone) && !same(read.quantity->dimension, dimension))
-        throw UsageError(fmt::format("{}: {} is not measured in {}", option, text, si_unit(dimension)));
-    return read.quantity->value;
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     for (std::size_t from = 0; from <= text.size();) {
@@ -56,7 +48,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-// KEY=FIRST:LAST:COUNT, :STEP where it is no whole number, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
+// KEY=FIRST:LAST:STEP; KEY=FIRST:LAST:COUNTn, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
 SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
@@ -78,19 +70,19 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     std::vector<std::string> parts = split(value, ':');
     if (parts.size() == 1) {
         for (const std::string& each : split(value, ','))
-            over.values.push_back(number_argument(option, each, dimension));
+            over.values.push_back(signed_argument(option, each, dimension));
         return over;
     }
     if (parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear")) over.logarithmic = parts[3] == "log";
     if (parts.size() != 3 && !(parts.size() == 4 && (over.logarithmic || parts[3] == "linear")))
         throw UsageError(option +
                          ": write KEY=FIRST:LAST:STEP, or KEY=FIRST:LAST:COUNTn, with :log for logarithmic spacing");
-    over.from = number_argument(option, parts[0], dimension);
-    over.to = number_argument(option, parts[1], dimension);
+    over.from = signed_argument(option, parts[0], dimension);
+    over.to = signed_argument(option, parts[1], dimension);
     std::string& third = parts[2];
     const bool is_count = third.ends_with('n') || over.logarithmic;  // "601n" values; else a step
     if (third.ends_with('n')) third.pop_back();
-    const double step = is_count ? 0 : number_argument(option, third, dimension);
+    const double step = is_count ? 0 : signed_argument(option, third, dimension);
     const double count = is_count ? output::number_in<int>(third).value_or(0)
                                   : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
     if (!(count >= 1 && count <= 1e8))

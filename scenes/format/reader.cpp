@@ -49,6 +49,33 @@ struct CloseFile {
 
 }  // namespace
 
+namespace {
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+}
+}  // namespace
+
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
+                      Scene& scene, std::vector<Message>& messages) {
+    Node list = array_node({output});
+    list.place = output.place;
+    scene.set_outputs({});
+    // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
+    const Source resolved{scene_name, to_json(scene), true};
+    const Parsed parsed = parse(resolved.text);
+    Findings found;
+    read_outputs({scene, parsed.root, resolved, files}, found, list, scene);
+    const bool fine = !found.any();
+    messages = found.take();
+    const std::string_view itself(prefix.data(), prefix.size() - (prefix.ends_with('.') ? 1 : 0));
+    for (Message& message : messages) {
+        replace_all(message.text, "outputs.0.", prefix);
+        replace_all(message.text, "outputs.0", itself);
+    }
+    return fine && !scene.outputs.empty();
+}
+
 void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene) {
     Node alone = object_node();
     add(alone, "outputs", outputs);

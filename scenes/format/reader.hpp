@@ -45,5 +45,10 @@ Source load_named_source(const std::string& path);
 class Findings;
 struct SceneContext;
 void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene);
+// One output of a scene that stands resolved, as if the scene listed it alone: it becomes the scene's only one.
+// `scene_name`: the file beside which others are looked for. Messages name its keys behind `prefix`, such as "--" or
+// "entries.fall.output.". False: it cannot be read.
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
+                      Scene& scene, std::vector<Message>& messages);
 
 }  // namespace beamcam::scenes

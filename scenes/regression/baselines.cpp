@@ -250,24 +250,12 @@ class Reader {
 
     // The output is read as one of the scene's own, which it replaces.
     bool read_output_of(const Node& node, const std::string& path, const std::string& scene_name, Baseline& entry) {
-        Node list;
-        list.kind = Node::Kind::array;
-        list.place = node.place;
-        list.items = {node};
-        Findings found;
-        entry.scene.set_outputs({});
         entry.scene.name = entry.name;
-        // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
-        const Source resolved{scene_name, to_json(entry.scene), true};
-        const Parsed scene = parse(resolved.text);
-        read_outputs({entry.scene, scene.root, resolved, files_}, found, list, entry.scene);
-        const bool fine = !found.any();
-        for (Message& message : found.take()) {
-            for (std::size_t at = 0; (at = message.text.find("outputs.0", at)) != std::string::npos; at += path.size())
-                message.text.replace(at, 9, path);
+        std::vector<Message> messages;
+        const bool fine = read_only_output(node, scene_name, path + ".", files_, entry.scene, messages);
+        for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
-        }
-        if (!fine || entry.scene.outputs.empty()) return false;
+        if (!fine) return false;
         if (std::holds_alternative<VideoOutput>(entry.output())) {
             return refuse(
                 entry, node,

@@ -156,13 +156,11 @@ output::Target EntryPictures::report_file(const std::string& name) const {
 void EntryPictures::conclude() {
     Verdict verdict = Verdict::identical;
     for (const auto& [frame, found] : result_.frames) verdict = worse(verdict, found.verdict);
-    const auto in_expected = [this] {
-        return fmt::format("{} pictures were drawn; {} has more", result_.frames.size(), entry_.expected);
-    };
     if (!entry_.expected.empty()) {
         if (const auto* worst = result_.worst()) result_.picture_lines = {in_words(*worst)};
         if (expected_ && expected_->has_more()) {
-            result_.picture_lines = {in_expected()};
+            result_.picture_lines = {
+                fmt::format("{} pictures were drawn; {} has more", result_.frames.size(), entry_.expected)};
             verdict = Verdict::different;
         }
     } else if (entry_.accepted.empty()) {

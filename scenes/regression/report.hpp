@@ -14,6 +14,8 @@ namespace beamcam::scenes {
 
 // "picture different: 12 of 129600 pixels …"; empty without a verdict.
 std::string in_words(const char* what, const std::optional<Verdict>& verdict, const std::vector<std::string>& lines);
+// Of its picture and its motion.
+std::string in_words(const EntryResult& entry, const char* between);
 
 // `failures_only`: entries that pass are left out.
 std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only);

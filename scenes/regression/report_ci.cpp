@@ -22,12 +22,6 @@ std::string junit_case(const std::string& suite, const EntryResult& entry, const
                              name(*verdict), words);
 }
 
-std::string parts_in_words(const EntryResult& entry, const char* between) {
-    const std::string picture = in_words("picture", entry.picture, entry.picture_lines);
-    const std::string motion = in_words("motion", entry.motion, entry.motion_lines);
-    return picture + (picture.empty() || motion.empty() ? "" : between) + motion;
-}
-
 // Of a workflow command of GitHub Actions, which ends with the line.
 std::string escaped_for_annotation(std::string_view text) {
     std::string out;
@@ -77,7 +71,7 @@ std::string to_annotations(const RegressionResult& result, const PassRule& rule)
     for (const EntryResult& entry : result.entries)
         if (!rule.passes(entry))
             text += fmt::format("::error file={},title={}: {}::{}\n", result.baselines, entry.name,
-                                name(entry.verdict()), escaped_for_annotation(parts_in_words(entry, "\n")));
+                                name(entry.verdict()), escaped_for_annotation(in_words(entry, "\n")));
     return text;
 }
 
@@ -89,9 +83,9 @@ std::string to_markdown(const RegressionResult& result, const std::string& title
             ++identical;
             continue;
         }
-        rows += fmt::format("| {} | {} | {} | {} |\n", rule.passes(entry) ? "passes" : "**fails**",
-                            escaped_for_table(entry.name), name(entry.verdict()),
-                            escaped_for_table(parts_in_words(entry, "; ")));
+        rows +=
+            fmt::format("| {} | {} | {} | {} |\n", rule.passes(entry) ? "passes" : "**fails**",
+                        escaped_for_table(entry.name), name(entry.verdict()), escaped_for_table(in_words(entry, "; ")));
     }
     text += fmt::format("{} of {} entries identical, {:.1f} s\n\n", identical, result.entries.size(), result.seconds);
     return rows.empty() ? text : text + "| | entry | verdict | what changed |\n|---|---|---|---|\n" + rows + "\n";

@@ -9,12 +9,6 @@
 namespace beamcam::scenes {
 namespace {
 
-std::string both_parts(const EntryResult& entry) {
-    const std::string picture = in_words("picture", entry.picture, entry.picture_lines);
-    const std::string motion = in_words("motion", entry.motion, entry.motion_lines);
-    return picture + (picture.empty() || motion.empty() ? "" : " | ") + motion;
-}
-
 std::string short_digest(const std::string& digest) { return digest.empty() ? "none" : digest.substr(0, 16) + "…"; }
 
 std::string where_to_look(const FrameResult& frame) {
@@ -35,13 +29,19 @@ std::string in_words(const char* what, const std::optional<Verdict>& verdict, co
     return fmt::format("{} {}{}{}", what, name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; "));
 }
 
+std::string in_words(const EntryResult& entry, const char* between) {
+    const std::string picture = in_words("picture", entry.picture, entry.picture_lines);
+    const std::string motion = in_words("motion", entry.motion, entry.motion_lines);
+    return picture + (picture.empty() || motion.empty() ? "" : between) + motion;
+}
+
 std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only) {
     std::size_t width = 0;
     for (const EntryResult& entry : result.entries) width = std::max(width, entry.name.size());
     std::string text;
     for (const EntryResult& entry : result.entries) {
         if (failures_only && !entry.updated && rule.passes(entry)) continue;
-        text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, both_parts(entry));
+        text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, in_words(entry, " | "));
         const auto* worst = entry.worst();
         if (worst && entry.picture != Verdict::equivalent) text += where_to_look(worst->second);
         if (entry.updated)

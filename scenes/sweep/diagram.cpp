@@ -217,8 +217,6 @@ figure::Figure bifurcation(const SweepGrid& grid, const output::SweepData& data,
             cloud.y.push_back(p.samples[i]);
         }
     }
-    const auto [least, most] = std::ranges::minmax_element(grid.axes()[0].values);
-    const std::vector<double> edges = edges_around({*least, *most});
     figure::Figure out;
     figure::Panel strip = class_strip(grid, data);
     panel.x = {.label = axis_label(grid.axes()[0]),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "sim/orbit/flow_map.hpp"
@@ -27,9 +26,8 @@ constexpr std::size_t kHistory = 400;  // points of the convergence, at most abo
 // The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
 double longest_interval(const Problem& problem) {
     // Compliant contact may damp strongly for as long as it lasts.
-    double interval = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
-    if (problem.cam && problem.cam->speed != 0)
-        interval = std::min(interval, 2 * std::numbers::pi / std::fabs(problem.cam->speed));
+    const double own = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
+    const double interval = std::min(own, cam_period(problem));
     System system(problem);
     const auto& model = dynamic_cast<const ModalModel&>(system.model());
     const std::vector<double> damping = model.damping_matrix();

@@ -14,6 +14,10 @@
 
 namespace beamcam::sim {
 
+// Chaos needs that the later half of a motion alone multiplies differences by more than the exponential of this: linear
+// growth does not.                                                                                              (S89)
+inline constexpr double kLateGrowth = 3;
+
 struct ExponentsRequest {
     int count = 1;                           // of the largest exponents; 0: the whole spectrum
     double transient = 0;                    // left out at the start [s], >= 0
@@ -38,11 +42,9 @@ struct Exponents {
     bool settled = true;
     std::vector<std::string> warnings;
 
-    // The largest exponent is positive beyond three times its error, the motion had settled, and the later half alone
-    // multiplies differences by more than e³, which linear growth does not: neighbouring motions part exponentially.
-    bool chaotic() const {
-        return settled && !lambda.empty() && lambda.front() > 3 * error.front() && lambda.front() * duration / 2 > 3;
-    }
+    bool grows_late() const { return settled && !lambda.empty() && lambda.front() * duration / 2 > kLateGrowth; }
+    // The largest exponent is positive beyond three times its error as well: neighbouring motions part exponentially.
+    bool chaotic() const { return grows_late() && lambda.front() > 3 * error.front(); }
 };
 
 // Nothing where the tangent flow of this problem is known; else why not, with the remedy: models beyond first order.

@@ -45,7 +45,7 @@ Place longest_flight(const Problem& problem, const Place& from, double duration,
             middle = 0.5 * (seen.touches[i + 1].t + seen.touches[i].t);
         }
     }
-    if (longest == 0 && !seen.touches.empty()) middle = seen.touches.front().t + 0.5 * turn_time(problem);
+    if (longest == 0 && !seen.touches.empty()) middle = seen.touches.front().t + 0.5 * cam_period(problem);
     if (middle == 0) return from;
     const FlowMap there = flow_map(here, from.state, middle, false, progress);
     return {section_after(problem, from.section, middle), there.end};
@@ -96,7 +96,7 @@ bool repeats(const PeriodicOrbit& orbit) {
 std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& place, const OrbitRequest& request,
                                            const Progress& progress) {
     const Problem here = at_section(problem, place.section);
-    FlowMap map = flow_map(here, place.state, turn_time(problem), false, progress);
+    FlowMap map = flow_map(here, place.state, cam_period(problem), false, progress);
     const Eigen::VectorXd units = map.units;
     const auto n = units.size();
     const auto y_of = [&](const InitialState& s) {
@@ -106,7 +106,7 @@ std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& 
     const double size = size_of(problem, map, start);
     const int first = request.turns > 0 ? request.turns : 1, last = request.turns > 0 ? first : request.most_turns;
     for (int turns = 1; turns <= last; ++turns) {
-        if (turns > 1) map = flow_map(here, map.end, turn_time(problem), false, progress);
+        if (turns > 1) map = flow_map(here, map.end, cam_period(problem), false, progress);
         if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
         const SectionMap section(problem, place.section, turns, place.state, units, size);
         if (auto orbit = newton_quietly(section, start / size); orbit && !repeats(*orbit)) return orbit;
@@ -152,7 +152,7 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
     std::vector<PeriodicOrbit> found;
     OrbitRequest one = request;
     one.turns = std::max(1, request.turns);
-    const double period = turn_time(problem) * one.turns;
+    const double period = cam_period(problem) * one.turns;
     for (int i = 0; i < kThrows; ++i) {
         const double section = 2 * std::numbers::pi * i / kThrows;
         try {
@@ -190,7 +190,7 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
     require_tangents(given);
     if (const auto refusal = orbit_refusal(given)) throw std::invalid_argument(*refusal);
     const Problem problem = for_orbits(given);
-    const double turn = turn_time(problem);
+    const double turn = cam_period(problem);
     const InitialState begin = initial_state(problem);
     std::vector<PeriodicOrbit> found;
     try {

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace beamcam::sim {
 namespace {
@@ -12,8 +11,6 @@ constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;
 constexpr int kMostMapSteps = 3'000'000;  // of one section map: more is stiff contact, which this method is not for
 
 }  // namespace
-
-double turn_time(const Problem& problem) { return 2 * std::numbers::pi / std::fabs(problem.cam->speed); }
 
 Problem at_section(Problem problem, double section) {
     problem.cam->phase = section;
@@ -44,7 +41,7 @@ SectionMap::SectionMap(const Problem& problem, double section, int turns, Initia
                        double size)
     : problem_(at_section(problem, section)),
       section_(section),
-      period_(turns * turn_time(problem)),
+      period_(turns * cam_period(problem)),
       size_(size),
       turns_(turns),
       like_(std::move(like)),

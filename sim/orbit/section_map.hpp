@@ -47,7 +47,5 @@ Problem for_orbits(Problem problem);
 Problem at_section(Problem problem, double section);
 // What deviations are measured by: the speed of impacts, or the state y in units itself without any.
 double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd& y);
-// 2π/|ω| [s]
-double turn_time(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -39,4 +39,9 @@ double impact_depth(double exponent, double stiffness, double mass, double speed
     return std::pow(0.5 * (exponent + 1) * mass * speed * speed / stiffness, 1 / (exponent + 1));
 }
 
+double cam_period(const Problem& problem) {
+    const bool turns = problem.cam && problem.cam->speed != 0;
+    return turns ? 2 * std::numbers::pi / std::fabs(problem.cam->speed) : 1;
+}
+
 }  // namespace beamcam::sim

@@ -23,11 +23,14 @@ class NumberWalk final : public Visitor {
         found_({path_ + key.name, unit.resolved(), false, value.value_or(std::nan(""))},
                [&value](double to) { return value = to, true; });
     }
-    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range&, const Length&,
+    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range&, const Length& length,
                  const char*) override {
         for (std::size_t i = 0; i < values.size(); ++i)
             found_({path_ + key.name + "." + std::to_string(i), unit.resolved(), false, values[i]},
                    [&values, i](double to) { return values[i] = to, true; });
+        if (length.or_one_number)
+            found_({path_ + key.name, unit.resolved(), false, values.size() == 1 ? values.front() : std::nan("")},
+                   [&values](double to) { return values.assign(1, to), true; });
     }
     void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
         found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, least, most](double to) {

@@ -166,6 +166,7 @@ struct Problem {
 Basis resolved_basis(const Problem& problem);      // never `automatic`
 double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
 double contact_offset(const Problem& problem);     // d [m]
+double cam_period(const Problem& problem);         // 2π/|ω|; 1 s with a cam at rest or without a cam [s]
 // Dissipation factor D_c of F = Kδⁿ(1 + D_c δ̇/δ̇₋) for a pre-set restitution c.
 double damping_factor(DampingLaw law, double restitution);
 // The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].

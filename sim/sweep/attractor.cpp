@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/orbit/exponents.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -17,7 +19,6 @@ constexpr double kSettled = 0.1;          // of a difference: its limit is no fa
 constexpr double kNear = 0.02;            // of the lift: differences from a period that may still vanish
 constexpr std::size_t kBlocks = 10;       // of the exponent
 constexpr double kSureErrors = 3;         // standard errors
-constexpr double kLateGrowth = 3;         // of the logarithm
 constexpr double kSmallError = 0.02;      // per turn, of an exponent that is zero
 
 using Strobes = std::span<const Strobe>;

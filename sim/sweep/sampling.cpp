@@ -6,11 +6,6 @@
 
 namespace beamcam::sim {
 
-double cam_period(const Problem& problem) {
-    const bool turns = problem.cam && problem.cam->speed != 0;
-    return turns ? 2 * std::numbers::pi / std::fabs(problem.cam->speed) : 1;
-}
-
 SampleSpan sample_span(const Problem& problem, const Sampling& sampling) {
     SampleSpan span;
     span.period = cam_period(problem);

@@ -38,9 +38,6 @@ struct Sampling {
     bool operator==(const Sampling&) const = default;
 };
 
-// The time of one turn of the cam; 1 s with a cam at rest or without a cam [s].
-double cam_period(const Problem& problem);
-
 // When the samples begin and the motion ends, in whole turns of the cam.
 struct SampleSpan {
     long from = 0, to = 0;  // turns, from < to

@@ -13,7 +13,6 @@ namespace {
 // stood at the start: samples are taken over whole turns.
 Attractor by_tangents(const Problem& problem, const Sampling& sampling, const SweepPoint& point,
                       const Progress& progress) {
-    constexpr double kLateGrowth = 3;  // of the later half, as in (S89)
     const SampleSpan span = sample_span(problem, sampling);
     ExponentsRequest request;
     request.duration = static_cast<double>(span.kept()) * cam_period(problem);
@@ -21,9 +20,7 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
-        const double value = found.lambda.front();
-        const bool grows_late = found.settled && value * request.duration / 2 > kLateGrowth;
-        return with_exponent(problem, point.attractor, {value, found.error.front(), grows_late});
+        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), found.grows_late()});
     } catch (const SolverError&) {
         return point.attractor;  // its exponent stays unknown
     }

@@ -80,6 +80,8 @@ TEST(OrbitsCommand, TellsWhatItCannotDo) {
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.sped=1:2").code, 3);
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set cam.speed=0").err, HasSubstr("cam.speed"));
     EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json --set beam.model=exact").err, HasSubstr("first-order"));
+    for (const char* command : {"lyapunov s.json -o nowhere/l.svg", "orbits s.json -o nowhere/o.csv"})  // before any work
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM ") + command + " --set cam.speed=0").code, 6);
 }
 
 TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {

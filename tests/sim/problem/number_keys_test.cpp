@@ -37,6 +37,16 @@ TEST(NumberKeys, TakeEveryNumberAndGiveItBack) {
     }
 }
 
+// One number stands for all modes.
+TEST(NumberKeys, OneNumberStandsForAListOfModes) {
+    Problem p;
+    for (const std::vector<double>& before : {std::vector<double>{}, std::vector<double>{0.1, 0.2}}) {
+        p.beam.damping_ratio = before;
+        EXPECT_TRUE(set_number(p, "beam.damping_ratio", 0.05));
+        EXPECT_EQ(p.beam.damping_ratio, std::vector<double>{0.05});
+    }
+}
+
 TEST(NumberKeys, RefuseWhatIsNoKeyOrNoWholeNumber) {
     Problem p;
     EXPECT_FALSE(set_number(p, "cam.spee", 1));

@@ -1,0 +1,57 @@
+#include "scenes/commands/answer_files.hpp"
+
+#include <algorithm>
+
+#include "output/files/atomic_file.hpp"
+#include "render/plot/style.hpp"
+#include "scenes/figures/make.hpp"
+
+namespace beamcam::scenes {
+
+std::string AnswerFiles::drawn(const render::figure::Figure& figure, Scene scene, const std::string& file) const {
+    FigureOutput how;
+    how.file = file;
+    how.figure = figure.name;
+    how.column = column;
+    how.lang = lang();
+    scene.outputs.clear();
+    return figure_files(figure, how, to_json(scene)).front().second;
+}
+
+void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
+    app.option("--column", &files.column, "COLUMN", "Width and letters of a journal's column, for the diagram")
+        .one_of(render::figure::column_names());
+    app.option("--lang", &files.lang_name, "LANG", "Language of the diagram: en or zh").one_of({"en", "zh"});
+    app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
+    app.flag("--json", common.json, "As JSON on standard output");
+    app.flag("--force", common.force, "Replace files that beamcam did not make");
+}
+
+void need_room(const AnswerFiles& files, std::initializer_list<std::string_view> endings, output::Manifest& manifest) {
+    for (const std::string& file : files.names) {
+        need_ending("-o", file, endings);
+        if (file == "-") continue;
+        manifest.require_replaceable(file);
+        output::AtomicFile(manifest.target(file));  // created and removed: a place that cannot be written is told now
+    }
+}
+
+void write_answer(const Answer& answer, const AnswerFiles& files, const Common& common, output::Manifest& manifest) {
+    const bool prints_data = std::ranges::find(files.names, "-") != files.names.end();
+    if (common.json)
+        print_json(answer.json());
+    else if (!prints_data)
+        print_text(answer.words());
+    for (const std::string& file : files.names) {
+        const std::string text = answer.file(file);
+        if (file == "-") {
+            print_data(text);
+            continue;
+        }
+        output::write_file(manifest.target(file), text);
+        say(common, "wrote " + file);
+    }
+    manifest.save();
+}
+
+}  // namespace beamcam::scenes
