@@ -1,4 +1,7 @@
 // The program: arguments in, exit code out.
+#include <stdio_ext.h>
+
+#include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
 
@@ -7,5 +10,6 @@
 int main(int argc, char** argv) {
     // Pictures must not depend on these, nor standard output on what libraries tell of themselves.
     for (const char* name : {"FREETYPE_PROPERTIES", "FC_DEBUG"}) unsetenv(name);
+    __fpurge(stdout);  // what they told before main: pixman of PIXMAN_DISABLE
     return beamcam::scenes::command_line(argc, argv);
 }

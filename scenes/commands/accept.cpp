@@ -17,13 +17,20 @@ int act(const AcceptArguments& args) {
     AcceptOptions options = args.options;
     options.report = args.report;
     options.force = args.common.force;
-    std::string baselines;
-    const std::vector<AcceptedEntry> accepted = accept_report(options, baselines);
-    for (const AcceptedEntry& entry : accepted)
-        print_text(fmt::format("{:<8}  {}\n", entry.replaced ? "replaced" : "added", entry.name));
-    say(args.common, accepted.empty() ? "nothing in the report is to be accepted"
-                                      : fmt::format("{} was changed; keep it if it is right", baselines));
-    return kDone;
+    const Acceptance done = accept_report(options);
+    bool changed = false, complete = true;
+    for (const AcceptedEntry& entry : done.entries) {
+        const bool taken = entry.refused.empty();
+        (taken ? changed : complete) = taken;
+        print_text(fmt::format("{:<8}  {}{}\n",
+                               !taken           ? "refused"
+                               : entry.replaced ? "replaced"
+                                                : "added",
+                               entry.name, taken ? "" : ": " + entry.refused));
+    }
+    say(args.common, changed ? fmt::format("{} was changed; keep it if it is right", done.baselines)
+                             : "nothing in the report is to be accepted");
+    return complete ? kDone : kDiffers;
 }
 
 }  // namespace

@@ -17,12 +17,18 @@ struct AcceptOptions {
 
 struct AcceptedEntry {
     std::string name;
-    bool replaced = false;  // references and digests; else digests were added for another renderer
+    bool replaced = false;  // references and digests; else they were added for another renderer
+    std::string refused;    // why nothing was accepted; empty: it was
+};
+struct Acceptance {
+    std::string baselines;  // the file
+    std::vector<AcceptedEntry> entries;
 };
 
-// Where pictures are equivalent, or of a new renderer, their digests are accepted beside the others. Where they differ,
-// or the motion does, the report's pictures and motion replace the references. Throws UsageError for unknown names,
+// Where pictures are equivalent, or of a new renderer, their digests are accepted beside the others, and the pictures
+// of a new renderer kept. Where they differ, or the motion does, the report's pictures and motion replace the
+// references. An entry of which the report has nothing to accept is left as it is. Throws UsageError for unknown names,
 // IoError for a report that is damaged, incomplete, or of other baselines; then nothing is changed.
-std::vector<AcceptedEntry> accept_report(const AcceptOptions& options, std::string& baselines);
+Acceptance accept_report(const AcceptOptions& options);
 
 }  // namespace beamcam::scenes

@@ -19,21 +19,10 @@
 #include <vector>
 
 #include "scenes/format/source.hpp"
+#include "scenes/regression/tolerance.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
-
-// What is still "equivalent". Absent: the entry's default.
-struct Tolerance {
-    std::optional<int> channel;     // of a pixel, 0…255; default 0 for flat views and figures, 2 for lit views
-    std::optional<double> share;    // of the pixels that may differ by more, 0…1; default 0
-    std::optional<double> ssim;     // or pictures that are at least so similar, 0…1; default: none
-    std::optional<double> motion;   // of a channel's range, up to the reproducible horizon; default 2e-5
-    std::optional<double> impacts;  // of an impact's quantities; its times to that share of a millisecond; default 1e-4
-
-    // `over`, where it says something, else this.
-    Tolerance overridden_by(const Tolerance& over) const;
-};
 
 // Pixels that one kind of machine makes, and that are right.
 struct Accepted {
@@ -43,11 +32,12 @@ struct Accepted {
 
 struct Baseline {
     std::string name;  // also of its folder among the references
-    Scene scene;       // with the one output of the entry; of no meaning where there is a file
+    Scene scene;       // with the one output of the entry, none of a sweep; of no meaning where there is a file
+    bool is_sweep = false;
     // Pictures that another tool made, to be judged instead of a scene: a PNG file, a folder, a sequence or a film.
     std::string file;
     std::string expected;  // the same: pictures that somebody accepted, instead of digests and references
-    Tolerance tolerance;
+    Tolerances tolerances;
     bool physics = true;  // false: only the picture is guarded
     std::vector<Accepted> accepted;
     std::optional<double> reproducible_until;  // [s]
@@ -55,6 +45,7 @@ struct Baseline {
     std::string problem;
 
     bool has_pictures() const;
+    const Picture* picture() const;  // its still or frames; null: it has none
     bool has_motion() const { return file.empty() && (physics || !has_pictures()); }
     const Output& output() const { return scene.outputs.front(); }
 };
@@ -75,21 +66,5 @@ Baselines read_baselines(const std::string& path);
 // pattern that means nothing.
 std::vector<const Baseline*> chosen_entries(const Baselines& baselines, const std::string& path,
                                             const std::vector<std::string>& patterns);
-
-// `key=value` of --tolerance. Throws UsageError.
-void apply_tolerance(Tolerance& tolerance, const std::string& text);
-
-// ---- writing -------------------------------------------------------------------------------------
-
-// What changes in one entry.
-struct BaselineEdit {
-    std::string name;
-    std::vector<Accepted> accepted;
-    std::optional<double> reproducible_until;
-};
-// The text with these entries changed and every other byte left as it was, but for "renderers", which lists those that
-// some entry names.
-std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& edits,
-                   const std::map<std::string, RendererParts>& renderers);
 
 }  // namespace beamcam::scenes

@@ -32,18 +32,6 @@ bool ExpectedPictures::has_more() {
     return !ahead_.empty() || source_.next(picture, name);
 }
 
-std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
-
-fs::path report_picture(const std::string& entry, long frame, const char* what) {
-    return fs::path(entry) / fmt::format("{:04}-{}.png", frame, what);
-}
-
-// Folders that were made before there were markers tell nothing.
-bool EntryReferences::is_as_marked(const std::string& name) const {
-    const ReferenceFile* file = marked(name);
-    return marked_.empty() || (file && output::sha256_of_file(folder / name) == file->sha256);
-}
-
 void EntryPictures::judge(long frame, const render::Image& image) {
     thread_local output::Raster raster;
     output::to_raster(image, raster);
@@ -83,12 +71,27 @@ void EntryPictures::compare_with_accepted(long frame, const output::Raster& actu
     const bool accepted = is_accepted(frame, found.sha256);
     if (!accepted) found.verdict = entry_.accepted.empty() ? Verdict::missing : Verdict::different;
     references_.read([&] {
-        if (!accepted)
-            compare_with_reference(frame, actual, found);
-        else if (found.reference_accepted = is_reference_accepted(frame); !found.reference_accepted)
+        if (!accepted) return compare_with_reference(frame, actual, found);
+        if (const std::string name = unaccepted_reference(frame); !name.empty()) {
+            found.expected = references_.folder / name;
+            found.reference_accepted = false;
             found.verdict = Verdict::different;
+            write_actual(frame, actual, found);
+        }
     });
-    if (references_.fresh) output::write_png(*references_.fresh / picture_name(frame), output::to_image(actual));
+    keep(frame, actual, found);
+}
+
+// An update keeps all pictures; a renderer that is new to the entry those that are not the first one's.
+void EntryPictures::keep(long frame, const output::Raster& actual, const FrameResult& found) {
+    if (references_.fresh) {
+        output::write_png(*references_.fresh / picture_name(frame), output::to_image(actual));
+    } else if (references_.further) {
+        const std::vector<std::string>& first = entry_.accepted.front().sha256;
+        const auto at = static_cast<std::size_t>(frame);
+        if (at < first.size() && first[at] == found.sha256) return;
+        output::write_png(references_.further() / picture_name(frame, renderer_), output::to_image(actual));
+    }
 }
 
 bool EntryPictures::is_near(const PictureComparison& comparison) const {
@@ -104,17 +107,27 @@ bool EntryPictures::is_accepted(long frame, const std::string& digest) const {
     });
 }
 
-// The reference picture belongs to one of the accepted digests, or there is none.
-bool EntryPictures::is_reference_accepted(long frame) const {
-    const std::string name = picture_name(frame);
-    if (!output::is_there(references_.folder / name)) return true;
-    const ReferenceFile* file = references_.marked(name);
-    const bool as_marked = file && output::sha256_of_file(references_.folder / name) == file->sha256;
-    return is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(references_.folder / name)));
+// The name of a reference picture whose digest is none of those that are accepted; empty: there is none.
+std::string EntryPictures::unaccepted_reference(long frame) const {
+    std::vector<std::string> names{picture_name(frame)};
+    for (const Accepted& accepted : entry_.accepted) names.push_back(picture_name(frame, accepted.renderer));
+    for (const std::string& name : names) {
+        const fs::path picture = references_.folder / name;
+        if (!output::is_there(picture)) continue;
+        const ReferenceFile* file = references_.marked(name);
+        const bool as_marked = file && output::sha256_of_file(picture) == file->sha256;
+        if (!is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(picture)))) return name;
+    }
+    return {};
+}
+
+fs::path EntryPictures::reference_of(long frame) const {
+    const fs::path own = references_.folder / picture_name(frame, renderer_);
+    return output::is_there(own) ? own : references_.folder / picture_name(frame);
 }
 
 void EntryPictures::compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
-    const fs::path reference = references_.folder / picture_name(frame);
+    const fs::path reference = reference_of(frame);
     if (!output::is_there(reference)) return write_actual(frame, actual, found);
     const output::Raster expected = output::read_png(reference);
     found.expected = reference;
@@ -127,12 +140,12 @@ void EntryPictures::compare_with_reference(long frame, const output::Raster& act
 }
 
 void EntryPictures::write_actual(long frame, const output::Raster& actual, FrameResult& found) {
-    if (!report_) return;
+    if (!report_.folder) return;
     found.actual = put(frame, "actual", actual);
 }
 void EntryPictures::write_difference(long frame, const output::Raster& expected, const output::Raster& actual,
                                      FrameResult& found) {
-    if (!report_) return;
+    if (!report_.folder) return;
     found.actual = put(frame, "actual", actual);
     put(frame, "expected", expected);
     if (!found.comparison.same_size()) return;
@@ -140,17 +153,16 @@ void EntryPictures::write_difference(long frame, const output::Raster& expected,
     found.difference = put(frame, "difference", output::difference_picture(expected, actual, threshold));
 }
 fs::path EntryPictures::put(long frame, const char* what, const output::Raster& picture) {
-    const output::Target target = report_file(report_picture(entry_.name, frame, what).filename().string());
+    const output::Target target = report_.file(report_picture(entry_.name, frame, what).filename().string());
     output::write_file(target, output::encode_png(output::to_image(picture)), output::Durability::buffered);
     return target.path;
 }
-output::Target EntryPictures::report_file(const std::string& name) const {
-    const fs::path file = *report_ / entry_.name / name;
-    output::require_within(file, *report_);
-    output::ensure_directory(file.parent_path());
-    output::Target target = report_files_.target(file);
-    target.within = *report_;
-    return target;
+
+std::map<std::string, std::string> EntryPictures::new_pictures(bool all) const {
+    std::map<std::string, std::string> digests;
+    for (const auto& [frame, found] : result_.frames)
+        digests[all ? picture_name(frame) : picture_name(frame, renderer_)] = found.sha256;
+    return digests;
 }
 
 void EntryPictures::conclude() {
@@ -188,7 +200,7 @@ std::string EntryPictures::in_words(const std::pair<const long, FrameResult>& wo
     const std::size_t changed = result_.frames.size() - result_.frames_with(Verdict::identical);
     if (!worst.second.reference_accepted)
         return fmt::format("{} is not the picture that was accepted: its digest is not among those of the entry",
-                           (references_.folder / picture_name(worst.first)).string());
+                           worst.second.expected.string());
     const std::string which =
         result_.frames.size() > 1
             ? fmt::format("{} of {} pictures changed, most number {}: ", changed, result_.frames.size(), worst.first)

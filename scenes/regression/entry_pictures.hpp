@@ -3,51 +3,17 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "output/data/manifest.hpp"
 #include "output/film/picture_source.hpp"
-#include "scenes/regression/references.hpp"
-#include "scenes/regression/regression.hpp"
+#include "scenes/regression/entry_references.hpp"
+#include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
-
-// Of a report, below its folder; `what`: "actual", "expected", "difference".
-std::filesystem::path report_picture(const std::string& entry, long frame, const char* what);
-std::string picture_name(long frame);  // "0012.png"
-
-// The folder of an entry's references, and where new ones go.
-class EntryReferences {
-  public:
-    // Throws IoError for a damaged marker.
-    explicit EntryReferences(const std::filesystem::path& where)
-        : folder(where), marked_(marked_files(where).value_or(ReferenceFiles{})) {}
-
-    const ReferenceFile* marked(const std::string& name) const {
-        const auto file = marked_.find(name);
-        return file == marked_.end() ? nullptr : &file->second;
-    }
-    bool is_as_marked(const std::string& name) const;
-    // Reads what may be damaged; then an update replaces it.
-    void read(const std::function<void()>& work) const {
-        try {
-            work();
-        } catch (const output::IoError&) {
-            if (!fresh) throw;
-        }
-    }
-
-    const std::filesystem::path folder;
-    std::optional<std::filesystem::path> fresh;  // of an update
-
-  private:
-    const ReferenceFiles marked_;
-};
 
 // The pictures of a file that somebody accepted, taken in about the order of their numbers, from any thread.
 class ExpectedPictures {
@@ -67,29 +33,31 @@ class ExpectedPictures {
 
 class EntryPictures {
   public:
-    // `report`: folder for actual and difference pictures. All must outlive this.
-    EntryPictures(const Baseline& entry, const Tolerance& tolerance, const EntryReferences& references,
-                  const std::optional<std::filesystem::path>& report, output::Manifest& report_files,
-                  EntryResult& result)
+    // `renderer`: what draws. All references must outlive this.
+    EntryPictures(const Baseline& entry, const Tolerance& tolerance, const std::string& renderer,
+                  const EntryReferences& references, const EntryReport& report, EntryResult& result)
         : entry_(entry),
           tolerance_(tolerance),
+          renderer_(renderer),
           references_(references),
           report_(report),
-          report_files_(report_files),
           result_(result) {}
 
     // From any thread.
     void judge(long frame, const render::Image& image);
     void judge(long frame, const output::Raster& picture);
-    void conclude();                                            // all are judged
-    output::Target report_file(const std::string& name) const;  // in the folder of the entry; there must be a report
+    void conclude();  // all are judged
+    // Digests of the new reference pictures by file name: of all, or of those that this renderer alone has.
+    std::map<std::string, std::string> new_pictures(bool all) const;
 
   private:
     void compare_with_expected(long frame, const output::Raster& actual, FrameResult& found);
     void compare_with_accepted(long frame, const output::Raster& actual, FrameResult& found);
     bool is_near(const PictureComparison& comparison) const;
     bool is_accepted(long frame, const std::string& digest) const;
-    bool is_reference_accepted(long frame) const;
+    std::string unaccepted_reference(long frame) const;
+    std::filesystem::path reference_of(long frame) const;
+    void keep(long frame, const output::Raster& actual, const FrameResult& found);
     void compare_with_reference(long frame, const output::Raster& actual, FrameResult& found);
     void write_actual(long frame, const output::Raster& actual, FrameResult& found);
     void write_difference(long frame, const output::Raster& expected, const output::Raster& actual, FrameResult& found);
@@ -98,9 +66,9 @@ class EntryPictures {
 
     const Baseline& entry_;
     const Tolerance& tolerance_;
+    const std::string& renderer_;
     const EntryReferences& references_;
-    const std::optional<std::filesystem::path>& report_;
-    output::Manifest& report_files_;
+    const EntryReport& report_;
     EntryResult& result_;
     std::mutex mutex_;  // of what follows, and of result_.frames
     std::unique_ptr<ExpectedPictures> expected_;

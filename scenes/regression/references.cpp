@@ -248,7 +248,10 @@ ReferenceUpdate::~ReferenceUpdate() {
 
 fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNew / entry; }
 
-fs::path ReferenceUpdate::begin(const std::string& entry) {
+fs::path ReferenceUpdate::begin(const std::string& entry) { return begin(entry, false); }
+fs::path ReferenceUpdate::extend(const std::string& entry) { return begin(entry, true); }
+
+fs::path ReferenceUpdate::begin(const std::string& entry, bool stay) {
     const fs::path folder = folder_of(entry);
     std::error_code error;
     if (fs::is_symlink(folder, error)) refuse(folder, "is a symbolic link");
@@ -262,16 +265,16 @@ fs::path ReferenceUpdate::begin(const std::string& entry) {
                 refuse(folder / name, "was changed after beamcam made it");
     }
     output::ensure_directory(staged(entry));
-    entries_.push_back(entry);
+    entries_[entry] = stay;
     return staged(entry);
 }
 
-void ReferenceUpdate::drop(const std::string& entry) { std::erase(entries_, entry); }
+void ReferenceUpdate::drop(const std::string& entry) { entries_.erase(entry); }
 
 void ReferenceUpdate::commit(const std::string& expected, const std::string& text,
                              const std::map<std::string, std::map<std::string, std::string>>& pixels) {
     Tasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
-    for (const std::string& entry : entries_) add_tasks(entry, pixels.at(entry), tasks.files);
+    for (const auto& [entry, stay] : entries_) add_tasks(entry, stay, pixels.at(entry), tasks.files);
     if (output::read_file(baselines_) != expected) refuse(baselines_, "was changed during the update");
     output::write_file(staging_ / kText, text);
     output::write_file(staging_ / kTasks, text_of(tasks));
@@ -279,7 +282,7 @@ void ReferenceUpdate::commit(const std::string& expected, const std::string& tex
     remove_staging(staging_);
 }
 
-void ReferenceUpdate::add_tasks(const std::string& entry, const std::map<std::string, std::string>& pixels,
+void ReferenceUpdate::add_tasks(const std::string& entry, bool stay, const std::map<std::string, std::string>& pixels,
                                 std::vector<Task>& tasks) const {
     const fs::path folder = folder_of(entry), fresh_folder = staged(entry);
     const ReferenceFiles old = marked_files(folder).value_or(ReferenceFiles{});
@@ -292,8 +295,13 @@ void ReferenceUpdate::add_tasks(const std::string& entry, const std::map<std::st
         if (!now.empty() && !force_ && !old.contains(name)) refuse(folder / name, "was not made by beamcam");
         tasks.push_back({entry, name, now, fresh[name].sha256});
     }
-    for (const auto& [name, file] : old)
-        if (!fresh.contains(name)) tasks.push_back({entry, name, file.sha256, ""});
+    for (const auto& [name, file] : old) {
+        if (fresh.contains(name)) continue;
+        if (stay)
+            fresh[name] = file;
+        else
+            tasks.push_back({entry, name, file.sha256, ""});
+    }
     const std::string marker = marker_text(fresh);
     output::write_file(fresh_folder / kMarker, marker);
     tasks.push_back({entry, kMarker, digest_of(folder / kMarker), output::sha256(marker)});

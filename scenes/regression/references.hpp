@@ -42,6 +42,8 @@ class ReferenceUpdate {
     // Where the new files of an entry are to be written. Throws WouldOverwrite when its folder is not beamcam's own or
     // holds changed files.
     std::filesystem::path begin(const std::string& entry);
+    // The same for files that are added to the entry's, or put in the place of some.
+    std::filesystem::path extend(const std::string& entry);
     // The entry stays as it is.
     void drop(const std::string& entry);
     // Puts the new files in the place of the old ones, and `text` into the baselines, which still have to read
@@ -55,7 +57,8 @@ class ReferenceUpdate {
     };
 
   private:
-    void add_tasks(const std::string& entry, const std::map<std::string, std::string>& pixels,
+    std::filesystem::path begin(const std::string& entry, bool stay);
+    void add_tasks(const std::string& entry, bool stay, const std::map<std::string, std::string>& pixels,
                    std::vector<Task>& tasks) const;
     std::filesystem::path folder_of(const std::string& entry) const { return references_ / entry; }
     std::filesystem::path staged(const std::string& entry) const;
@@ -63,7 +66,7 @@ class ReferenceUpdate {
     std::filesystem::path baselines_, references_, staging_;
     bool force_;
     std::unique_ptr<output::Journal> journal_;  // locked as long as this program lives
-    std::vector<std::string> entries_;
+    std::map<std::string, bool> entries_;       // whether the old files stay
 };
 
 }  // namespace beamcam::scenes

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "output/data/manifest.hpp"
-#include "scenes/regression/regression.hpp"
+#include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
 
@@ -40,10 +40,13 @@ void write_page(const std::filesystem::path& folder, const RegressionResult& res
 // What the report says of one entry.
 struct ReportedEntry {
     std::string renderer;
-    std::vector<std::string> sha256;  // of all its pictures; empty: it has none, or they are identical
-    std::vector<long> changed;        // their numbers
-    bool differs = false;             // its pictures or its motion: digests alone will not do
-    std::string words;                // why
+    std::vector<std::string> sha256;                  // of all its pictures; empty: it has none, or they are identical
+    std::vector<long> changed;                        // their numbers
+    bool differs = false;                             // its pictures or its motion: digests alone will not do
+    std::map<std::string, std::string> motion_files;  // SHA-256 by name; empty: it has none, or nothing moved
+    std::optional<double> reproducible_until;         // [s]
+    std::string not_reproducible;                     // why its pictures are not to be accepted
+    std::string words;                                // why
 };
 
 struct Report {

@@ -62,6 +62,12 @@ ReportedEntry reported_entry(const nlohmann::json& entry) {
             out.differs = true;
             for (const nlohmann::json& line : entry.at(part).at("words")) out.words = line.get<std::string>();
         }
+    if (entry.contains("motion")) out.motion_files = entry.at("motion").at("files");
+    for (const auto& [file, digest] : out.motion_files)
+        if (file.starts_with('.') || file.find('/') != std::string::npos)
+            throw std::invalid_argument(fmt::format("{} is no name of a file in it", file));
+    if (entry.contains("reproducible_until")) out.reproducible_until = entry.at("reproducible_until").get<double>();
+    out.not_reproducible = entry.value("not_reproducible", "");
     if (entry.contains("picture"))
         for (const auto& [number, frame] : entry.at("picture").at("changed").items())
             out.changed.push_back(std::stol(number));
@@ -112,7 +118,11 @@ std::string to_json(const RegressionResult& result) {
                 out["picture"]["changed"][std::to_string(number)] = std::move(one);
             }
         }
-        if (entry.motion) out["motion"] = {{"verdict", name(*entry.motion)}, {"words", entry.motion_lines}};
+        if (entry.motion)
+            out["motion"] = {
+                {"verdict", name(*entry.motion)}, {"words", entry.motion_lines}, {"files", entry.motion_files}};
+        if (entry.reproducible_until) out["reproducible_until"] = *entry.reproducible_until;
+        if (!entry.not_reproducible.empty()) out["not_reproducible"] = entry.not_reproducible;
         if (!entry.renderer.empty()) {
             out["renderer"] = entry.renderer;
             out["sha256"] = Json::array();  // of all its pictures

@@ -38,6 +38,7 @@ int remove(const char* name) noexcept {
     const int done = unlinkat(AT_FDCWD, name, 0);
     return done != 0 && errno == EISDIR ? unlinkat(AT_FDCWD, name, AT_REMOVEDIR) : done;
 }
+int rmdir(const char* name) noexcept { return unlinkat(AT_FDCWD, name, AT_REMOVEDIR); }
 int mkdir(const char* name, mode_t mode) noexcept {
     count_change();
     return result_of(syscall(SYS_mkdirat, AT_FDCWD, name, mode));
@@ -171,15 +172,41 @@ TEST(References, AFolderInThePlaceOfTheCollectionIsNeverRemoved) {
     EXPECT_EQ(slurp(scratch / "refs/.beamcam-update/notes.txt"), "mine");
 }
 
+// The picture of another renderer is put beside the others.
+void extend(const Scratch& scratch) {
+    ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
+    for (const std::string entry : {"a", "c"}) write_file(update.extend(entry) / "0000-0123456789ab.png", entry);
+    update.drop("c");
+    update.commit(slurp(scratch / "b.json"), "baselines extended", {{"a", {{"0000-0123456789ab.png", "34cd"}}}});
+}
+
+TEST(References, WhatIsAddedLeavesAllElseAsItIs) {
+    Scratch scratch;
+    write_file(scratch / "b.json", "first");
+    update(scratch, "old");
+    Contents expected = contents(scratch.path());
+    extend(scratch);
+    expected["b.json"] = "baselines extended";
+    expected["refs/a/0000-0123456789ab.png"] = "a";
+    Contents all = contents(scratch.path());
+    EXPECT_THAT(all.at("refs/a/.beamcam-reference"),
+                ::testing::HasSubstr(expected.at("refs/a/.beamcam-reference").substr(20)));
+    EXPECT_EQ(marked_files(scratch / "refs/a")->at("0000-0123456789ab.png").pixels, "34cd");
+    expected["refs/a/.beamcam-reference"] = all.at("refs/a/.beamcam-reference");
+    EXPECT_EQ(all, expected);
+    update(scratch, "new");  // and goes with them
+    EXPECT_FALSE(contents(scratch.path()).contains("refs/a/0000-0123456789ab.png"));
+}
+
 // The process ends at each of its changes of the file system in turn, as a kill ends it: afterwards everything is old
 // or everything is new, and nothing else is left.
-TEST(References, AnUpdateThatIsKilledAnywhereIsCompletedOrUndone) {
+void torture(const std::function<void(const Scratch&)>& act) {
     Scratch before_all, after_all;
     for (const Scratch* scratch : {&before_all, &after_all}) {
         write_file(*scratch / "b.json", "first");
         update(*scratch, "old");
     }
-    update(after_all, "new");
+    act(after_all);
     const Contents before = contents(before_all.path()), after = contents(after_all.path());
     int undone = 0, completed = 0;
     constexpr int kFarBeyondTheLast = 1000;
@@ -189,7 +216,7 @@ TEST(References, AnUpdateThatIsKilledAnywhereIsCompletedOrUndone) {
         update(scratch, "old");
         const int code = output::exit_code_of([&] {
             changes_left = step;
-            update(scratch, "new");
+            act(scratch);
             return 0;
         });
         ReferenceUpdate::recover(scratch / "refs");
@@ -197,10 +224,16 @@ TEST(References, AnUpdateThatIsKilledAnywhereIsCompletedOrUndone) {
         ASSERT_TRUE(now == before || now == after) << "killed at change " << step;
         (now == before ? undone : completed) += 1;
         if (code == 0) break;
+        ASSERT_EQ(code, 137);
     }
     EXPECT_GT(undone, 5);
     EXPECT_GT(completed, 5);
 }
+
+TEST(References, AnUpdateThatIsKilledAnywhereIsCompletedOrUndone) {
+    torture([](const Scratch& scratch) { update(scratch, "new"); });
+}
+TEST(References, AnAdditionThatIsKilledAnywhereIsCompletedOrUndone) { torture(extend); }
 
 }  // namespace
 }  // namespace beamcam::scenes

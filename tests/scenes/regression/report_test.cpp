@@ -179,14 +179,60 @@ TEST(Accept, RefusesWhatIsDamagedAndChangesNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
 }
 
-TEST(Accept, HasNothingToTakeWhereTheSolverFailed) {
+// What has nothing to accept costs no other entry.
+TEST(Accept, NamesWhatHasNothingAndTakesTheOthers) {
     const Guarded folder;
     folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "gravity": 9.7})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --report r").code, 7);  // it holds a motion that is out of date soon
     folder.write("s.json", R"({"time": {"end": 0.35}, "solver": {"max_steps": 1}})");
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only motion --report r").code, 7);
-    const Finished refused = shell(folder, "$BEAMCAM accept r");
-    EXPECT_EQ(refused.code, 6);
-    EXPECT_THAT(refused.err, HasSubstr("has nothing of motion to accept: the solver failed"));
+    shell(folder, "sed -i 's/cam.speed=5/cam.speed=6/' b.json");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only motion fast --report r").code, 7);
+    const std::string motion = slurp(folder / "b/motion/motion.csv");
+    const Finished accepted = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(accepted.code, 7);
+    EXPECT_THAT(accepted.out, AllOf(HasSubstr("refused   motion: the solver failed"), HasSubstr("replaced  fast\n")));
+    EXPECT_EQ(slurp(folder / "b/motion/motion.csv"), motion);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --strict").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept r motion").code, 7);
+}
+
+// Through a report no more is accepted than by --update.
+TEST(Accept, RefusesPicturesOfWhatIsNotReproducible) {
+    const Guarded folder;
+    folder.write("b.json", R"({"entries": {
+  "late": {"scene": {"time": {"end": 8}}, "output": {"type": "still", "at": 8, "size": [64, 64], "view": {"style": "flat"}}},
+  "table": {"scene": {"time": {"end": 8}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --report r").code, 7);
+    const Finished accepted = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(accepted.code, 7);
+    EXPECT_THAT(accepted.out, AllOf(HasSubstr("refused   late: not accepted: it shows the motion until 8 s"),
+                                    HasSubstr("replaced  table\n")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/late"));
+    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("\"reproducible_until\": "));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only table --strict").code, 0);
+}
+
+TEST(Accept, TakesNoFilesButThoseThatWereTested) {
+    const Guarded folder;
+    folder.update();
+    const std::string before = slurp(folder / "b.json");
+    folder.write("s.json", R"({"time": {"end": 0.35}, "gravity": 9.7})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --only motion --report r").code, 7);
+    const std::string report = slurp(folder / "r/report.json");
+    for (const char* name : {"../secret.csv", ".beamcam-reference"}) {
+        folder.write("r/report.json", report);
+        folder.swap("r/report.json", "motion.csv\": ", std::string(name) + "\": ");
+        const Finished refused = shell(folder, "$BEAMCAM accept r");
+        EXPECT_EQ(refused.code, 6) << name;
+        EXPECT_THAT(refused.err, HasSubstr("is no name of a file")) << refused.err;
+    }
+    folder.write("r/report.json", report);
+    shell(folder, "sed -i '$d' r/motion/motion.csv");
+    const Finished changed = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(changed.code, 6);
+    EXPECT_THAT(changed.err, HasSubstr("r/motion/motion.csv is not the motion that was tested"));
+    EXPECT_EQ(slurp(folder / "b.json"), before);
 }
 
 }  // namespace

@@ -1,0 +1,112 @@
+#include "scenes/regression/entry_group.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "output/files/interrupt.hpp"
+#include "scenes/outputs/capture.hpp"
+#include "sim/base/clock.hpp"
+
+namespace beamcam::scenes {
+
+void EntryGroup::run(const RegressionOptions& options, RegressionResult& all) {
+    std::erase_if(jobs_, [](Job& job) { return !job.test->attempt([&] { prepare(job); }); });
+    if (jobs_.empty()) return;
+    std::vector<sim::Request> requests;
+    for (const Job& job : jobs_)
+        for (sim::Request& request : requests_of(job.plan)) requests.push_back(std::move(request));
+    std::vector<sim::Result> results;
+    try {
+        results = sim::simulate(problem(), requests, [](double) { return !output::interrupted(); });
+    } catch (const sim::SolverError& error) {
+        return run_alone(options, all, error);
+    }
+    ++all.simulations;
+    auto next = results.begin();
+    for (Job& job : jobs_) {
+        const auto last = next + static_cast<std::ptrdiff_t>(requests_of(job.plan).size());
+        const auto started = Clock::now();
+        job.test->attempt([&] { judge(job, {std::make_move_iterator(next), std::make_move_iterator(last)}, options); });
+        next = last;
+        job.test->result().seconds = seconds_since(started);
+        all.pictures += job.test->result().frames.size();
+    }
+}
+
+// One that looks less far may come to its end.
+void EntryGroup::run_alone(const RegressionOptions& options, RegressionResult& all, const sim::SolverError& error) {
+    if (jobs_.size() == 1) {
+        jobs_.front().test->attempt([&] { throw error; });
+        return;
+    }
+    for (const Job& job : jobs_) {
+        EntryGroup alone;
+        alone.add(*job.test);
+        alone.run(options, all);
+    }
+}
+
+void EntryGroup::prepare(Job& job) {
+    const Scene& scene = job.test->entry().scene;
+    job.plan = plan(scene);
+    settle(job.plan, scene, [](const sim::Problem& some, double until) {
+        sim::Request only_impacts;
+        only_impacts.end_time = until;
+        return sim::simulate(some, only_impacts, [](double) { return !output::interrupted(); });
+    });
+    // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
+    // statics, behind which there is no motion at all.
+    if (!job.plan.simulation) {
+        job.plan.simulation.emplace();
+        double& until = job.plan.simulation->request.end_time;
+        for (const Pictures& p : job.plan.pictures) until = std::max(until, p.end_time);
+        for (const Variant& v : job.plan.variants) until = std::max(until, v.simulation.request.end_time);
+        if (job.plan.pictures.empty() && job.plan.variants.empty() && !job.plan.figures.empty())
+            job.test->ask_for_no_motion();
+    }
+    sim::Request& request = job.plan.simulation->request;
+    job.until = request.end_time;
+    if (job.test->asks_for_horizon()) request.horizon = true;  // some figures ask for it anyway
+    job.motion = request.tables.size();
+    const auto table = std::ranges::find_if(job.plan.data, [](const DataFile& d) { return d.table.has_value(); });
+    if (table != job.plan.data.end())
+        job.motion = *table->table;
+    else if (job.test->asks_for_motion())
+        request.tables.push_back(motion_behind_picture(scene.problem, job.until));
+    if (job.test->asks_for_motion()) record_compared(job);
+}
+
+void EntryGroup::record_compared(Job& job) {
+    for (Pictures& p : job.plan.pictures)
+        for (std::size_t i = 0; i < p.compared.size(); ++i) {
+            ComparedMotion& other = p.compared[i];
+            other.request.tables.push_back(job.test->motion().request_of_compared(i, other.problem, p.end_time));
+            if (job.test->asks_for_horizon()) other.request.horizon = true;
+        }
+}
+
+void EntryGroup::judge(Job& job, std::vector<sim::Result> results, const RegressionOptions& options) {
+    EntryTest& test = *job.test;
+    const sim::Result& run = results.front();
+    test.require_reproducible(run, job.until);
+    if (test.asks_for_motion())
+        test.motion().judge(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
+    Capture capture{
+        std::move(results),
+        [&](const Pictures&, long frame, const render::Image& image) { test.pictures().judge(frame, image); },
+        [&](const render::Image& image) { test.pictures().judge(0, image); },
+        {}};
+    if (test.asks_for_motion())
+        capture.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
+            const Pictures& shown = job.plan.pictures[picture];
+            test.require_reproducible(result, shown.end_time);
+            test.motion().judge_compared(index, shown.compared[index].label, result.tables.back(), result.impacts,
+                                         result.reproducible_until);
+        };
+    RunOptions run_options = options.run;
+    run_options.no_cache = true;  // what is tested is what this program does now
+    scenes::draw(job.plan, test.entry().scene, capture, run_options);
+    test.finish();
+}
+
+}  // namespace beamcam::scenes

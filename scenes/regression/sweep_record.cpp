@@ -1,0 +1,334 @@
+#include "scenes/regression/sweep_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "sim/sweep/attractor.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using sim::AttractorClass;
+
+constexpr std::size_t kBlocks = 10;
+constexpr std::size_t kFewestBlocks = 5;  // that have samples, or nothing is known
+// Of two means over ten blocks. Student's t exceeds 8 in one pair of five million; but of 200 000 pairs of quantities
+// of chaotic motions that differ in their start alone one came to 8.4, where quiet phases alternate with others.
+constexpr double kSureErrors = 10;
+constexpr double kSureErrorsOfAll = 8;     // of sums over points
+constexpr std::size_t kMostOfOrbit = 500;  // samples of a periodic motion that are compared: all of its orbit
+constexpr std::size_t kMostLines = 4;
+
+using Column = std::span<const double>;
+
+bool same(double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); }
+
+// A point's samples; one that has none has a row all the same.
+struct PointRows {
+    std::size_t begin = 0, end = 0;
+    std::size_t size() const { return end - begin; }
+};
+
+class SweepTable {
+  public:
+    // Throws IoError for one that no sweep wrote.
+    explicit SweepTable(const output::NamedTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
+        const std::vector<double>& sample = column("sample");
+        for (std::size_t row = 0; row < sample.size(); ++row) {
+            if (points_.empty() || !(sample[row] > 0)) points_.push_back({row, row});
+            points_.back().end = row + (std::isnan(sample[row]) ? 0 : 1);
+            if (!(kinds_[row] >= 0 && kinds_[row] < double(sim::names(AttractorClass()).size())))
+                throw output::IoError(
+                    fmt::format("the record of the sweep is damaged: there is no class {}", kinds_[row]));
+        }
+        axes_.assign(table.names.begin(), std::ranges::find(table.names, "seed"));
+        for (auto name = std::ranges::find(table.names, "sample") + 1; name != table.names.end(); ++name)
+            if (*name != "t" && *name != "cam_angle") values_.push_back(*name), columns_.emplace_back(column(*name));
+    }
+
+    const std::vector<PointRows>& points() const { return points_; }
+    const std::vector<std::string>& values() const {
+        return values_;
+    }  // columns of the samples but those that grow with time
+    Column all(std::size_t value) const { return columns_[value]; }
+    Column samples(const PointRows& point, std::size_t value) const {
+        return columns_[value].subspan(point.begin, point.size());
+    }
+    Column times(const PointRows& point) const { return t_.subspan(point.begin, point.size()); }
+    AttractorClass kind(const PointRows& point) const { return static_cast<AttractorClass>(int(kinds_[point.begin])); }
+    double at(const PointRows& point, const std::string& name) const { return column(name)[point.begin]; }
+    std::string place(const PointRows& point) const {
+        std::string text;
+        for (const std::string& axis : axes_) text += fmt::format("{} = {:.9g}, ", axis, at(point, axis));
+        return text + fmt::format("seed {:g}", at(point, "seed"));
+    }
+    bool same_rows(const PointRows& own, const SweepTable& other, const PointRows& its) const {
+        if (own.size() != its.size()) return false;
+        return std::ranges::all_of(table_.names, [&](const std::string& name) {
+            const std::size_t rows = std::max<std::size_t>(own.size(), 1);
+            return std::ranges::equal(Column(column(name)).subspan(own.begin, rows),
+                                      Column(other.column(name)).subspan(its.begin, rows), same);
+        });
+    }
+
+  private:
+    const std::vector<double>& column(const std::string& name) const {
+        if (const std::vector<double>* found = table_.find(name)) return *found;
+        throw output::IoError(fmt::format("the record of the sweep is damaged: it has no column {}", name));
+    }
+
+    const output::NamedTable& table_;
+    const Column t_, kinds_;
+    std::vector<PointRows> points_;
+    std::vector<std::string> axes_, values_;
+    std::vector<Column> columns_;  // of the values
+};
+
+bool has_period(AttractorClass kind) {
+    return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
+}
+// On the border of two of these classes a point falls to one side or the other.
+bool has_statistics(AttractorClass kind) { return !has_period(kind) && kind != AttractorClass::over_the_top; }
+
+// ---- statistics -------------------------------------------------------------------------------------
+
+// A mean over blocks and its standard error.
+struct Estimate {
+    double value = 0, error = 0;
+};
+Estimate estimate(const std::vector<double>& blocks) {
+    if (blocks.size() < kFewestBlocks) return {0, INFINITY};
+    const auto n = static_cast<double>(blocks.size());
+    double sum = 0, squares = 0;
+    for (const double x : blocks) sum += x;
+    for (const double x : blocks) squares += (x - sum / n) * (x - sum / n);
+    return {sum / n, std::sqrt(squares / (n * (n - 1)))};
+}
+
+// Of the samples of one point, block by block of the time: their number, and the mean of a function of each.
+class Blocks {
+  public:
+    Blocks(Column t, double from, double to) {
+        for (const double at : t) {
+            const double block = (at - from) / (to - from) * kBlocks;
+            block_.push_back(block > 0 ? static_cast<std::size_t>(std::min(block, kBlocks - 1.0)) : 0);
+        }
+    }
+    template <class Function>
+    Estimate mean(Column samples, Function&& of) const {
+        std::array<double, kBlocks> sum{}, count{};
+        for (std::size_t i = 0; i < samples.size(); ++i) sum[block_[i]] += of(samples[i]), ++count[block_[i]];
+        std::vector<double> means;
+        for (std::size_t b = 0; b < kBlocks; ++b)
+            if (count[b] > 0) means.push_back(sum[b] / count[b]);
+        return estimate(means);
+    }
+    Estimate number() const {
+        std::vector<double> count(kBlocks);
+        for (const std::size_t block : block_) ++count[block];
+        return estimate(count);
+    }
+
+  private:
+    std::vector<std::size_t> block_;
+};
+
+class SweepComparer {
+  public:
+    SweepComparer(const output::NamedTable& expected, const output::NamedTable& actual, const Tolerance& tolerance)
+        : a_(expected), b_(actual), tolerance_(*tolerance.motion) {
+        for (std::size_t c = 0; c < a_.values().size(); ++c) ranges_.push_back(range_of(a_.all(c)));
+    }
+
+    MotionVerdict compare() {
+        if (const std::string why = another_sweep(); !why.empty())
+            return {Verdict::different, {"the sweep became another: " + why}};
+        bool identical = true;
+        std::size_t unjudged = 0;
+        std::vector<std::string> of_class, of_values;
+        for (std::size_t k = 0; k < a_.points().size(); ++k) {
+            const PointRows& a = a_.points()[k];
+            unjudged += is_judged(a) ? 0 : 1;
+            identical = identical && (!is_judged(a) || a_.same_rows(a, b_, b_.points()[k]));
+            if (const PointChange change = difference(k); !change.words.empty())
+                (change.of_class ? of_class : of_values).push_back(fmt::format("{}: {}", a_.place(a), change.words));
+        }
+        if (identical) return {};
+        if (of_values.empty()) of_values = differences_over_points();
+        MotionVerdict all{Verdict::equivalent, {"each point in its numbers or its statistics"}};
+        if (of_class.size() <= (unjudged + 1) / 2 && !of_class.empty())
+            all.lines.push_back(fmt::format("{} on borders between classes changed theirs", of_class.size()));
+        else
+            of_values.insert(of_values.end(), of_class.begin(), of_class.end());
+        if (of_values.empty()) return all;
+        const std::size_t told = std::min(of_values.size(), kMostLines);
+        all = {Verdict::different, {of_values.begin(), of_values.begin() + static_cast<std::ptrdiff_t>(told)}};
+        if (of_values.size() > told) all.lines.push_back(fmt::format("and {} more points", of_values.size() - told));
+        return all;
+    }
+
+    std::vector<std::size_t> differing() {
+        std::vector<std::size_t> all;
+        for (std::size_t k = 0; k < a_.points().size(); ++k)
+            if (!difference(k).words.empty()) all.push_back(k);
+        return all;
+    }
+
+  private:
+    static double range_of(Column values) {
+        double least = INFINITY, most = -INFINITY;
+        for (const double x : values)
+            if (std::isfinite(x)) least = std::min(least, x), most = std::max(most, x);
+        if (most > least) return most - least;
+        return std::isfinite(most) && most != 0 ? std::fabs(most) : 1;
+    }
+
+    std::string another_sweep() const {
+        if (a_.values() != b_.values() || a_.points().size() != b_.points().size())
+            return fmt::format("{} points of {} columns, expected {} of {}", b_.points().size(), b_.values().size(),
+                               a_.points().size(), a_.values().size());
+        for (std::size_t k = 0; k < a_.points().size(); ++k)
+            if (const std::string was = a_.place(a_.points()[k]), is = b_.place(b_.points()[k]); was != is)
+                return fmt::format("{} is where {} was", is, was);
+        return {};
+    }
+
+    bool is_judged(const PointRows& a) const { return a_.kind(a) != AttractorClass::unsettled; }
+
+    // Why the point is another one; no words: it is not.
+    struct PointChange {
+        std::string words;
+        bool of_class = false;
+    };
+    PointChange difference(std::size_t k) {
+        const PointRows &a = a_.points()[k], &b = b_.points()[k];
+        if (!is_judged(a) || a_.same_rows(a, b_, b)) return {};
+        const AttractorClass was = a_.kind(a), is = b_.kind(b);
+        if (has_statistics(was) && has_statistics(is)) return {difference_of_statistics(a, b)};
+        if (was != is) return {fmt::format("{} became {}", name(was), name(is)), true};
+        if (!has_period(was)) return {};
+        for (const char* what : {"period", "impacts_per_period"})
+            if (!same(a_.at(a, what), b_.at(b, what)))
+                return {fmt::format("{} {:g} became {:g}", what, a_.at(a, what), b_.at(b, what))};
+        return {difference_of_orbits(a, b)};
+    }
+
+    std::string difference_of_orbits(const PointRows& a, const PointRows& b) const {
+        double worst = 0;
+        std::size_t column = 0;
+        for (const bool forwards : {true, false}) {
+            const auto [distance, at] = forwards ? farthest(a_, a, b_, b) : farthest(b_, b, a_, a);
+            if (distance > worst) worst = distance, column = at;
+        }
+        if (worst <= tolerance_) return {};
+        if (std::isinf(worst)) return "samples appeared or vanished";
+        return fmt::format("{} moved by {:.2g} of its range", a_.values()[column], worst);
+    }
+
+    // Of the last samples of one table, the one that is farthest from all those of the other, and in which column.
+    std::pair<double, std::size_t> farthest(const SweepTable& from, const PointRows& own, const SweepTable& to,
+                                            const PointRows& its) const {
+        const std::size_t n = own.size(), m = its.size();
+        std::pair<double, std::size_t> most{0, 0};
+        for (std::size_t i = n - std::min(n, kMostOfOrbit); i < n; ++i) {
+            std::pair<double, std::size_t> nearest{INFINITY, 0};
+            for (std::size_t k = m - std::min(m, kMostOfOrbit); k < m && nearest.first > most.first; ++k)
+                nearest = std::min(nearest, distance(from, own, i, to, its, k));
+            most = std::max(most, nearest);
+        }
+        return most;
+    }
+    std::pair<double, std::size_t> distance(const SweepTable& from, const PointRows& own, std::size_t i,
+                                            const SweepTable& to, const PointRows& its, std::size_t k) const {
+        std::pair<double, std::size_t> most{0, 0};
+        for (std::size_t c = 0; c < a_.values().size(); ++c) {
+            const double x = from.samples(own, c)[i], y = to.samples(its, c)[k];
+            double step = same(x, y) ? 0 : std::isnan(x) || std::isnan(y) ? INFINITY : std::fabs(x - y);
+            if (a_.values()[c] == "cam_phase" && step > 0.5) step = 1 - step;  // turns, without the whole ones
+            most = std::max(most, {step / ranges_[c], c});
+        }
+        return most;
+    }
+
+    std::string difference_of_statistics(const PointRows& a, const PointRows& b) {
+        const Column ta = a_.times(a), tb = b_.times(b);
+        if (ta.size() < 2 * kBlocks || tb.size() < 2 * kBlocks)
+            return ta.empty() == tb.empty() ? "" : "samples appeared or vanished";
+        const double from = std::min(ta.front(), tb.front()), to = std::max(ta.back(), tb.back());
+        const Blocks in_a(ta, from, to), in_b(tb, from, to);
+        if (const std::string why = compared("number of samples a block", in_a.number(), in_b.number(), 1);
+            !why.empty())
+            return why;
+        const Estimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
+            after{b_.at(b, "exponent"), b_.at(b, "exponent_error")};
+        if (std::isnan(before.value) != std::isnan(after.value)) return "the exponent appeared or vanished";
+        // Lasting contact, which forgets every difference, may have occurred once.
+        if (std::isfinite(before.value) && std::isfinite(after.value))
+            if (std::string why = compared("exponent", before, after, 0); !why.empty()) return why;
+        for (std::size_t c = 0; c < a_.values().size(); ++c) {
+            const std::string& column = a_.values()[c];
+            const Column x = a_.samples(a, c), y = b_.samples(b, c);
+            const auto itself = [](double value) { return value; };
+            const Estimate mean = in_a.mean(x, itself);
+            if (std::string why = compared("mean of " + column, mean, in_b.mean(y, itself), ranges_[c]); !why.empty())
+                return why;
+            const auto square = [&](double value) { return (value - mean.value) * (value - mean.value); };
+            if (std::string why = compared("variance of " + column, in_a.mean(x, square), in_b.mean(y, square),
+                                           ranges_[c] * ranges_[c]);
+                !why.empty())
+                return why;
+        }
+        return {};
+    }
+
+    std::string compared(const std::string& what, const Estimate& a, const Estimate& b, double range) {
+        const double step = b.value - a.value, error = std::hypot(a.error, b.error);
+        if (std::isfinite(step) && std::isfinite(error)) {
+            Change& all = over_points_[what];
+            all.sum += step, all.variance += error * error, all.floor += tolerance_ * range;
+        }
+        if (same(a.value, b.value) || !(std::fabs(step) > kSureErrors * error + tolerance_ * range)) return {};
+        return fmt::format("{} {:.4g} became {:.4g}, by {:.3g} of its standard errors", what, a.value, b.value,
+                           std::fabs(step) / error);
+    }
+
+    // Small changes of one direction at many points.
+    std::vector<std::string> differences_over_points() const {
+        std::vector<std::string> words;
+        for (const auto& [what, all] : over_points_)
+            if (const double error = std::sqrt(all.variance); std::fabs(all.sum) > kSureErrorsOfAll * error + all.floor)
+                words.push_back(
+                    fmt::format("over all points without period the {} changed by {:.3g} of its standard errors", what,
+                                all.sum / error));
+        return words;
+    }
+
+    const SweepTable a_, b_;
+    const double tolerance_;
+    std::vector<double> ranges_;
+    // Of each quantity, summed over the points: its change, the variance of that, and what the tolerance lets pass.
+    struct Change {
+        double sum = 0, variance = 0, floor = 0;
+    };
+    std::map<std::string, Change> over_points_;
+};
+
+}  // namespace
+
+MotionVerdict compare_sweeps(const output::NamedTable& expected, const output::NamedTable& actual,
+                             const Tolerance& tolerance) {
+    return SweepComparer(expected, actual, tolerance).compare();
+}
+
+std::vector<std::size_t> points_that_differ(const output::NamedTable& expected, const output::NamedTable& actual,
+                                            const Tolerance& tolerance) {
+    return SweepComparer(expected, actual, tolerance).differing();
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,106 @@
+// Files of baselines: what the reader takes, and what the program writes into them.
+#include "scenes/regression/baselines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/regression/baseline_edit.hpp"
+#include "tests/scenes/regression/guarded.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using testing::Guarded;
+using ::testing::HasSubstr;
+using testing::shell;
+using testing::slurp;
+
+// The schema that editors use says the same as the reader, but for what only the reader can know.
+TEST(Baselines, TheSchemaAndTheReaderAgree) {
+    const Guarded folder;
+    folder.update();
+    const std::string whole = slurp(folder / "b.json");
+    const std::pair<const char*, bool> cases[] = {
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})", true},
+        {R"({"entries": {"a": {"scene": {}, "set": ["gravity=9"], "physics": false, "tolerance": {"channel": 3, "share": 0.1, "motion": 0, "impacts": 1}, "output": {"type": "still", "at": 0}}}, "x-note": 1})",
+         true},
+        {R"({"entries": {}})", false},
+        {R"({"entries": {"a/b": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json"}}})", false},
+        {R"({"entries": {"a": {"output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": 3, "output": {"type": "still", "at": 0}}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"channel": 256}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"channel": 1.5}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "accepted": [{"sha256": ["0"]}]}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "accepted": [{}]}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "set": "gravity=9"}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "physics": 1}}})", false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"channel": 1, "renderers": {"0123456789ab": {"channel": 9, "share": 0.1, "ssim": 0.9}}}}}})",
+         true},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"renderers": {"mine": {"channel": 9}}}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"renderers": {"0123456789ab": {"motion": 0.1}}}}}})",
+         false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}, "referenzes": "x"})", false}};
+    for (const auto& [text, valid] : cases) {
+        folder.write("c.json", text);
+        const Finished read = shell(folder, "$BEAMCAM test c.json -q --report r");
+        EXPECT_EQ(read.code == 3, !valid) << text << read.err;
+        const Finished schema = shell(
+            folder,
+            "$BEAMCAM schema --baselines > schema.json && /usr/bin/python3 -W ignore -c \"import json, jsonschema; "
+            "jsonschema.Draft202012Validator(json.load(open('schema.json'))).validate(json.load(open('c.json')))\"");
+        EXPECT_EQ(schema.code == 0, valid) << text << schema.err;
+    }
+}
+
+TEST(Baselines, EditsKeepEveryOtherByte) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const std::string text =
+        "{ // head\n  \"entries\": {\n    \"a\": {\"scene\": \"s.json\", \"output\": {\"type\": \"still\", \"at\": 0}, "
+        "// why\n"
+        "      \"accepted\": [], \"x-note\": \"a } in text\"}\n  }\n}\n";
+    folder.write("b.json", text);
+    const Baselines baselines = read_baselines((folder / "b.json").string());
+    const std::string digest(64, 'a');
+    const std::string changed = edited(baselines, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}});
+    folder.write("b.json", changed);
+    const Baselines again = read_baselines((folder / "b.json").string());
+    EXPECT_EQ(again.entries.front().accepted.front().sha256, std::vector<std::string>{digest});
+    EXPECT_EQ(again.entries.front().reproducible_until, 0.25);
+    EXPECT_EQ(again.renderers.at("r1").at("cairo"), "1.16");
+    for (const char* kept : {"{ // head\n", "// why\n", "\"x-note\": \"a } in text\""})
+        EXPECT_THAT(changed, HasSubstr(kept));
+    EXPECT_EQ(edited(again, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}}), changed);
+}
+
+// What is said of an entry counts more than what is said of all; of a renderer, more than of any.
+TEST(Baselines, TolerancesOfRenderersAreOverThoseOfTheSamePlace) {
+    const Folder folder;
+    folder.write("b.json", R"({"tolerance": {"channel": 3, "share": 0.1, "renderers": {"0123456789ab": {"channel": 4}}},
+  "entries": {"a": {"scene": {}, "output": {"type": "still", "at": 0}},
+              "b": {"scene": {}, "output": {"type": "still", "at": 0},
+                    "tolerance": {"share": 0.2, "renderers": {"0123456789ab": {"ssim": 0.9}, "ba9876543210": {"channel": 7}}}}}})");
+    const Baselines read = read_baselines((folder / "b.json").string());
+    const Tolerances &a = read.entries[0].tolerances, &b = read.entries[1].tolerances;
+    EXPECT_EQ(a.usual.channel, 3);
+    EXPECT_EQ(a.on_renderer("another").channel, 3);
+    EXPECT_EQ(a.on_renderer("0123456789ab").channel, 4);
+    EXPECT_EQ(a.on_renderer("0123456789ab").share, 0.1);
+    EXPECT_EQ(b.on_renderer("0123456789ab").channel, 4);
+    EXPECT_EQ(b.on_renderer("0123456789ab").share, 0.2);
+    EXPECT_EQ(b.on_renderer("0123456789ab").ssim, 0.9);
+    EXPECT_EQ(b.on_renderer("ba9876543210").channel, 7);
+    EXPECT_EQ(b.on_renderer("ba9876543210").motion, 2e-5);
+    const Tolerances command_line = b.overridden_by({{1, {}, {}, {}, {}}, {}});
+    EXPECT_EQ(command_line.on_renderer("ba9876543210").channel, 1);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes

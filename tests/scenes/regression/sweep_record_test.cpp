@@ -1,0 +1,217 @@
+// Sweeps as entries of baselines: numbers where motions settle, statistics where they do not.
+#include "scenes/regression/sweep_record.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/scenes/regression/guarded.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+using testing::slurp;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+enum Kind { kPeriodic = 2, kChaotic = 4, kOverTheTop = 6, kUnsettled = 7 };
+
+// A sweep over "a" as it is written: v is the column of its samples.
+struct Table : output::NamedTable {
+    Table() {
+        names = {"a",        "seed",           "class",  "period", "impacts_per_period",
+                 "exponent", "exponent_error", "sample", "t",      "v"};
+        columns.resize(names.size());
+    }
+    void point(double a, Kind kind, double period, double exponent, double error,
+               const std::vector<std::pair<double, double>>& samples) {
+        const auto row = [&](double number, double t, double v) {
+            const double values[] = {a, 0, double(kind), period, 1, exponent, error, number, t, v};
+            for (std::size_t c = 0; c < columns.size(); ++c) columns[c].push_back(values[c]);
+        };
+        for (std::size_t i = 0; i < samples.size(); ++i) row(double(i), samples[i].first, samples[i].second);
+        if (samples.empty()) row(kNone, kNone, kNone);
+    }
+};
+
+// x → 4 x (1 − x), whose values are distributed by the arcsine law whatever the start.
+std::vector<std::pair<double, double>> logistic(double x, int count, double shift = 0, double step = 1) {
+    std::vector<std::pair<double, double>> samples;
+    for (int i = 0; i < count; ++i, x = 4 * x * (1 - x)) samples.emplace_back(i * step, x + shift);
+    return samples;
+}
+
+MotionVerdict judge(const Table& expected, const Table& actual) {
+    return compare_sweeps(expected, actual, {0, 0.0, {}, 2e-5, 1e-4});
+}
+MotionVerdict judge_points(Kind was, const std::vector<std::pair<double, double>>& before, Kind is,
+                           const std::vector<std::pair<double, double>>& after, double exponent = 0.69) {
+    Table a, b;
+    a.point(1, was, 1, 0.69, 0.01, before);
+    b.point(1, is, 1, exponent, 0.01, after);
+    return judge(a, b);
+}
+
+TEST(SweepRecord, AnOrbitIsTheSameWhereverInItsPeriodTheSamplesBegin) {
+    const std::vector<std::pair<double, double>> orbit{{0, 1}, {1, 2}, {2, 1}, {3, 2}}, later{{1, 2}, {2, 1}, {3, 2}};
+    EXPECT_EQ(judge_points(kPeriodic, orbit, kPeriodic, orbit).verdict, Verdict::identical);
+    EXPECT_EQ(judge_points(kPeriodic, orbit, kPeriodic, later).verdict, Verdict::equivalent);
+    for (const auto& [moved, verdict] : {std::pair(1e-5, Verdict::equivalent), {3e-5, Verdict::different}})
+        EXPECT_EQ(judge_points(kPeriodic, orbit, kPeriodic, {{0, 1 + moved}, {1, 2}, {2, 1 + moved}, {3, 2}}).verdict,
+                  verdict);
+    const MotionVerdict lost = judge_points(kPeriodic, orbit, kPeriodic, {{0, 1}, {1, 1}, {2, 1}, {3, 1}});
+    EXPECT_EQ(lost.verdict, Verdict::different);
+    EXPECT_THAT(lost.lines, ElementsAre(HasSubstr("a = 1, seed 0: v moved by 1 of its range")));
+}
+
+TEST(SweepRecord, ChaosIsTheSameByItsStatistics) {
+    const auto chaos = logistic(0.3, 2000);
+    for (const double start : {0.31, 0.123, 0.77}) {
+        const MotionVerdict same = judge_points(kChaotic, chaos, kChaotic, logistic(start, 2000));
+        EXPECT_EQ(same.verdict, Verdict::equivalent) << same.lines.front();
+    }
+    const std::pair<std::vector<std::pair<double, double>>, const char*> others[] = {
+        {logistic(0.31, 2000, 0.2), "mean of v"},
+        {logistic(0.31, 1500, 0, 4.0 / 3), "number of samples"},
+        {{}, "samples appeared"}};
+    for (const auto& [samples, words] : others) {
+        const MotionVerdict other = judge_points(kChaotic, chaos, kChaotic, samples);
+        EXPECT_EQ(other.verdict, Verdict::different) << words;
+        EXPECT_THAT(other.lines, ElementsAre(HasSubstr(words)));
+    }
+    std::vector<std::pair<double, double>> narrow = logistic(0.31, 2000);
+    for (auto& [t, v] : narrow) v = 0.5 + (v - 0.5) / 2;
+    EXPECT_THAT(judge_points(kChaotic, chaos, kChaotic, narrow).lines, ElementsAre(HasSubstr("variance of v")));
+    EXPECT_EQ(judge_points(kChaotic, chaos, kChaotic, logistic(0.31, 2000), 0.75).verdict, Verdict::equivalent);
+    EXPECT_THAT(judge_points(kChaotic, chaos, kChaotic, logistic(0.31, 2000), 0.95).lines,
+                ElementsAre(HasSubstr("exponent 0.69 became 0.95")));
+}
+
+// 2 % of the spread at one point is within its error; at all of 200 it is not.
+TEST(SweepRecord, SmallChangesOfOneDirectionAddUpOverThePoints) {
+    Table expected, same, moved;
+    for (int k = 0; k < 200; ++k) {
+        expected.point(k, kChaotic, kNone, 0.69, 0.01, logistic(0.3 + 1e-3 * k, 1000));
+        same.point(k, kChaotic, kNone, 0.69, 0.01, logistic(0.61 + 7.3e-4 * k, 1000));
+        moved.point(k, kChaotic, kNone, 0.69, 0.01, logistic(0.61 + 7.3e-4 * k, 1000, 0.02));
+    }
+    EXPECT_EQ(judge(expected, same).verdict, Verdict::equivalent);
+    EXPECT_THAT(judge(expected, moved).lines, ElementsAre(HasSubstr("over all points without period the mean of v")));
+}
+
+TEST(SweepRecord, AClassThatChangesIsADifferenceUnlessThereAreBorders) {
+    const std::vector<std::pair<double, double>> orbit{{0, 1}, {1, 2}};
+    EXPECT_THAT(judge_points(kPeriodic, orbit, kChaotic, logistic(0.3, 100)).lines,
+                ElementsAre("a = 1, seed 0: periodic became chaotic"));
+    EXPECT_EQ(judge_points(kChaotic, logistic(0.3, 100), kOverTheTop, {}).verdict, Verdict::different);
+    EXPECT_EQ(judge_points(kUnsettled, {}, kChaotic, logistic(0.3, 100)).verdict, Verdict::identical);  // not judged
+    Table expected, actual;
+    for (Table* table : {&expected, &actual}) table->point(0, kUnsettled, kNone, kNone, kNone, {});
+    expected.point(1, kChaotic, kNone, 0.69, 0.01, logistic(0.3, 100));
+    actual.point(1, kOverTheTop, kNone, kNone, kNone, {});
+    EXPECT_EQ(judge(expected, actual).verdict, Verdict::equivalent);
+    EXPECT_EQ(points_that_differ(expected, actual, {0, 0.0, {}, 2e-5, 1e-4}), std::vector<std::size_t>{1});
+    for (Table* table : {&expected, &actual}) table->point(2, kPeriodic, 1, kNone, kNone, orbit);
+    expected.point(3, kPeriodic, 1, kNone, kNone, orbit);
+    actual.point(3, kOverTheTop, kNone, kNone, kNone, {});
+    EXPECT_EQ(judge(expected, actual).verdict, Verdict::different);
+}
+
+TEST(SweepRecord, OtherValuesAndDamageAreTold) {
+    Table a, b;
+    a.point(1, kPeriodic, 1, kNone, kNone, {{0, 1}});
+    b.point(2, kPeriodic, 1, kNone, kNone, {{0, 1}});
+    EXPECT_THAT(judge(a, b).lines, ElementsAre("the sweep became another: a = 2, seed 0 is where a = 1, seed 0 was"));
+    EXPECT_THAT(judge(a, Table()).lines, ElementsAre(HasSubstr("0 points of 1 columns, expected 1 of 1")));
+    for (const double kind : {-1.0, 8.0, kNone}) {
+        b.columns[2][0] = kind;
+        EXPECT_THROW(judge(a, b), output::IoError) << kind;
+    }
+    b.names[7] = "sample?";
+    EXPECT_THROW(judge(a, b), output::IoError);
+}
+
+// ---- entries ------------------------------------------------------------------------------------------
+
+// Five chaotic motions and some that follow a slow cam or have a period.
+constexpr const char* kSweep = R"({"entries": {
+  "chaos": {"scene": {"beam": {"model": "rigid"}, "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+      "contact": {"model": "restitution", "law": "newton", "restitution": 0.8},
+      "sweep": {"over": [{"key": "cam.speed", "from": 62, "to": 64, "count": 5}], "sample": "impacts",
+                "transient": {"cam_turns": 100}, "keep": {"cam_turns": 2000}}}, "output": {"type": "sweep"}},
+  "orbits": {"scene": {"beam": {"model": "rigid"}, "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+      "contact": {"model": "restitution", "law": "newton", "restitution": 0.5},
+      "sweep": {"over": [{"key": "cam.speed", "from": 38, "to": 49, "count": 12}], "sample": "impacts",
+                "transient": {"cam_turns": 100}, "keep": {"cam_turns": 30}}}, "output": {"type": "sweep"}}}})";
+
+struct Swept : Folder {
+    Swept() {
+        write("b.json", kSweep);
+        updated = shell(*this, "$BEAMCAM test b.json --update all");
+    }
+    Finished test_with(const std::string& from, const std::string& to, const std::string& options = "") const {
+        return shell(
+            *this, "sed 's/" + from + "/" + to +
+                       "/; s/\"entries\"/\"references\": \"b\", \"entries\"/' b.json > c.json; $BEAMCAM test c.json " +
+                       options);
+    }
+    Finished updated;
+};
+
+TEST(SweepEntries, AreKeptAsSweepWritesThemAndCompared) {
+    const Swept folder;
+    EXPECT_EQ(folder.updated.code, 7) << folder.updated.err;
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict -j1").code, 0);
+    const Finished displaced = folder.test_with("\"angle\": 0.5", "\"angle\": 0.5000001");
+    EXPECT_EQ(displaced.code, 0) << displaced.out;
+    EXPECT_THAT(displaced.out, HasSubstr("equivalent  chaos"));
+    EXPECT_EQ(folder.test_with("\"angle\": 0.5", "\"angle\": 0.5000001", "--strict --only chaos").code, 7);
+}
+
+TEST(SweepEntries, ChangedMechanicsFail) {
+    const Swept folder;
+    const Finished bounces = folder.test_with("\"restitution\": 0.[58]", "\"restitution\": 0.75");
+    EXPECT_EQ(bounces.code, 7);
+    EXPECT_THAT(bounces.out, AllOf(HasSubstr("different   chaos"), HasSubstr("different   orbits")));
+    const Finished orbit = folder.test_with("\"restitution\": 0.5", "\"restitution\": 0.501", "--only orbits");
+    EXPECT_EQ(orbit.code, 7);
+    const Finished other = folder.test_with("\"count\": 12", "\"count\": 11", "--only orbits");
+    EXPECT_THAT(other.out, HasSubstr("the sweep became another"));
+}
+
+TEST(SweepEntries, AreAcceptedFromAReport) {
+    const Swept folder;
+    shell(folder, "sed -i 's/\"restitution\": 0.5/\"restitution\": 0.501/' b.json");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --report r").code, 7);
+    const Finished accepted = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(accepted.out, "replaced  orbits\n") << accepted.err;
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+}
+
+TEST(SweepEntries, NeedASweepThatCanBeMade) {
+    const Folder folder;
+    folder.write("b.json", R"({"entries": {
+  "none": {"scene": {}, "output": {"type": "sweep"}},
+  "more": {"scene": {}, "output": {"type": "sweep", "file": "x.npz"}},
+  "fine": {"scene": {"time": {"end": 0.1}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}},
+  "short": {"scene": {"beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.8},
+      "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+      "sweep": {"over": [{"key": "cam.speed", "values": [62]}], "transient": {"cam_turns": 0}, "keep": {"cam_turns": 1}}},
+    "output": {"type": "sweep"}}}})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --update all");
+    EXPECT_EQ(finished.code, 3) << finished.out;
+    EXPECT_THAT(finished.err, AllOf(HasSubstr("entries.none.output: the scene has no \"sweep\""),
+                                    HasSubstr("entries.more.output: a sweep is described by")));
+    EXPECT_THAT(finished.out, HasSubstr("1 of 1 points are not judged"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fine --strict").code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/short"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
