@@ -155,7 +155,7 @@ void add_test(Grammar& grammar) {
         .one_of({"fail", "warn", "accept"});
     app.flag("--strict", args->strict, "What is only equivalent fails too");
     app.option("--tolerance", &args->tolerance, "KEY=X,...",
-               "Over those of the file: channel=2, share=1e-4, motion=2e-5, impacts=1e-4 (repeatable)")
+               "Over those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 (repeatable)")
         .separated_by(',');
     app.option("--report", &args->report, "DIR", "Folder for a page with actual and difference pictures");
     app.option("--junit", &args->junit, "FILE", "Report for continuous integration, .xml");

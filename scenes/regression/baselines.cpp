@@ -61,7 +61,7 @@ class Reader {
         std::string schema, references = path_ == "-" ? "references" : fs::path(path_).stem().string();
         f.text("$schema", schema, "Where an editor finds the schema.");
         f.text("references", references, "Folder of the references.");
-        all_.references = folder() / references;
+        all_.references = folder() / (references.empty() ? "." : references);
         if (const Node* node = f.take("tolerance")) read_tolerances(findings_, *node, "tolerance", defaults_);
         if (const Node* node = f.take("renderers")) read_renderers(*node);
         if (const Node* node =
@@ -113,7 +113,7 @@ class Reader {
         if (const Node* tolerance = f.take("tolerance"))
             read_tolerances(findings_, *tolerance, path + ".tolerance", own);
         if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
-        f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kAny,
+        f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kNotNegative,
                  "Until when the motion is reproducible.");
         f.finish();
         for (std::string* file : {&entry.file, &entry.expected})
@@ -126,7 +126,9 @@ class Reader {
         if (!scene || !output) return;
         // What is wrong with a scene costs its own entry alone.
         if (read_scene_of(*scene, overrides, path, entry) &&
-            read_output_of(*output, path + ".output", scene_file(*scene), entry))
+            read_output_of(*output, path + ".output", scene_file(*scene), entry) &&
+            (entry.expected.empty() || entry.has_pictures() ||
+             refuse(entry, *output, fmt::format("{}.output has no pictures to be held to \"expected\"", path))))
             entry.tolerances = defaults_for(entry).overridden_by(defaults_).overridden_by(own);
         all_.entries.push_back(std::move(entry));
     }

@@ -17,7 +17,9 @@ constexpr double kLittle = 1e-12;
 constexpr int kTwins = 3;  // a point that is another one in every third run is found with 70 %
 
 fs::path own_folder() {
-    std::string name = (fs::temp_directory_path() / "beamcam-sweep-XXXXXX").string();
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "beamcam-sweep-XXXXXX").string();
+    if (error) throw output::write_error("the folder for temporary files, TMPDIR", error.value());
     if (!mkdtemp(name.data())) throw output::write_error(name, errno);
     return name;
 }

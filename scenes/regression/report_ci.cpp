@@ -22,14 +22,12 @@ std::string junit_case(const std::string& suite, const EntryResult& entry, const
                              name(*verdict), words);
 }
 
-// Of a workflow command of GitHub Actions, which ends with the line.
-std::string escaped_for_annotation(std::string_view text) {
+// Of a workflow command of GitHub Actions, which ends with the line; its properties end with "," and "::".
+std::string escaped_for_annotation(std::string_view text, std::string_view ends = {}) {
     std::string out;
     for (const char c : text) {
-        if (c == '%')
-            out += "%25";
-        else if (c == '\n')
-            out += "%0A";
+        if (c == '%' || c == '\n' || ends.find(c) != std::string_view::npos)
+            out += fmt::format("%{:02X}", static_cast<unsigned>(c));
         else if (static_cast<unsigned char>(c) >= 0x20)
             out.push_back(c);
     }
@@ -70,13 +68,13 @@ std::string to_annotations(const RegressionResult& result, const PassRule& rule)
     std::string text;
     for (const EntryResult& entry : result.entries)
         if (!rule.passes(entry))
-            text += fmt::format("::error file={},title={}: {}::{}\n", result.baselines, entry.name,
-                                name(entry.verdict()), escaped_for_annotation(in_words(entry, "\n")));
+            text += fmt::format("::error file={},title={}: {}::{}\n", escaped_for_annotation(result.baselines, ",:"),
+                                entry.name, name(entry.verdict()), escaped_for_annotation(in_words(entry, "\n")));
     return text;
 }
 
 std::string to_markdown(const RegressionResult& result, const std::string& title, const PassRule& rule) {
-    std::string text = fmt::format("### {}\n\n", title), rows;
+    std::string text = fmt::format("### {}\n\n", escaped_for_table(title)), rows;
     std::size_t identical = 0;
     for (const EntryResult& entry : result.entries) {
         if (entry.verdict() == Verdict::identical) {

@@ -53,6 +53,12 @@ bool verdict_is(const nlohmann::json& part, std::initializer_list<Verdict> verdi
     return std::ranges::any_of(verdicts, [&](Verdict v) { return part.at("verdict") == name(v); });
 }
 
+// What is to be the name of a file stays in its folder.
+void require_file_name(const std::string& name) {
+    if (name.starts_with('.') || name.find('/') != std::string::npos)
+        throw std::invalid_argument(fmt::format("{} is no name of a file in it", name));
+}
+
 ReportedEntry reported_entry(const nlohmann::json& entry) {
     ReportedEntry out;
     out.renderer = entry.value("renderer", "");
@@ -63,9 +69,8 @@ ReportedEntry reported_entry(const nlohmann::json& entry) {
             for (const nlohmann::json& line : entry.at(part).at("words")) out.words = line.get<std::string>();
         }
     if (entry.contains("motion")) out.motion_files = entry.at("motion").at("files");
-    for (const auto& [file, digest] : out.motion_files)
-        if (file.starts_with('.') || file.find('/') != std::string::npos)
-            throw std::invalid_argument(fmt::format("{} is no name of a file in it", file));
+    for (const auto& [file, digest] : out.motion_files) require_file_name(file);
+    require_file_name("0000-" + out.renderer);
     if (entry.contains("reproducible_until")) out.reproducible_until = entry.at("reproducible_until").get<double>();
     out.not_reproducible = entry.value("not_reproducible", "");
     if (entry.contains("picture"))

@@ -46,6 +46,8 @@ TEST(Baselines, TheSchemaAndTheReaderAgree) {
          false},
         {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "tolerance": {"renderers": {"0123456789ab": {"motion": 0.1}}}}}})",
          false},
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "reproducible_until": -1}}})",
+         false},
         {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}, "referenzes": "x"})", false}};
     for (const auto& [text, valid] : cases) {
         folder.write("c.json", text);
@@ -100,6 +102,40 @@ TEST(Baselines, TolerancesOfRenderersAreOverThoseOfTheSamePlace) {
     EXPECT_EQ(b.on_renderer("ba9876543210").motion, 2e-5);
     const Tolerances command_line = b.overridden_by({{1, {}, {}, {}, {}}, {}});
     EXPECT_EQ(command_line.on_renderer("ba9876543210").channel, 1);
+}
+
+TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
+    const Folder folder;
+    folder.write("b.json", R"({"entries": {
+  "a": {"scene": {}, "expected": "a.png", "output": {"type": "trajectory", "rate": 10}}}})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(finished.code, 3);
+    EXPECT_THAT(finished.err, HasSubstr("b.json:2:53: entries.a.output has no pictures to be held to \"expected\""));
+}
+
+TEST(Baselines, ReferencesMayStandBesideTheFile) {
+    const Folder folder;
+    folder.write("b.json", R"({"references": "", "entries": {
+  "a": {"scene": {"time": {"end": 0.1}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update all").code, 7);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a/motion.csv"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+}
+
+// Names that only lead to files may be anything; those of entries are those of folders.
+TEST(Baselines, NamesOfFilesMayHoldAnything) {
+    const Folder folder;
+    const std::string names = "'ü ö/日本/b ä, %:.json'";
+    folder.write("s.json", R"({"time": {"end": 0.1}, "title": "Größe 角"})");
+    folder.write("b.json", R"({"entries": {"a": {"scene": "s.json",
+  "output": {"type": "still", "at": 0.1, "size": [64, 64], "view": {"style": "flat"}}}}})");
+    ASSERT_EQ(shell(folder, "mkdir -p 'ü ö/日本'; cp s.json 'ü ö/日本'; cp b.json " + names).code, 0);
+    const Finished missing = shell(folder, "$BEAMCAM test " + names + " --annotate github");
+    EXPECT_THAT(missing.err, HasSubstr("::error file=ü ö/日本/b ä%2C %25%3A.json,title=a: missing::"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test " + names + " --update all --report 'ü/r' --junit 'ü/j.xml'").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test " + names + " --strict").code, 0);
+    folder.write("c.json", R"({"entries": {"ä": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test c.json").err, HasSubstr("\"ä\" names files"));
 }
 
 }  // namespace

@@ -65,6 +65,18 @@ TEST(Recipes, StepsOfContinuousIntegrationFailAndLeaveReports) {
     }
 }
 
+TEST(Recipes, CtestRunsThemAsATest) {
+    const Project project;
+    project.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.20)\nproject(guarded NONE)\nenable_testing()\n" +
+                                        block("add_test(NAME pictures COMMAND beamcam test "
+                                              "${CMAKE_CURRENT_SOURCE_DIR}/baselines.json)"));
+    const Finished failed = project.run("cmake -S . -B build >/dev/null && ctest --test-dir build --output-on-failure");
+    EXPECT_EQ(failed.code, 8) << failed.err;
+    EXPECT_THAT(failed.out, AllOf(HasSubstr("pictures"), HasSubstr("different   fall")));
+    project.write("s.json", R"({"time": {"end": 0.35}})");
+    EXPECT_EQ(project.run("ctest --test-dir build").code, 0);
+}
+
 TEST(Recipes, PytestMakesAnItemOfEachEntry) {
     const Project project;
     project.write("conftest.py", block("# conftest.py"));

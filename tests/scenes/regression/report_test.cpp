@@ -228,6 +228,10 @@ TEST(Accept, TakesNoFilesButThoseThatWereTested) {
         EXPECT_THAT(refused.err, HasSubstr("is no name of a file")) << refused.err;
     }
     folder.write("r/report.json", report);
+    folder.swap("r/report.json", "\"motion\": {\n      \"verdict\"",
+                "\"motion\": {\"renderer\": \"../x\",\n      \"verdict\"");
+    EXPECT_EQ(shell(folder, "$BEAMCAM accept r").code, 6);
+    folder.write("r/report.json", report);
     shell(folder, "sed -i '$d' r/motion/motion.csv");
     const Finished changed = shell(folder, "$BEAMCAM accept r");
     EXPECT_EQ(changed.code, 6);
