@@ -24,7 +24,7 @@ class Acceptor {
         : options_(options),
           report_(report),
           path_(options.baselines.value_or(report.baselines)),
-          baselines_(read_baselines(path_)) {}
+          baselines_(read_recovered(path_)) {}
 
     Acceptance carry_out() {
         for (const Baseline* entry : chosen_entries(baselines_, path_, options_.entries)) {

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "output/files/numbers.hpp"
+#include "output/files/standard_output.hpp"
 #include "scenes/format/tree.hpp"
+#include "scenes/regression/references.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -106,6 +108,15 @@ std::string renderers_text(const std::map<std::string, RendererParts>& renderers
 }
 
 }  // namespace
+
+Baselines read_recovered(const std::string& path) {
+    Baselines baselines = read_baselines(path);
+    if (path == "-") return baselines;
+    const std::string told = ReferenceUpdate::recover(baselines.references);
+    if (told.empty()) return baselines;
+    output::tell("{}: {}\n", path, told);
+    return read_baselines(path);
+}
 
 std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& changes,
                    const std::map<std::string, RendererParts>& renderers) {

@@ -10,6 +10,10 @@
 
 namespace beamcam::scenes {
 
+// What is to be changed: an update of the references that was killed is completed or undone before, which is told.
+// Throws what read_baselines and ReferenceUpdate::recover do.
+Baselines read_recovered(const std::string& path);
+
 // What changes in one entry.
 struct BaselineEdit {
     std::string name;

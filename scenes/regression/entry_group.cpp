@@ -73,6 +73,9 @@ void EntryGroup::prepare(Job& job) {
         job.motion = *table->table;
     else if (job.test->asks_for_motion())
         request.tables.push_back(motion_behind_picture(scene.problem, job.until));
+    if (asks_for_all_channels(job.test->entry()))
+        std::erase_if(request.tables[job.motion].channels,
+                      [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::energy_residual; });
     if (job.test->asks_for_motion()) record_compared(job);
 }
 

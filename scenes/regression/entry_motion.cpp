@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool asks_for_all_channels(const Baseline& entry) {
-    const auto* asked = std::get_if<TrajectoryOutput>(&entry.output());
-    return asked && asked->channels.empty();
-}
-
 // The rows up to `until`; the first one stays.
 void cut(sim::Table& table, double until) {
     const std::vector<double>& t = table.values.front();
@@ -36,9 +31,13 @@ void remove_column(output::NamedTable& table, std::string_view name) {
 
 }  // namespace
 
-void EntryMotion::judge(const sim::Table& all, const std::vector<sim::Impact>& impacts, double until,
+bool asks_for_all_channels(const Baseline& entry) {
+    const auto* asked = std::get_if<TrajectoryOutput>(&entry.output());
+    return asked && asked->channels.empty();
+}
+
+void EntryMotion::judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
                         std::optional<double> reproducible_until) {
-    const sim::Table table = without_residuals(all);
     const RecordNames names(0);
     if (references_.fresh || reproducible_until)
         result_.reproducible_until = std::min(until, reproducible_until.value_or(until));
@@ -93,18 +92,6 @@ void EntryMotion::judge_sweep(int threads, Progress& progress) {
     report({kSweepRecord}, [&](const Files& files) { made.write(files(kSweepRecord), unsure); });
 }
 
-// A table of all channels holds an error of the solver, which no two solvers share.
-sim::Table EntryMotion::without_residuals(const sim::Table& table) const {
-    if (!asks_for_all_channels(entry_)) return table;
-    sim::Table kept;
-    for (std::size_t i = 0; i < table.channels.size(); ++i)
-        if (table.channels[i].kind != sim::ChannelKind::energy_residual) {
-            kept.channels.push_back(table.channels[i]);
-            kept.values.push_back(table.values[i]);
-        }
-    return kept;
-}
-
 EntryMotion::Files EntryMotion::fresh_files() const {
     return [this](const std::string& name) { return *references_.fresh / name; };
 }
@@ -127,7 +114,7 @@ void EntryMotion::judge_record(const RecordNames& names, const std::string& labe
     std::optional<MotionRecord> expected;
     references_.read([&] { expected = read_record(references_.folder, names); });
     if (!expected) return miss(label);
-    if (asks_for_all_channels(entry_)) remove_column(expected->table, "energy_residual");
+    if (asks_for_all_channels(entry_)) remove_column(expected->table, "energy_residual");  // of records that had it
     take(compare(*expected, actual, tolerance_, horizon), label, {names.table, names.impacts});
 }
 

@@ -14,6 +14,9 @@
 
 namespace beamcam::scenes {
 
+// A table of all channels; it would hold an error of the solver too, which no two solvers share.
+bool asks_for_all_channels(const Baseline& entry);
+
 class EntryMotion {
   public:
     // All references must outlive this.
@@ -22,7 +25,7 @@ class EntryMotion {
         : entry_(entry), tolerance_(tolerance), references_(references), report_(report), result_(result) {}
 
     // `until`: the last instant that the entry looks at [s].
-    void judge(const sim::Table& all, const std::vector<sim::Impact>& impacts, double until,
+    void judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
                std::optional<double> reproducible_until);
 
     // What is recorded of a motion that the picture compares: as far as it was reproducible when it was accepted.
@@ -36,7 +39,6 @@ class EntryMotion {
   private:
     using Files = std::function<output::Target(const std::string& name)>;
 
-    sim::Table without_residuals(const sim::Table& table) const;
     Files fresh_files() const;
     void report(const std::vector<std::string>& names, const std::function<void(const Files&)>& write);
     void judge_record(const RecordNames& names, const std::string& label, const MotionRecord& actual, double horizon);

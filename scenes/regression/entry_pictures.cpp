@@ -186,14 +186,14 @@ void EntryPictures::conclude() {
         result_.picture_lines = {in_words(*worst)};
     }
     result_.picture = verdict;
-    for (const auto& [frame, found] : result_.frames) {
-        if (found.verdict == Verdict::identical) continue;
-        result_.new_digest = found.sha256;
-        const auto at = static_cast<std::size_t>(frame);
-        if (!entry_.accepted.empty() && at < entry_.accepted.front().sha256.size())
-            result_.old_digest = entry_.accepted.front().sha256[at];
-        break;
-    }
+    const auto changed =
+        std::ranges::find_if(result_.frames, [](const auto& f) { return f.second.verdict != Verdict::identical; });
+    if (changed == result_.frames.end()) return;
+    result_.new_digest = changed->second.sha256;
+    const auto own = std::ranges::find(entry_.accepted, renderer_, &Accepted::renderer);
+    const auto expected = own == entry_.accepted.end() ? entry_.accepted.begin() : own;
+    const auto at = static_cast<std::size_t>(changed->first);
+    if (expected != entry_.accepted.end() && at < expected->sha256.size()) result_.old_digest = expected->sha256[at];
 }
 
 std::string EntryPictures::in_words(const std::pair<const long, FrameResult>& worst) const {

@@ -42,13 +42,7 @@ Fingerprint fingerprint_of(Drawn how) {
 class Regression {
   public:
     Regression(const std::string& path, const RegressionOptions& options)
-        : path_(path), options_(options), baselines_(read_baselines(path)), report_files_(options.run.force) {
-        if (path_ == "-") return;
-        const std::string told = ReferenceUpdate::recover(baselines_.references);
-        if (told.empty()) return;
-        output::tell("{}: {}\n", path_, told);
-        baselines_ = read_baselines(path);
-    }
+        : path_(path), options_(options), baselines_(read_recovered(path)), report_files_(options.run.force) {}
 
     RegressionResult go() {
         const auto started = Clock::now();

@@ -20,26 +20,28 @@ using testing::slurp;
 
 const std::string kTest = "$BEAMCAM test b.json --only fast";
 
-// "fast" is guarded on another machine.
+// An entry is guarded on another machine.
 struct Machines : Guarded {
-    const std::string here = flat_fingerprint().id(), own = "b/fast/0000-" + here + ".png";
+    explicit Machines(const std::string& which = "fast") : entry(which) {}
+    const std::string entry, here = flat_fingerprint().id(), first = "b/" + entry + "/0000.png",
+                             own = "b/" + entry + "/0000-" + here + ".png";
 
     std::string digest(const std::string& file) const {
         return shell(*this, "$BEAMCAM hash " + file).out.substr(0, 64);
     }
     // A reference as if a renderer had drawn it whose pictures are these ones filtered.
     void filter(const std::string& file, const std::string& how) const {
-        const std::string bytes = "sha256sum " + file + " | cut -c1-64", before = shell(*this, bytes).out.substr(0, 64),
-                          pixels = digest(file);
+        const std::string bytes = "sha256sum " + file + " | cut -c1-64", marker = "b/" + entry + "/.beamcam-reference",
+                          before = shell(*this, bytes).out.substr(0, 64), pixels = digest(file);
         ASSERT_EQ(shell(*this, "ffmpeg -v error -i " + file + " -vf '" + how + "' -y x.png && mv x.png " + file).code,
                   0);
-        swap("b/fast/.beamcam-reference", before, shell(*this, bytes).out.substr(0, 64));
-        swap("b/fast/.beamcam-reference", pixels, digest(file));
+        swap(marker, before, shell(*this, bytes).out.substr(0, 64));
+        swap(marker, pixels, digest(file));
         swap("b.json", pixels, digest(file));
     }
     void accept_of_another(const std::string& how) const {
-        shell(*this, "$BEAMCAM test b.json --update fast");
-        filter("b/fast/0000.png", how);
+        shell(*this, "$BEAMCAM test b.json --update " + entry);
+        filter(first, how);
         swap("b.json", R"("renderer": ")" + here, R"("renderer": "0123456789ab)");
         swap("b.json", "\"" + here + "\": {", "\"0123456789ab\": {");
         swap("b.json", R"("freetype": ")" + flat_fingerprint().parts.at("freetype"), R"("freetype": "2.0.0)");
@@ -106,16 +108,20 @@ TEST(Renderers, EachHasItsOwnPicturesSideBySide) {
     EXPECT_EQ(shell(folder, kTest + " --strict").code, 0);
 }
 
-TEST(Renderers, ThoseThatDrawAlikeShareOnePicture) {
-    const Machines folder;
-    folder.accept_of_another("null");
-    EXPECT_EQ(shell(folder, kTest + " --strict --on-new-renderer accept").code, 0);  // the digest is accepted
-    folder.filter("b/fast/0000.png", "lutrgb=r=max(val-9\\,0)");
-    shell(folder, kTest + " --add-digest");
-    const std::string text = slurp(folder / "b.json");
-    EXPECT_TRUE(std::filesystem::exists(folder / folder.own));
-    EXPECT_EQ(shell(folder, kTest + " --strict --add-digest").code, 0);  // nothing is left to add
-    EXPECT_EQ(slurp(folder / "b.json"), text);
+TEST(Renderers, ThoseThatDrawAlikeShareAPicture) {
+    const Machines folder("hit");
+    folder.accept_of_another("lutrgb=r=max(val-9\\,0)");  // the first of two pictures
+    for (const char* way : {"--add-digest", "--on-new-renderer warn --report r; $BEAMCAM accept r"}) {
+        const std::string text = slurp(folder / "b.json"), command = "$BEAMCAM test b.json --only hit ";
+        shell(folder, command + way);
+        EXPECT_TRUE(std::filesystem::exists(folder / folder.own)) << way;
+        EXPECT_FALSE(std::filesystem::exists(folder / ("b/hit/0001-" + folder.here + ".png"))) << way;
+        const std::string added = slurp(folder / "b.json");
+        EXPECT_EQ(shell(folder, command + "--strict --add-digest").code, 0) << way;  // nothing is left to add
+        EXPECT_EQ(slurp(folder / "b.json"), added) << way;
+        folder.write("b.json", text);
+        std::filesystem::remove(folder / folder.own);
+    }
 }
 
 TEST(Renderers, ReportsOfOtherMachinesBringTheirPictures) {

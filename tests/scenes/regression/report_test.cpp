@@ -151,6 +151,19 @@ TEST(Accept, TakesPicturesAndMotionsOfAReport) {
               shell(folder, "$BEAMCAM hash run/r/fall/0000-actual.png").out.substr(0, 64));
 }
 
+TEST(Accept, UndoesAnUpdateThatWasKilledFirst) {
+    const Guarded folder;
+    folder.update();
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "other"})");
+    shell(
+        folder,
+        "$BEAMCAM test b.json --report r; mkdir b/.beamcam-update; touch b/.beamcam-update/.beamcam.24a89ba2.journal");
+    const Finished accepted = shell(folder, "$BEAMCAM accept r");
+    EXPECT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_THAT(accepted.err, HasSubstr("b.json: removed an update of the references that was interrupted"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+}
+
 TEST(Accept, TakesTheNamedEntriesOnly) {
     const Guarded folder;
     folder.update();

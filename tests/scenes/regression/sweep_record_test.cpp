@@ -185,6 +185,30 @@ TEST(SweepEntries, ChangedMechanicsFail) {
     EXPECT_THAT(other.out, HasSubstr("the sweep became another"));
 }
 
+// A flexible beam, and a rigid one in compliant contact.
+TEST(SweepEntries, AnErrorOfTheSolverIsNoMotion) {
+    const Folder folder;
+    const std::string text = R"({"references": "b", "entries": {
+  "flexible": {"scene": {"cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+      "beam": {"modes": 1, "damping_ratio": 0.02}, "contact": {"model": "restitution", "law": "newton", "restitution": 0.5},
+      "sweep": {"over": [{"key": "cam.speed", "values": [40, 50]}], "transient": {"cam_turns": 40}, "keep": {"cam_turns": 40}}},
+    "output": {"type": "sweep"}},
+  "compliant": {"scene": {"cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5}, "beam": {"model": "rigid"},
+      "sweep": {"over": [{"key": "cam.speed", "values": [30, 60]}], "sample": {"section": "cam_angle", "at": 0},
+                "transient": {"cam_turns": 60}, "keep": {"cam_turns": 40}}}, "output": {"type": "sweep"}}}})";
+    folder.write("b.json", text);
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update all").code, 7);
+    for (const char* solver : {R"("rtol": 1e-9)", R"("method": "rk8")"}) {
+        shell(folder, std::string("sed 's/{\"cam\"/{\"solver\": {") + solver + "}, \"cam\"/' b.json > c.json");
+        const Finished finished = shell(folder, "$BEAMCAM test c.json");
+        EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+        EXPECT_THAT(finished.out, AllOf(HasSubstr("equivalent  flexible"), HasSubstr("equivalent  compliant")));
+    }
+    const Finished other = shell(
+        folder, "export GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable; $BEAMCAM test b.json");
+    EXPECT_EQ(other.code, 0) << other.out;
+}
+
 TEST(SweepEntries, AreAcceptedFromAReport) {
     const Swept folder;
     shell(folder, "sed -i 's/\"restitution\": 0.5/\"restitution\": 0.501/' b.json");
