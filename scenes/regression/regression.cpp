@@ -7,6 +7,7 @@
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/standard_output.hpp"
+#include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/regression/entry_group.hpp"
 #include "sim/base/clock.hpp"
@@ -93,10 +94,12 @@ class Regression {
                 continue;
             }
             const Drawn how = drawn(*chosen[i]);
-            if (!renderers_.contains(how)) renderers_[how] = fingerprint_of(how);
             try {
+                if (!renderers_.contains(how)) renderers_[how] = fingerprint_of(how);
                 tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, renderers_[how], access_,
                                                              report_files_, result));
+            } catch (const render::MissingPart& error) {  // such as OpenGL for a lit view
+                refuse(result, fmt::format("{}\n", error.what()), kMissingPart);
             } catch (const output::IoError& error) {  // a damaged marker
                 if (!options_.update.empty()) throw;
                 refuse(result, fmt::format("{}\n", error.what()), kInputOutput);

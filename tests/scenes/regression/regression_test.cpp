@@ -361,6 +361,18 @@ TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
         EXPECT_THAT(unreachable.out, HasSubstr(line));
 }
 
+TEST(GlRegression, WantOfOpenGlCostsLitEntriesAlone) {
+    const Folder folder;
+    folder.write("b.json", R"({"entries": {
+  "lit": {"scene": {"time": {"end": 0.1}}, "output": {"type": "still", "at": 0.1, "size": [64, 64]}},
+  "flat": {"scene": {"time": {"end": 0.1}}, "output": {"type": "still", "at": 0.1, "size": [64, 64], "view": {"style": "flat"}}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update all").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+    const Finished finished = shell(folder, "export BEAMCAM_GL=none; $BEAMCAM test b.json");
+    EXPECT_EQ(finished.code, 5) << finished.err;
+    EXPECT_THAT(finished.out, AllOf(HasSubstr("missing     lit   picture missing: "), HasSubstr("identical   flat")));
+}
+
 // ---- what is no change -------------------------------------------------------------------------------
 
 TEST(Regression, AnErrorOfTheSolverIsNoMotion) {
