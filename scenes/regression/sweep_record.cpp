@@ -53,9 +53,8 @@ class SweepTable {
     }
 
     const std::vector<PointRows>& points() const { return points_; }
-    const std::vector<std::string>& values() const {
-        return values_;
-    }  // columns of the samples but those that grow with time
+    // Columns of the samples but those that grow with time.
+    const std::vector<std::string>& values() const { return values_; }
     Column all(std::size_t value) const { return columns_[value]; }
     Column samples(const PointRows& point, std::size_t value) const {
         return columns_[value].subspan(point.begin, point.size());
