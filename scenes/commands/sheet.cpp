@@ -47,8 +47,7 @@ long count_of(const std::string& film) {
     output::Raster picture;
     std::string name;
     long count = 0;
-    for (; source.next(picture, name); ++count)
-        stop_if_interrupted();
+    for (; source.next(picture, name); ++count) stop_if_interrupted();
     return count;
 }
 
@@ -73,9 +72,10 @@ render::Image sheet_of(const SheetArguments& args) {
         if (!grid) {
             grid.emplace(args, shown, picture);
             if (grid->total_height() > kTallest)
-                throw UsageError(fmt::format("the sheet would be {} × {} pixels, more than {} high; use more --columns, "
-                                             "or a smaller --width or --count",
-                                             args.width, grid->total_height(), kTallest));
+                throw UsageError(
+                    fmt::format("the sheet would be {} × {} pixels, more than {} high; use more --columns, "
+                                "or a smaller --width or --count",
+                                args.width, grid->total_height(), kTallest));
             sheet = render::Image(args.width, grid->total_height());
             render::Canvas(sheet, fonts).paint(render::rgb(0xFFFFFF));
         }
