@@ -33,7 +33,7 @@ class EntryMotion {
     void judge_compared(std::size_t index, const std::string& label, sim::Table table,
                         const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until);
 
-    // Makes its points. Throws Stopped, SceneError for one that cannot be made.
+    // Makes its points. Throws sim::Interrupted, SceneError for one that cannot be made.
     void judge_sweep(int threads, Progress& progress);
 
   private:

@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 
 class MadeSweep {
   public:
-    // Throws SceneError for a sweep that cannot be made, Stopped, IoError.
+    // Throws SceneError for a sweep that cannot be made, sim::Interrupted, IoError.
     MadeSweep(const Scene& scene, int threads, Progress& progress);
     ~MadeSweep();
     MadeSweep(const MadeSweep&) = delete;

@@ -6,6 +6,7 @@
 
 #include "render/base/error.hpp"
 #include "scenes/scene/film_times.hpp"
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -162,6 +163,7 @@ TEST(FilmTimes, StillsHaveRowsWithinTheCollisionsOfAStrip) {
 
 // A strip that turns from one collision to the next is smooth at any speed of the film.
 TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
+    SKIP_UNDER_SANITIZERS();
     sim::Result motion;
     const auto add = [&](double from, std::optional<double> to) {
         sim::Impact& next = motion.impacts.emplace_back();
