@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace beamcam::render::figure {
 namespace {
 
-constexpr std::size_t kMostDots = 30'000;        // of a cloud that is drawn dot by dot: about 200 kB of PDF
-constexpr double kOverlap = 0.2;                 // of cells that are drawn one by one [pt]
-constexpr double kDot = 0.55, kSmallDot = 0.3;   // sides: of a thousand dots and of kMostDots [pt]
+constexpr std::size_t kMostDots = 30'000;      // of a cloud that is drawn dot by dot: about 200 kB of PDF
+constexpr double kOverlap = 0.2;               // of cells that are drawn one by one [pt]
+constexpr double kDot = 1.6, kSmallDot = 0.3;  // sides: of kFewDots and of kMostDots [pt]
+constexpr double kFewDots = 100;
 constexpr double kPixel = kPointsPerInch / 300;  // of a picture of a cloud [pt]
 constexpr double kFaintest = 0.5;                // opacity of a cell that one point fell into
 
@@ -32,15 +35,44 @@ bool is_even(const std::vector<double>& edges, const Place& place) {
     return true;
 }
 
-void draw_dots(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
-    const auto n = static_cast<double>(cloud.x.size());
-    const double crowd = std::clamp(std::log(n / 1000) / std::log(kMostDots / 1000.0), 0.0, 1.0);
-    const double side = kDot + (kSmallDot - kDot) * crowd;
+// Cells of a plot.
+struct PixelGrid {
+    Box plot;
+    int columns, rows;
+
+    std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    // Nothing outside the plot.
+    std::optional<std::size_t> cell(const Vec2& p) const {
+        if (!(p.x >= plot.x && p.x <= plot.right() && p.y >= plot.y && p.y <= plot.bottom())) return std::nullopt;
+        const int column = std::min(columns - 1, static_cast<int>((p.x - plot.x) / plot.w * columns));
+        const int row = std::min(rows - 1, static_cast<int>((p.y - plot.y) / plot.h * rows));
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+    }
+};
+PixelGrid pixels_of(const Box& plot) {
+    return {plot, static_cast<int>(plot.w / kPixel), static_cast<int>(plot.h / kPixel)};
+}
+
+// One for each pixel that has any: periodic motions come back to the same place over and over.
+std::vector<Vec2> different_places(const Cloud& cloud, const PlotAxes& axes) {
+    const PixelGrid grid = pixels_of(axes.plot());
+    std::vector<bool> taken(grid.size());
+    std::vector<Vec2> places;
     for (std::size_t i = 0; i < cloud.x.size(); ++i) {
         const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
-        if (std::isfinite(p.x + p.y)) sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
+        const std::optional<std::size_t> cell = grid.cell(p);
+        if (!cell || taken[*cell]) continue;
+        taken[*cell] = true;
+        places.push_back(p);
     }
-    sheet.fill(cloud.color);
+    return places;
+}
+
+void draw_dots(const std::vector<Vec2>& places, Color color, Sheet& sheet) {
+    const double crowd = std::log(static_cast<double>(places.size()) / kFewDots) / std::log(kMostDots / kFewDots);
+    const double side = kDot * std::pow(kSmallDot / kDot, std::clamp(crowd, 0.0, 1.0));
+    for (const Vec2& p : places) sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
+    sheet.fill(color);
 }
 
 // Columns of a picture: as many as there are different places, if they are even and pixels are finer.
@@ -59,33 +91,27 @@ int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
 
 // How many points fall into each pixel, by the logarithm.
 void draw_density(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
-    const Box& plot = axes.plot();
-    const int columns = columns_of(cloud, axes, static_cast<int>(plot.w / kPixel));
-    const int rows = static_cast<int>(plot.h / kPixel);
-    std::vector<std::uint32_t> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    PixelGrid grid = pixels_of(axes.plot());
+    grid.columns = columns_of(cloud, axes, grid.columns);
+    std::vector<std::uint32_t> counts(grid.size(), 0);
     std::uint32_t most = 1;
-    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
-        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
-        if (!(p.x >= plot.x && p.x <= plot.right() && p.y >= plot.y && p.y <= plot.bottom())) continue;
-        const int column = std::min(columns - 1, static_cast<int>((p.x - plot.x) / plot.w * columns));
-        const int row = std::min(rows - 1, static_cast<int>((p.y - plot.y) / plot.h * rows));
-        std::uint32_t& count = counts[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                                      static_cast<std::size_t>(column)];
-        most = std::max(most, ++count);
-    }
-    Image image(columns, rows);
+    for (std::size_t i = 0; i < cloud.x.size(); ++i)
+        if (const auto cell = grid.cell(axes.at(cloud.x[i], cloud.y[i]))) most = std::max(most, ++counts[*cell]);
+    Image image(grid.columns, grid.rows);
     for (std::size_t k = 0; k < counts.size(); ++k) {
         if (counts[k] == 0) continue;
         const double share = most == 1 ? 1 : std::log(counts[k]) / std::log(most);
         image.pixels[k] = pixel(cloud.color.faded(kFaintest + (1 - kFaintest) * share));
     }
-    sheet.picture(image, plot);
+    sheet.picture(image, grid.plot);
 }
 
 }  // namespace
 
 void draw_cloud(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
-    cloud.x.size() <= kMostDots ? draw_dots(cloud, axes, sheet) : draw_density(cloud, axes, sheet);
+    const std::vector<Vec2> places = different_places(cloud, axes);
+    if (places.empty()) return;
+    places.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, axes, sheet);
 }
 
 void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken) {

@@ -59,9 +59,8 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     SweptKey over;
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
-    Dimension dimension = dimension::kNone;
-    for (const sim::NumberKey& key : sim::number_keys(problem))
-        if (key.path == over.key) dimension = key.dimension;
+    const auto key = sim::number_key(problem, over.key);
+    const Dimension dimension = key ? key->dimension : dimension::kNone;  // other keys are refused later
     if (value.starts_with('@')) {
         const std::size_t colon = value.rfind(':');
         if (colon == std::string::npos) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
@@ -268,8 +267,9 @@ int act(const SweepArguments& args) {
     const RunOptions options = run_options(args.common, "");
     const SweepGrid grid(scene);
     if (args.emit)
-        print_text(engine_script(*args.emit, command_of(args), args.file,
-                                 static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
+        print_text(engine_script(
+            *args.emit, command_of(args), args.file,
+            static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
     else if (args.common.dry_run)
         print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
     else

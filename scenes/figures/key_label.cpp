@@ -31,24 +31,29 @@ std::string symbol_of(const std::string& name) {
     return escaped;
 }
 
-std::string print_unit(const std::string& unit) {
+// "rad/s" becomes "rad s^{−1}".
+static std::string print_unit(const std::string& unit) {
     const std::size_t slash = unit.find('/');
     if (slash == std::string::npos) return unit;
     const std::string over = unit.substr(0, slash), under = unit.substr(slash + 1);
     const std::size_t power = under.find('^');
-    const std::string below =
-        fmt::format("{}^{{−{}}}", under.substr(0, power), power == std::string::npos ? "1" : under.substr(power + 1));
-    return over == "1" ? below : fmt::format("({} {})", over, below);
+    return fmt::format("{}{}^{{−{}}}", over == "1" ? "" : over + " ", under.substr(0, power),
+                       power == std::string::npos ? "1" : under.substr(power + 1));
 }
 
 std::string axis_label(const std::string& symbol, const std::string& unit) {
     if (unit.empty() || unit == "1") return symbol;
-    return symbol.empty() ? print_unit(unit) : fmt::format("{} / {}", symbol, print_unit(unit));
+    std::string printed = print_unit(unit);
+    if (printed.find(' ') != std::string::npos) printed = "(" + printed + ")";
+    return symbol.empty() ? printed : fmt::format("{} / {}", symbol, printed);
+}
+
+std::string value_label(const std::string& symbol, double value, const std::string& unit) {
+    return fmt::format("{} = {:g}{}", symbol, value, unit.empty() || unit == "1" ? "" : " " + print_unit(unit));
 }
 
 std::string key_label(const std::string& key, const sim::Problem& problem) {
-    for (const sim::NumberKey& each : sim::number_keys(problem))
-        if (each.path == key) return axis_label(symbol_of(key), si_unit(each.dimension));
+    if (const auto known = sim::number_key(problem, key)) return axis_label(symbol_of(key), si_unit(known->dimension));
     return symbol_of(key);
 }
 

@@ -9,10 +9,10 @@ namespace beamcam::scenes {
 
 // Of a key of the scene or a column of samples: "$ω$" for cam.speed; the name itself where it has no symbol.
 std::string symbol_of(const std::string& name);
-// "rad/s" becomes "rad s^{−1}"; in parentheses where it is a product.
-std::string print_unit(const std::string& unit);
 // "$ω$ / (rad s^{−1})"; without unit the symbol alone.
 std::string axis_label(const std::string& symbol, const std::string& unit);
+// "$ω$ = 48 rad s^{−1}"
+std::string value_label(const std::string& symbol, double value, const std::string& unit);
 // Of a key of this problem that is a number.
 std::string key_label(const std::string& key, const sim::Problem& problem);
 

@@ -44,6 +44,7 @@ Color color_of(AttractorClass kind) {
     return {};
 }
 constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE1, 0xC6DBEF};
+constexpr std::uint32_t kValueColors[] = {0x000000, 0xD55E00, 0x0072B2, 0x009E73, 0xCC79A7, 0xE69F00};
 constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
 
 AttractorClass kind_of(const output::StoredPoint& p) { return static_cast<AttractorClass>(p.kind); }
@@ -274,23 +275,37 @@ figure::Figure map(const SweepGrid& grid, const output::SweepData& data) {
     return out;
 }
 
+// A cloud for each value of one key, if they are few; else one of all.
+std::vector<figure::Cloud> clouds_of(const SweepGrid& grid) {
+    const output::SweepAxis& axis = grid.axes()[0];
+    if (grid.axes().size() > 1 || axis.values.size() > std::size(kValueColors)) return {{"", {}, {}, rgb(0x000000)}};
+    std::vector<figure::Cloud> clouds;
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+        clouds.push_back({value_label(symbol_of(axis.name), axis.values[i], axis.unit), {}, {}, rgb(kValueColors[i])});
+    if (clouds.size() == 1) clouds[0].label.clear();
+    return clouds;
+}
+
 // All samples of all points in one plane.
-figure::Figure plane(const output::SweepData& data, const std::string& x, const std::string& y, bool next) {
+figure::Figure plane(const SweepGrid& grid, const output::SweepData& data, const std::string& x, const std::string& y,
+                     bool next) {
     const std::size_t cx = column_of(data, x), cy = column_of(data, y), width = data.columns.size();
     figure::Panel panel;
     panel.name = y;
-    panel.clouds.push_back({"", {}, {}, rgb(0x000000)});
+    panel.clouds = clouds_of(grid);
+    panel.legend = figure::Legend::box;
     for (std::uint64_t k = 0; k < data.points(); ++k) {
         if (!data.has(k)) continue;
         const output::StoredPoint p = data.read(k);
         if (!is_section(kind_of(p))) continue;
+        figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k / grid.seeds() : 0];
         const std::size_t later = next ? width : 0;
         for (std::size_t i = 0; i + later < p.samples.size(); i += width) {
-            panel.clouds[0].x.push_back(p.samples[i + cx]);
-            panel.clouds[0].y.push_back(p.samples[i + later + cy]);
+            cloud.x.push_back(p.samples[i + cx]);
+            cloud.y.push_back(p.samples[i + later + cy]);
         }
     }
-    if (panel.clouds[0].x.empty())
+    if (std::ranges::all_of(panel.clouds, [](const auto& c) { return c.x.empty(); }))
         throw SceneError("no point has a section to show: all rest, follow the cam, have left it or have not settled");
     const std::string unit = data.columns[cy].unit;
     panel.x = {.label = label_of(x, data.columns[cx].unit) + (next ? ", impact $k$" : "")};
@@ -322,10 +337,10 @@ figure::Figure diagram(const std::string& name, const SweepGrid& grid, const out
     else if (name == "map" || name == "basins")
         out = map(grid, data);
     else if (name == "poincare")
-        out = plane(data, grid.sampling().kind == sim::SampleKind::impacts ? "cam_phase" : "theta",
+        out = plane(grid, data, grid.sampling().kind == sim::SampleKind::impacts ? "cam_phase" : "theta",
                     grid.sampling().kind == sim::SampleKind::impacts ? "v_n_before" : "theta_dot", false);
     else if (name == "impact-map")
-        out = plane(data, "cam_phase", "cam_phase", true);
+        out = plane(grid, data, "cam_phase", "cam_phase", true);
     else
         throw SceneError(fmt::format("this sweep has no figure {}: {}", name, fmt::join(diagram_names(grid), ", ")));
     out.name = name;

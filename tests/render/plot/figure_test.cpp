@@ -363,6 +363,24 @@ TEST(Figure, LongSeriesMakeSmallFiles) {
     EXPECT_LT(sheet.bytes().size(), 600'000u);
 }
 
+// A periodic motion comes back to a few places thousands of times.
+TEST(Figure, DotsOfFewPlacesAreSeenHoweverManyFallOnEach) {
+    Figure figure;
+    figure.panels.emplace_back();
+    Panel& panel = figure.panels[0];
+    panel.x.from = panel.y.from = 0, panel.x.to = panel.y.to = 1;
+    panel.clouds.push_back({"", {}, {}, rgb(0xFF0000)});
+    for (int i = 0; i < 100'000; ++i) panel.clouds[0].x.push_back(i % 2 ? 0.3 : 0.7), panel.clouds[0].y.push_back(0.5);
+    const auto red = [&] {
+        const Image image = draw_png(figure, "elsevier", 300).image;
+        return std::ranges::count_if(image.pixels, [](std::uint32_t p) { return (p & 0xFFFFFF) == 0xFF0000; });
+    };
+    const auto few = red();
+    EXPECT_GE(few, 2 * 25);  // two squares of 1.6 pt
+    panel.clouds[0].x.resize(2), panel.clouds[0].y.resize(2);
+    EXPECT_EQ(red(), few);
+}
+
 TEST(FigureStyle, TheColourMapDarkensEvenly) {
     // Lightness L* from linear sRGB luminance; equal steps of the map differ in L* by nearly the same.
     const auto lightness = [](Color c) {

@@ -95,6 +95,15 @@ TEST(Diagram, PairsEachImpactWithTheNext) {
     EXPECT_THROW(diagram("bifurcation", speeds, data(speeds, {AttractorClass::periodic}), "theta"), SceneError);
 }
 
+TEST(Diagram, TellsFewValuesApart) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [40, 50]}], "seed": {"random": 3}})");
+    const auto panel = diagram("poincare", speeds, data(speeds, {AttractorClass::chaotic}), "").panels.at(0);
+    ASSERT_THAT(panel.clouds, SizeIs(2));
+    EXPECT_EQ(panel.clouds[0].label, "$ω$ = 40 rad s^{−1}");
+    EXPECT_EQ(panel.clouds[1].label, "$ω$ = 50 rad s^{−1}");
+    for (const auto& cloud : panel.clouds) EXPECT_THAT(cloud.x, SizeIs(6));  // two samples of three starts
+}
+
 TEST(Diagram, IsAFileWithItsCaption) {
     const testing::Folder folder;
     folder.write("s.json", R"({"beam": {"model": "rigid"}, "contact": {"model": "restitution"}})");
