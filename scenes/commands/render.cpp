@@ -116,6 +116,14 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     scene.title = fmt::format("{} motions compared", kCounts[args.others.size() - 1]);
 }
 
+Instant instant_argument(const char* option, const std::string& text) {
+    if (names_event(text)) {
+        if (const auto instant = parse_instant(text)) return *instant;
+        throw UsageError(fmt::format("{} {}: {}", option, text, kEventsCount));
+    }
+    return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
+}
+
 void apply_render_options(const RenderArguments& args, VideoOutput& film) {
     if (args.size) {
         const auto size = parse_size(*args.size);
@@ -130,8 +138,12 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
             throw UsageError(fmt::format("--fps {}: write frames a second, for example 60 or 30000/1001", *args.fps));
         film.span.fps = *fps;
     }
-    if (args.from) film.span.from = seconds_argument("--from", *args.from);
-    if (args.to) film.span.to = seconds_argument("--to", *args.to);
+    if (args.from) {
+        std::optional<double> from;
+        take_bound(instant_argument("--from", *args.from), from, film.span.from_event);
+        film.span.from = from.value_or(0);
+    }
+    if (args.to) take_bound(instant_argument("--to", *args.to), film.span.to, film.span.to_event);
     if (args.speed) apply_speed(*args.speed, film.span.speed);
     if (args.background) film.view.transparent = *args.background == "transparent";
     if (args.style)
@@ -142,15 +154,6 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
         film.view.theme = *args.theme == "dark"    ? render::Theme::dark
                           : *args.theme == "print" ? render::Theme::print
                                                    : render::Theme::light;
-}
-
-Instant instant_argument(const char* option, const std::string& text) {
-    if (text.starts_with("impact") || text.starts_with("collision")) {
-        if (const auto instant = parse_instant(text)) return *instant;
-        throw UsageError(
-            fmt::format("{} {}: impacts and collisions are counted from 1, for example impact:1", option, text));
-    }
-    return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
 }
 
 Output render_output(const RenderArguments& args, VideoOutput film) {
@@ -220,7 +223,7 @@ Ask asked_part(const RenderArguments& args, const Scene& scene) {
 // In a scene such a poster is the film's nearest frame, so that films can be shortened; here it was asked for.
 void require_poster_inside(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time);
-    if (!span.poster || span.poster->kind != Instant::Kind::time) return;
+    if (!span.poster || span.poster->kind != Instant::Kind::time || span.from_event || span.to_event) return;
     if (span.poster->t < span.from || span.poster->t > to)
         throw UsageError(fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t,
                                      span.from, to));
@@ -253,10 +256,11 @@ void add_render(Grammar& grammar) {
     add_scene(app, args->scene, args->common);
     app.positional("OTHERS", &args->others, "More scenes, to be compared with the first in one picture");
     app.option("-o,--output", &args->file, "FILE", "File to make").required();
-    app.option("--at", &args->at, "T",
-               "One picture of this instant, in seconds, with a unit, or impact:N, collision:N");
-    app.option("--from", &args->from, "T", "First instant of the film");
-    app.option("--to", &args->to, "T", "Last instant of the film");
+    app.option(
+        "--at", &args->at, "T",
+        "One picture of this instant: seconds, with a unit, or impact:N, collision:N, apex:N, touch, release, last");
+    app.option("--from", &args->from, "T", "First instant of the film, as for --at");
+    app.option("--to", &args->to, "T", "Last instant of the film, as for --at");
     app.option("--size", &args->size, "WxH", "Pixels, for example 1280x720");
     app.option("--fps", &args->fps, "RATE", "Frames a second, for example 60 or 30000/1001");
     app.option("--style", &args->style, "STYLE", "lit or solid (OpenGL; in perspective), or flat")

@@ -87,6 +87,7 @@ void judge_picture(ObjectReader& r, Picture& picture) {
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
+    if (span.from_event || span.to_event) return {};
     if (!span.real_time()) {
         if (to > span.from) return {};  // how many frames, only the motion tells
         return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,

@@ -146,28 +146,32 @@ Form frame_rate_form(FrameRate& rate) {
 // ---- instants, speed ---------------------------------------------------------------------------
 
 std::optional<Instant> parse_instant(std::string_view text) {
-    for (const auto& [word, kind] : {std::pair{std::string_view("impact:"), Instant::Kind::impact},
-                                     std::pair{std::string_view("collision:"), Instant::Kind::collision}}) {
-        if (!text.starts_with(word)) continue;
-        const std::string_view digits = text.substr(word.size());
-        const auto number = number_in<int>(digits);
-        const bool counts = number && *number >= 1 && digits.front() != '0';
-        return counts ? std::optional(Instant{.kind = kind, .number = *number}) : std::nullopt;
+    if (text == "last") return Instant{.kind = Instant::Kind::last};
+    for (const EventWord& event : kEventWords) {
+        if (!text.starts_with(event.word)) continue;
+        std::string_view digits = text.substr(event.word.size());
+        if (digits.empty() && event.alone) return Instant{.kind = event.kind};
+        if (!digits.starts_with(':') || digits.starts_with(":0")) return std::nullopt;
+        const auto number = number_in<int>(digits.substr(1));
+        return number && *number >= 1 ? std::optional(Instant{.kind = event.kind, .number = *number}) : std::nullopt;
     }
     return std::nullopt;
+}
+
+bool names_event(std::string_view text) {
+    const auto begins = [&](const EventWord& event) { return text.starts_with(event.word); };
+    return text.starts_with("last") || std::ranges::any_of(kEventWords, begins);
 }
 
 namespace {
 
 void read_instant(ObjectReader& r, const Node& node, const std::string& key, std::optional<Instant>& out) {
     double t = 0;
-    if (node.kind == Node::Kind::string && (node.text.starts_with("impact") || node.text.starts_with("collision"))) {
+    if (node.kind == Node::Kind::string && names_event(node.text)) {
         if (const auto instant = parse_instant(node.text))
             out = instant;
         else
-            r.fail(node, key,
-                   fmt::format("{} = {}: impacts and collisions are counted from 1, \"impact:1\"", r.path(key),
-                               in_quotes(node.text)));
+            r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), kEventsCount));
     } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
         out = {.kind = Instant::Kind::time, .t = t};
     }
@@ -175,10 +179,13 @@ void read_instant(ObjectReader& r, const Node& node, const std::string& key, std
 
 Node written(const Instant& at) {
     if (at.kind == Instant::Kind::time) return number_node(at.t);
-    return text_node(fmt::format("{}:{}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number));
+    for (const EventWord& event : kEventWords)
+        if (event.kind == at.kind) return text_node(fmt::format("{}:{}", event.word, at.number));
+    return text_node("last");
 }
 
-constexpr const char* kInstantType = "time, \"impact:N\" or \"collision:N\"";
+constexpr const char* kInstantType =
+    "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"";
 constexpr const char* kInstantSchema = R"({"$ref": "#/$defs/instant"})";
 
 }  // namespace
@@ -196,6 +203,39 @@ Form instant_form(std::optional<Instant>& at) {
     return {kInstantType, kInstantSchema,
             [&at](ObjectReader& r, const Node& node, const std::string& key) { read_instant(r, node, key, at); },
             [&at] { return at ? std::optional(written(*at)) : std::nullopt; }};
+}
+
+void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event) {
+    event.reset();
+    time.reset();
+    if (at.is_event())
+        event = at;
+    else if (at.kind == Instant::Kind::time)
+        time = at.t;
+}
+
+Form bound_form(double& time, std::optional<Instant>& event) {
+    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> some;
+        std::optional<double> given;
+        read_instant(r, node, key, some);
+        if (some) take_bound(*some, given, event);
+        if (given) time = *given;
+    };
+    return {kInstantType, kInstantSchema, read, [&] { return event ? written(*event) : number_node(time); }};
+}
+
+Form bound_form(std::optional<double>& time, std::optional<Instant>& event) {
+    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> some;
+        read_instant(r, node, key, some);
+        if (some) take_bound(*some, time, event);
+    };
+    const auto write = [&]() -> std::optional<Node> {
+        if (event) return written(*event);
+        return time ? std::optional(number_node(*time)) : std::nullopt;
+    };
+    return {kInstantType, kInstantSchema, read, write};
 }
 
 Form speed_form(Speed& speed) {

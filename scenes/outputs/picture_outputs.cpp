@@ -96,8 +96,8 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
 static void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.form("fps", frame_rate_form(span.fps),
            "Frames a second, 0.1 to 1000, or a fraction such as \"30000/1001\"; 29.97 means that one.");
-    v.number("from", span.from, dim::kTime, kFromStart, "First instant.");
-    v.number("to", span.to, dim::kTime, kFromStart, "Last instant; the end of the scene when left out.");
+    v.form("from", bound_form(span.from, span.from_event), "First instant.");
+    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.either(
         "speed", speed_form(span.speed),
         [&span](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), span.speed); },
@@ -193,7 +193,8 @@ void FramesOutput::plan(Planner& planner, std::size_t output) const {
 void StillOutput::plan(Planner& planner, std::size_t output) const {
     Pictures p = pictures(Pictures::Kind::still, *this, output);
     p.at = at;
-    planner.add(std::move(p), at.kind == Instant::Kind::time ? at.t : planner.scene().end_time);
+    if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
+    planner.add(std::move(p), p.at.is_event() ? planner.scene().end_time : p.at.t);
 }
 
 }  // namespace beamcam::scenes

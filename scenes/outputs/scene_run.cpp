@@ -79,11 +79,8 @@ void SceneRun::find_impacts(double far) {
     const auto start = Clock::now();
     settle(
         plan_, scene_,
-        [&](const sim::Problem& problem, double until) {
-            sim::Request request;
-            request.end_time = until;
-            request.turning_points = false;
-            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
+        [&](const sim::Problem& problem, const sim::Request& request) {
+            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : request.end_time);
         },
         [&](const Pictures& p, const std::string& why) { refuse(p.output, why); });
     context_.times.simulate += seconds_since(start);

@@ -183,11 +183,11 @@ bool is_slow_motion(const Pictures& p);
 // "fall.mp4" as the second of three: "fall.2of3.mp4".
 std::string shard_file(const std::string& file, int shard, int shards);
 
-// Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
-// is called once for the scene's own motion, if a picture needs that, and for each compared one. A picture of an
-// instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is thrown. Throws what
-// `find` throws and render::PictureError.
-using FindImpacts = std::function<sim::Result(const sim::Problem& problem, double until)>;
+// Gives the pictures that wait for impacts their instants. `find` runs a problem for its impacts, and its apexes where
+// the request has them; it is called once for the scene's own motion, if a picture needs that, and for each compared
+// one. A picture of an instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is
+// thrown. Throws what `find` throws and render::PictureError.
+using FindImpacts = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
 using RefusePicture = std::function<void(const Pictures& p, const std::string& why)>;
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
 

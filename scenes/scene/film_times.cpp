@@ -52,12 +52,15 @@ FilmTimes real_time(const FrameSpan& span, double to) {
 }
 
 // Absent where the film is cut short before it; the whole motion has to have it.
-std::optional<double> reached(const Instant& at, const FrameSpan& span, const sim::Result& motion) {
+std::optional<double> reached(const Instant& at, const FrameSpan& span, double to, const sim::Result& motion) {
+    if (at.kind == Instant::Kind::last) return to;
     return span.to ? find_instant(at, motion) : instant_of(at, motion);
 }
 
-std::string name_of(const Instant& at) {
-    return fmt::format("{} {}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number);
+FrameSpan with_times(FrameSpan span, const sim::Result& motion) {
+    if (span.from_event) span.from = instant_of(*span.from_event, motion);
+    if (span.to_event) span.to = instant_of(*span.to_event, motion);
+    return span;
 }
 
 // Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
@@ -71,11 +74,11 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
     };
     std::vector<Shown> shown;
     for (const FilmEvent& event : span.events) {
-        const std::optional<double> t = reached(event.at, span, motion);
+        const std::optional<double> t = reached(event.at, span, to, motion);
         if (t && *t >= span.from && *t <= to) {
             shown.push_back({&event, *t});
             if (event.freeze > 0) map.freeze(*t, event.freeze);
-        } else if (event.at.kind != Instant::Kind::time) {  // the reader has told of those
+        } else if (event.at.is_event()) {  // the reader has told of those
             out.unshown.push_back(name_of(event.at));
         }
     }
@@ -171,13 +174,14 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     return film_times(span, end_time, motion, motion.impacts, collisions);
 }
 
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions) {
+    const FrameSpan span = with_times(asked, motion);
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
     if (span.poster) {
-        if (const std::optional<double> t = reached(*span.poster, span, motion))
+        if (const std::optional<double> t = reached(*span.poster, span, to, motion))
             out.poster = first_at(out.frames, *t);
         else
             out.unshown.push_back(name_of(*span.poster) + ", its poster");

@@ -1,5 +1,7 @@
 #include "scenes/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -38,11 +40,21 @@ bool is_data(const Output& output) {
     return std::visit([](const auto& o) { return o.kIsData; }, output);
 }
 
-bool FrameSpan::looks_at_impacts() const {
-    return speed.around || (poster && poster->kind != Instant::Kind::time) ||
-           std::any_of(events.begin(), events.end(),
-                       [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
+std::string name_of(const Instant& at) {
+    for (const EventWord& each : kEventWords)
+        if (each.kind == at.kind) return fmt::format("{} {}", each.word, at.number);
+    return at.kind == Instant::Kind::last ? "the end" : fmt::format("{:g} s", at.t);
 }
+
+std::vector<Instant> FrameSpan::instants() const {
+    std::vector<Instant> all;
+    for (const FilmEvent& event : events) all.push_back(event.at);
+    for (const auto& each : {from_event, to_event, poster})
+        if (each) all.push_back(*each);
+    return all;
+}
+
+bool FrameSpan::looks_at_impacts() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
 
 VideoOutput default_film(const Scene& scene) {
     VideoOutput film;

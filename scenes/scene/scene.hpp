@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -38,14 +39,29 @@ struct Encoding {
     bool variable_rate = false;       // pictures that do not change are coded once and last longer
 };
 
-// An instant of the motion: a time, or the first touch of an impact or a collision, counted from 1.
+// An instant of the motion: a time, the end, or an event counted from 1: the first touch of an impact or a collision,
+// the release of an impact, the apex of a rebound (the largest hub angle between two collisions).
 struct Instant {
-    enum class Kind { time, impact, collision };
+    enum class Kind { time, last, impact, collision, release, apex };
     Kind kind = Kind::time;
     double t = 0;    // [s], >= 0
-    int number = 1;  // of the impact or collision
+    int number = 1;  // of the event
     bool operator==(const Instant&) const = default;
+
+    bool is_event() const { return kind != Kind::time && kind != Kind::last; }
 };
+// How scenes write events: "impact:3", or a word that is enough for the first one, "touch".
+struct EventWord {
+    std::string_view word;  // singular
+    Instant::Kind kind;
+    bool alone = false;  // without a number: the first
+};
+inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
+                                            {"collision", Instant::Kind::collision},
+                                            {"apex", Instant::Kind::apex},
+                                            {"release", Instant::Kind::release, true},
+                                            {"touch", Instant::Kind::impact, true}};
+std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
 
 // How fast the motion runs in a film.
 struct SlowMotion {
@@ -95,10 +111,12 @@ struct FrameSpan {
     std::optional<double> to = {};  // [s], > from; absent: the end of the scene
     Speed speed = {};
     std::vector<FilmEvent> events = {};
+    std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
     std::optional<Instant> poster = {};  // of a video: its frame that is put beside it as a picture
 
     bool real_time() const { return speed.real_time() && events.empty(); }
-    bool looks_at_impacts() const;  // they have to be known before the frames' instants are
+    std::vector<Instant> instants() const;  // all that it names
+    bool looks_at_impacts() const;          // events have to be known before the frames' instants are
 };
 
 class Planner;       // plan/planner.hpp

@@ -117,6 +117,45 @@ TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
     EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
 }
 
+TEST(Films, EventsAreInstantsWhereverATimeIs) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "apex:1"},
+        {"type": "still", "file": "b.png", "at": "release:2"}, {"type": "still", "file": "c.png", "at": "last"},
+        {"type": "frames", "file": "d-##.png", "fps": 50, "from": "touch", "to": "apex:1"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    Plan made = plan(*reading.scene);
+    sim::Result motion;
+    settle(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+        return motion = sim::simulate(problem, request);
+    });
+    ASSERT_GE(motion.impacts.size(), 2u);
+    double highest = 0, apex = 0;  // of the first rebound, by every apex of the ripple
+    for (const sim::Apex& each : motion.apexes)
+        if (each.t > motion.collisions.at(0).t_start && each.t < motion.collisions.at(1).t_start &&
+            each.theta > highest)
+            highest = each.theta, apex = each.t;
+    EXPECT_GT(apex, 0.4);
+    EXPECT_EQ(made.times(made.pictures.at(0)).front(), apex);
+    EXPECT_EQ(made.times(made.pictures.at(1)).front(), motion.impacts[1].t_end);
+    EXPECT_EQ(made.times(made.pictures.at(2)).front(), 1);
+    const std::vector<double>& frames = made.times(made.pictures.at(3));
+    EXPECT_NEAR(frames.front(), motion.impacts[0].t_start, 0.5 / 50);
+    EXPECT_NEAR(frames.back(), apex, 1.5 / 50);
+    EXPECT_THAT(to_json(*reading.scene), HasSubstr("\"from\": \"impact:1\""));
+}
+
+TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "at": 0, "size": [96, 96],
+        "view": {"style": "flat"}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at apex:3").err,
+                HasSubstr("there is no apex 3: the motion has 0 until 0.1 s"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x-##.png --from release --to last").err,
+                HasSubstr("there is no release 1: the motion has 0"));
+    const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("events are counted from 1"));
+}
+
 // The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
 TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
     const Folder folder;
@@ -221,7 +260,7 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     Plan p = plan(*reading.scene);
     EXPECT_EQ(p.impacts_until, 1.5);
     EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
-    settle(p, *reading.scene, [](const sim::Problem&, double) {
+    settle(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
         result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
@@ -350,11 +389,8 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
         {"type": "video", "fps": 30}]})");
     Plan made = plan(*reading.scene);
-    settle(made, *reading.scene, [](const sim::Problem& problem, double until) {
-        sim::Request request;
-        request.end_time = until;
-        return sim::simulate(problem, request);
-    });
+    settle(made, *reading.scene,
+           [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); });
     const auto& poses = made.simulation->request.poses;
     EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
 }
