@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/draw/wrap.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -12,35 +13,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
-
-// Markup of the lines that plain words fill, broken where they say so or grow too wide; six at most.
-std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const TextStyle& style) {
-    constexpr std::size_t kMost = 6;
-    TextStyle natural = style;
-    natural.max_width = 0;
-    std::vector<std::string> lines;
-    std::string line;
-    const auto markup = [&](const std::string& plain) { return escape(canvas.drawable(plain)); };
-    const auto end_line = [&] {
-        lines.push_back(markup(line));
-        line.clear();
-    };
-    for (std::size_t at = 0; at < words.size() && lines.size() < kMost;) {
-        const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
-        const std::string word = words.substr(at, end - at);
-        std::string longer = line;
-        if (!line.empty()) longer += ' ';
-        longer += word;
-        // The last line takes what is left; it is cut.
-        const bool fits = lines.size() + 1 == kMost || canvas.measure(markup(longer), natural).w <= style.max_width;
-        if (!fits && !line.empty()) end_line();
-        line += line.empty() ? word : " " + word;
-        if (end < words.size() && words[end] == '\n') end_line();
-        at = end + 1;
-    }
-    if (!line.empty() && lines.size() < kMost) end_line();
-    return lines;
-}
+constexpr std::size_t kCaptionLines = 6;
 
 }  // namespace
 
@@ -62,7 +35,7 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
 }
 
 void draw_angle_arc(const MechanismScene& s, double room) {
-    if (s.at.small) return;
+    if (!s.at.labelled()) return;
     double radius = std::min(92 * s.at.marks, room);
     if (s.at.problem().cam) {
         const double free = norm(s.pose.cam_centre) - s.at.problem().cam->radius - s.at.problem().cam->eccentricity;
@@ -101,11 +74,11 @@ void draw_angle_arc(const MechanismScene& s, double room) {
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
 void draw_cam_speed(const MechanismScene& s) {
-    if (!s.at.problem().cam || s.at.small) return;
+    if (!s.at.problem().cam || !s.at.labelled()) return;
     const sim::Cam& cam = *s.at.problem().cam;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
     const double swept = (cam.radius + cam.eccentricity) * s.at.look.camera.scale, radius = swept + 20 * s.at.unit;
-    const std::string label = math("ω") + "\u2009=\u2009" + quantity(cam.speed, "rad/s");
+    const std::string label = math("ω") + "\u2009=\u2009" + turning_speed(cam.speed, s.at.facts.setup->units.rpm);
     TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
     if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
     if (cam.speed != 0) {
@@ -145,7 +118,7 @@ void draw_base_line(const MechanismScene& s) {
 static void draw_disc_letters(const MechanismScene& s, Color ink) {
     const DiscShape& d = *s.shape.disc;
     const double size = 22 * s.at.marks;
-    if (size < kReadable || d.radius < 60 * s.at.marks) return;
+    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
@@ -227,7 +200,7 @@ void draw_force(const MechanismScene& s) {
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (s.at.small) return;
+    if (!s.at.labelled()) return;
     const TextStyle style{.size = 22 * s.at.unit,
                           .color = s.at.palette.contact,
                           .weight = Weight::medium,
@@ -253,7 +226,7 @@ void draw_callout(const MechanismScene& s, Vec2 tip) {
                               .color = s.at.palette.ink,
                               .weight = Weight::medium,
                               .max_width = 0.45 * s.at.box.w};
-        const std::vector<std::string> lines = wrapped(s.canvas, c.text, style);
+        const std::vector<std::string> lines = wrapped(s.canvas, c.text, style, kCaptionLines);
         const double line = 29 * s.at.unit;
         double widest = 0;
         for (const std::string& words : lines) widest = std::max(widest, s.canvas.measure(words, style).w);
@@ -271,7 +244,7 @@ void draw_callout(const MechanismScene& s, Vec2 tip) {
                 std::clamp(plate.y, s.at.box.y, std::max(s.at.box.y, s.at.box.bottom() - plate.h - 40 * s.at.unit));
         };
         keep_inside();
-        if (s.at.problem().cam && !s.at.small) {
+        if (s.at.problem().cam && s.at.labelled()) {
             const Box words = s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * s.at.unit, s.view);
             if (plate.overlaps(words))
                 plate.y = words.bottom() + 12 * s.at.unit;  // below the cam's speed, else above it

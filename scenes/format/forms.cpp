@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <numeric>
 
@@ -252,6 +253,62 @@ Form speed_form(Speed& speed) {
         "factor, \"impacts\" or object",
         R"({"anyOf": [{"const": "impacts"}, {"type": "number", "minimum": 1e-06, "maximum": 1000}, {"$ref": "#/$defs/percentage"}]})",
         read, write};
+}
+
+// ---- plates ------------------------------------------------------------------------------------
+
+bool take_background(std::string_view text, render::View& view) {
+    view.transparent = text == "transparent";
+    view.paper.reset();
+    if (view.transparent || text == "paper") return true;
+    if (text.size() != 7 || text.front() != '#') return false;
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (error != std::errc() || end != text.data() + text.size()) return false;
+    view.paper = value;
+    return true;
+}
+
+Form background_form(render::View& view) {
+    const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::string || !take_background(node.text, view))
+            r.fail(node, key,
+                   fmt::format("{} = {} is no background; write \"paper\", \"transparent\" or a colour such as "
+                               "\"#f4f1ea\"",
+                               r.path(key), shown(node)));
+    };
+    const auto write = [&view] {
+        return text_node(view.paper ? fmt::format("#{:06x}", *view.paper) : view.transparent ? "transparent" : "paper");
+    };
+    return {"\"paper\", \"transparent\" or \"#rrggbb\"",
+            R"({"anyOf": [{"enum": ["paper", "transparent"]}, {"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"}]})",
+            read, write};
+}
+
+std::optional<render::Shown> shown_preset(std::string_view name) {
+    if (name == "all") return render::Shown{};
+    if (name == "talk") return render::Shown{.parameters = false, .accuracy = false};
+    if (name == "paper") return render::Shown{.title = false, .parameters = false, .accuracy = false};
+    if (name == "clean") return render::Shown{false, false, false, false, false, false};
+    return std::nullopt;
+}
+
+Form show_form(render::Shown& show) {
+    const auto read = [&show](ObjectReader& r, const Node& node, const std::string& key) {
+        const auto preset = node.kind == Node::Kind::string ? shown_preset(node.text) : std::nullopt;
+        if (preset)
+            show = *preset;
+        else
+            r.fail(node, key,
+                   fmt::format("{} = {} is no preset{}", r.path(key), shown(node),
+                               suggestion_or_list(node.text, {std::begin(kPresets), std::end(kPresets)})));
+    };
+    const auto write = [&show]() -> std::optional<Node> {
+        for (const char* name : kPresets)
+            if (show == *shown_preset(name)) return text_node(name);
+        return std::nullopt;
+    };
+    return {"preset or object", fmt::format(R"({{"enum": ["{}"]}})", fmt::join(kPresets, "\", \"")), read, write};
 }
 
 // ---- channels ----------------------------------------------------------------------------------

@@ -22,6 +22,11 @@ Form bound_form(double& time, std::optional<Instant>& event);
 Form bound_form(std::optional<double>& time, std::optional<Instant>& event);
 void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event);
 Form speed_form(Speed& speed);
+Form background_form(render::View& view);
+Form show_form(render::Shown& show);
+bool take_background(std::string_view text, render::View& view);  // false: it is none
+std::optional<render::Shown> shown_preset(std::string_view name);
+inline constexpr const char* kPresets[] = {"all", "talk", "paper", "clean"};
 Form channels_form(std::vector<sim::Channel>& channels);
 Form grouped_channels_form(std::vector<SeriesPanel>& panels);  // a panel for each unit
 Form abscissa_form(std::string& against);                      // of a series: "t", "turns", or a channel

@@ -27,6 +27,8 @@ const char* kind_name(Pictures::Kind kind) {
             return "video";
         case Pictures::Kind::frames:
             return "frames";
+        case Pictures::Kind::page:
+            return "page";
         case Pictures::Kind::still:
             return "still";
     }

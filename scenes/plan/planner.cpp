@@ -27,7 +27,8 @@ std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& 
 std::string too_small(const Picture& picture) {
     std::string out;
     if (!picture.layout) return out;
-    for (const render::PanelSpec& panel : render::left_out(picture.size.width, picture.size.height, *picture.layout))
+    for (const render::PanelSpec& panel :
+         render::left_out(picture.size.width, picture.size.height, *picture.layout, picture.view.show))
         out += (out.empty() ? "" : ", ") +
                (panel.channels.empty() ? std::string(type_of(panel.kind).name) : name(panel.channels.front()));
     return out;

@@ -63,10 +63,22 @@ FrameSpan with_times(FrameSpan span, const sim::Result& motion) {
     return span;
 }
 
+// A wanted duration leaves the motion what freezes and the end do not take.
+Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
+    if (!span.duration) return span.speed;
+    double left = *span.duration - span.hold;
+    for (const FilmEvent& event : span.events)
+        if (const auto t = reached(event.at, span, to, motion); t && *t >= span.from && *t <= to) left -= event.freeze;
+    if (!(left > 0))
+        throw render::PictureError(fmt::format(
+            "a film of {:g} s has no time left beside its freezes and its hold; raise \"duration\"", *span.duration));
+    return {.factor = (to - span.from) / left};
+}
+
 // Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
 FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
                  std::vector<double>& fine) {
-    TimeMap map(span.from, to, span.speed, slowed);
+    TimeMap map(span.from, to, speed_of(span, to, motion), slowed);
     FilmTimes out;
     struct Shown {
         const FilmEvent* event;
@@ -82,6 +94,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
             out.unshown.push_back(name_of(event.at));
         }
     }
+    map.freeze(to, span.hold);
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
     if (count > kMostFrames)
         throw render::PictureError(
@@ -97,7 +110,8 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
         // Freezes begin between frames: rounding must not step back by an ulp.
         previous = std::max(previous, map.instant(film));
         out.frames.push_back(previous);
-        out.speeds.push_back(map.speed(film));
+        // The last picture stands, but nobody has frozen it.
+        out.speeds.push_back(span.hold > 0 && previous >= to ? map.speed_at(to) : map.speed(film));
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
     }

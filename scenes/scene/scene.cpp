@@ -15,10 +15,18 @@ std::string poster_file(const VideoOutput& video) {
     return std::filesystem::path(video.file).replace_extension(".png").generic_string();
 }
 
+std::string subtitles_file(const VideoOutput& video) {
+    if (video.subtitles == Subtitles::none) return {};
+    const char* ending = video.subtitles == Subtitles::vtt ? ".vtt" : ".srt";
+    return std::filesystem::path(video.file).replace_extension(ending).generic_string();
+}
+
 std::vector<std::string> written_by(const Output& output) {
     std::vector<std::string> files{file_of(output)};
-    if (const auto* video = std::get_if<VideoOutput>(&output); video && video->span.poster)
-        files.push_back(poster_file(*video));
+    if (const auto* video = std::get_if<VideoOutput>(&output)) {
+        if (video->span.poster) files.push_back(poster_file(*video));
+        if (video->subtitles != Subtitles::none) files.push_back(subtitles_file(*video));
+    }
     return files;
 }
 
@@ -34,6 +42,10 @@ double memory_of(const Picture& picture) {
             return 60 * pixels;
     }
     return 0;
+}
+
+bool is_picture(const Output& output) {
+    return std::visit([](const auto& o) { return std::is_base_of_v<Picture, std::decay_t<decltype(o)>>; }, output);
 }
 
 bool is_data(const Output& output) {
