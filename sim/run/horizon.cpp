@@ -19,6 +19,8 @@ constexpr double kTighter = 1e-2;     // of the asked tolerance, for the compari
 constexpr double kTightest = 1e-13;   // of rtol
 constexpr double kMostSteps = 500e3;  // of an explicit method: some seconds
 constexpr double kRadians = 2;        // that such a step spans of the fastest vibration
+constexpr double kLastTurns = 6;      // of the cam, that lasting contact is compared for
+constexpr double kRepeated = 2;       // of these, that what follows repeats
 
 Problem at_tolerance(const Problem& problem) {
     Problem out = problem;
@@ -51,6 +53,13 @@ double fastest_rate(const Problem& problem, const System& system) {
     return fastest * std::max(1.0, 2 * ratio);
 }
 
+// Nothing but the cam's turning changes with time, and lasting contact has no events of its own.
+bool repeats_in_contact(const Problem& problem) {
+    const Drive& drive = problem.hub.drive;
+    return problem.cam && (std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive)) &&
+           !std::holds_alternative<StickSlipFriction>(problem.contact.friction);
+}
+
 std::string sentence(const Result& result) {
     const auto until = [](const Interval& lost) {
         return lost.to ? fmt::format("from {:.4g} s to {:.4g} s", lost.from, *lost.to)
@@ -78,6 +87,28 @@ Request horizon_request(const Problem& problem, double end) {
     request.turning_points = false;
     request.tables.push_back(std::move(table));
     return request;
+}
+
+double compared_until(const Problem& problem, const Result& plain, double end) {
+    if (!repeats_in_contact(problem) || plain.impacts.empty() || plain.impacts.back().t_end) return end;
+    return std::min(end, plain.impacts.back().t_start + kLastTurns * cam_period(problem));
+}
+
+Request cut(Request angle, double until) {
+    std::vector<double>& times = angle.tables[0].times;
+    times.erase(std::ranges::upper_bound(times, until), times.end());
+    return angle;
+}
+
+bool agrees_for_good(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
+                     double end) {
+    const std::vector<double>&times = angle.tables[0].times, &ours = plain.tables[0].values[0],
+          &theirs = other.tables[0].values[0];
+    const double until = times.back(), window = kRepeated * cam_period(problem);
+    const double most = kError / (1 + (end - until) / window) / compared_angle(problem).scale;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (times[i] > until - window && !(std::fabs(ours[i] - theirs[i]) <= most)) return false;
+    return true;
 }
 
 Comparison comparison(const Problem& problem, double end) {

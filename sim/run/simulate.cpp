@@ -54,11 +54,17 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
     std::vector<Request> all(requests.begin(), requests.end());
     all.push_back(horizon_request(problem, end));
     std::vector<Result> results = motion(all);
-    const Request& angle = all.back();
-    Comparison compared = comparison(problem, end);
-    const Result other = comparison_run(problem, angle, progress, effort, compared);
     const Result plain = std::move(results.back());
     results.pop_back();
+    const double settled = compared_until(problem, plain, end);
+    Request angle = cut(all.back(), settled);
+    Comparison compared = comparison(problem, settled);
+    Result other = comparison_run(problem, angle, progress, effort, compared);
+    if (settled < end && !agrees_for_good(problem, angle, plain, other, end)) {
+        angle = all.back();
+        compared = comparison(problem, end);
+        other = comparison_run(problem, angle, progress, effort, compared);
+    }
     for (std::size_t i = 0; i < requests.size(); ++i)
         if (requests[i].horizon) tell_reproducibility(problem, angle, plain, other, compared, results[i]);
     return results;

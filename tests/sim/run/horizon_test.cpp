@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -65,6 +68,64 @@ TEST(Horizon, WhatTheComparisonDidNotReachIsNotReproducible) {
     const Result r = told(a, b, 1);
     EXPECT_EQ(r.reproducible_until, 0.599);
     EXPECT_EQ(r.not_reproducible.at(0).to, std::nullopt);
+}
+
+// At rest on the turning cam from the start.
+Problem resting(double speed) {
+    Problem p;
+    p.initial.shape = InitialShape::resting;
+    p.cam->speed = speed;
+    return p;
+}
+
+TEST(Horizon, LastingContactIsComparedForSixTurns) {
+    const Problem p = resting(5);
+    Request request;
+    request.end_time = 40;
+    request.horizon = true;
+    const Result settled = simulate(p, request);
+    ASSERT_FALSE(settled.impacts.back().t_end.has_value());
+    EXPECT_TRUE(settled.not_reproducible.empty()) << settled.reproducibility;
+    EXPECT_EQ(settled.reproducible_until, 40);
+    EXPECT_NEAR(compared_until(p, settled, 40), settled.impacts.back().t_start + 12 * std::numbers::pi / 5, 1e-12);
+    const auto steps = [&](double end) {
+        Effort effort;
+        request.end_time = end;
+        simulate(p, {&request, 1}, {}, nullptr, &effort);
+        return effort.spent.steps;
+    };
+    EXPECT_LT(steps(40), 2 * steps(compared_until(p, settled, 40)));
+    // Nothing of the sort where it may still leave the cam, or something else changes with time.
+    EXPECT_EQ(compared_until(p, settled, 1), 1);  // the end
+    Problem other = p;
+    other.hub.drive = HarmonicTorque{0.1, 3, 0};
+    EXPECT_EQ(compared_until(other, settled, 40), 40);
+    other = p;
+    other.contact.friction = StickSlipFriction{};
+    EXPECT_EQ(compared_until(other, settled, 40), 40);
+    Result left = settled;
+    left.impacts.back().t_end = 30;
+    EXPECT_EQ(compared_until(p, left, 40), 40);
+}
+
+TEST(Horizon, SmallDifferencesThatMayGrowAreFollowedToTheEnd) {
+    const Problem p = resting(5);
+    const double until = 4, end = 104, window = 4 * std::numbers::pi / 5;
+    const Request angle = cut(horizon_request(p, end), until);
+    ASSERT_EQ(angle.tables[0].times.back(), until);
+    const std::vector<double> ours(angle.tables[0].times.size(), 0.5);
+    const auto agrees = [&](double by, std::size_t at) {
+        std::vector<double> theirs = ours;
+        theirs[at] += by;
+        Result a, b;
+        a.tables.push_back({{}, {ours}}), b.tables.push_back({{}, {theirs}});
+        return agrees_for_good(p, angle, a, b, end);
+    };
+    const double most = 1e-6 / (1 + 100 / window);
+    EXPECT_TRUE(agrees(0.99 * most, 3900));
+    EXPECT_FALSE(agrees(1.01 * most, 3900));
+    EXPECT_FALSE(agrees(std::nan(""), 3900));
+    EXPECT_TRUE(agrees(1, 100));  // before those turns
 }
 
 TEST(Horizon, OfThePapersSystemIsATransientThatEnds) {
