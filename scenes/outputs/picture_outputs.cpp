@@ -1,4 +1,7 @@
 // Outputs "video", "frames" and "still": pictures of the mechanism and its charts.
+#include <algorithm>
+#include <cmath>
+
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
@@ -195,8 +198,10 @@ void PageOutput::visit(SceneVisitor& v) {
              "Colours.");
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
-    v.form("fps", frame_rate_form(span.fps),
-           "Poses a second that are looked at; those that the page finds by interpolation are left out of it.");
+    v.form(
+        "fps", frame_rate_form(span.fps),
+        "Poses a second that are looked at, at least a thousand in all; those that the page finds by interpolation are "
+        "left out of it.");
     v.form("from", bound_form(span.from, span.from_event), "First instant.");
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
@@ -240,7 +245,11 @@ void PageOutput::plan(Planner& planner, std::size_t output) const {
     p.picture = {.view = view};
     p.picture.view.style = render::Style::flat;
     p.span = span;
-    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
+    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
+    const double end = span.to.value_or(planner.scene().end_time),
+                 rate = kFewestPoses / std::max(end - span.from, 1e-9);
+    if (rate > span.fps.value()) p.span.fps = {static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1};
+    planner.add(std::move(p), end);
 }
 
 void StillOutput::plan(Planner& planner, std::size_t output) const {
