@@ -47,7 +47,14 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         const auto width = [&](const std::string& line) { return canvas.measure(line, out.style).w; };
         TextStyle within = out.style;
         within.max_width = box.w;
-        const std::vector<std::string> lines = wrapped(canvas, title, within, 2);
+        std::vector<std::string> lines = wrapped(canvas, title, within, 2);
+        // Lines of about one length read better than a word alone.
+        while (lines.size() == 2 && width(lines[1]) < 0.6 * width(lines[0])) {
+            within.max_width *= 0.95;
+            std::vector<std::string> narrower = wrapped(canvas, title, within, 2);
+            if (width(narrower.back()) > within.max_width) break;
+            lines = std::move(narrower);
+        }
         out.lines.clear();
         for (std::size_t i = 0; i < lines.size(); ++i)
             out.lines.push_back({lines[i], {box.x, box.y + (18 + 28 * static_cast<double>(i)) * u}});
