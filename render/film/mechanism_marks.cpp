@@ -14,6 +14,7 @@ namespace {
 using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
 constexpr std::size_t kCaptionLines = 6;
+constexpr double kNearContact = 2e-3;      // of the beam's length: what looks like touching
 constexpr double kCaptionLine = 29;  // from line to line [design px]
 
 }  // namespace
@@ -276,9 +277,12 @@ void draw_callout(const MechanismScene& s, Vec2 tip) {
     Caption latest = caption_of(s, *shown.front(), style, {from.x + swept + 60 * s.at.unit, from.y + 26 * s.at.unit});
     const std::optional<Box> words = speed_words(s);
     place_caption(s, words, latest.plate);
-    s.canvas.move_to({latest.plate.x + 10 * s.at.unit, latest.plate.y + 10 * s.at.unit});
-    s.canvas.line_to(foot);
-    s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
+    // A line to the contact while there is one; without a cam to the tip.
+    if (!cam || (s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length)) {
+        s.canvas.move_to({latest.plate.x + 10 * s.at.unit, latest.plate.y + 10 * s.at.unit});
+        s.canvas.line_to(foot);
+        s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
+    }
     draw_caption(s, latest, style);
     const double gap = 8 * s.at.unit;
     double below = latest.plate.bottom() + gap, above = latest.plate.y - gap;

@@ -63,6 +63,33 @@ FrameSpan with_times(FrameSpan span, const sim::Result& motion) {
     return span;
 }
 
+struct ShownEvent {
+    const FilmEvent* event;
+    double t;
+};
+
+// Words without a time of their own give way to the next ones.
+std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, const TimeMap& map, double fps) {
+    constexpr double kUsual = 1.5;  // [s]
+    std::vector<render::Callout> out;
+    std::vector<const FilmEvent*> events;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto& [event, t] = shown[i];
+        if (event->text.empty()) continue;
+        double from = map.film_time(t);  // one after the other where several are of one instant
+        for (std::size_t j = 0; j < i; ++j)
+            if (shown[j].t == t) from += shown[j].event->freeze;
+        const double length = std::max(event->show.value_or(kUsual), event->freeze);
+        out.push_back({static_cast<int>(std::ceil(from * fps - 1e-6)),
+                       static_cast<int>(std::floor((from + length) * fps + 1e-6)), event->text});
+        events.push_back(event);
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+        for (const render::Callout& next : out)
+            if (!events[i]->show && next.first > out[i].first) out[i].last = std::min(out[i].last, next.first - 1);
+    return out;
+}
+
 // A wanted duration leaves the motion what freezes and the end do not take.
 Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
     if (!span.duration) return span.speed;
@@ -80,11 +107,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
                  std::vector<double>& fine) {
     TimeMap map(span.from, to, speed_of(span, to, motion), slowed);
     FilmTimes out;
-    struct Shown {
-        const FilmEvent* event;
-        double t;
-    };
-    std::vector<Shown> shown;
+    std::vector<ShownEvent> shown;
     for (const FilmEvent& event : span.events) {
         const std::optional<double> t = reached(event.at, span, to, motion);
         if (t && *t >= span.from && *t <= to) {
@@ -115,16 +138,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
     }
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const auto& [event, t] = shown[i];
-        if (event->text.empty()) continue;
-        double from = map.film_time(t);  // one after the other where several are of one instant
-        for (std::size_t j = 0; j < i; ++j)
-            if (shown[j].t == t) from += shown[j].event->freeze;
-        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
-                  last = static_cast<int>(std::floor((from + std::max(event->show, event->freeze)) * fps + 1e-6));
-        out.callouts.push_back({first, last, event->text});
-    }
+    out.callouts = callouts_of(shown, map, fps);
     return out;
 }
 

@@ -84,7 +84,7 @@ struct FilmEvent {
     Instant at;
     double freeze = 0;  // [s] of the film
     std::string text;   // plain, beside the contact
-    double show = 1.5;  // [s] of the film, and at least as long as it stands still
+    std::optional<double> show = {};  // [s] of the film; absent: 1.5 s, or until the next words come
 };
 
 // Another motion in the same picture: this scene with some of its mechanics changed.

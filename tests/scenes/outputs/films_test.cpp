@@ -415,6 +415,15 @@ TEST(Films, LastAsLongAsIsWanted) {
     EXPECT_THROW(times_in(R"("duration": 1, "hold": 2)"), std::runtime_error);
 }
 
+TEST(Films, ShowWordsForTheirTimeAndOthersUntilTheNext) {
+    const FilmTimes told = times_in(R"("events": [{"at": 0.1, "text": "a"}, {"at": 0.2, "text": "b", "show": 0.5},
+        {"at": 0.3, "text": "c"}])");
+    ASSERT_EQ(told.callouts.size(), 3u);
+    EXPECT_EQ(told.callouts[0].last, 5);
+    EXPECT_EQ(told.callouts[1].last, 21);
+    EXPECT_EQ(told.callouts[2].first, 9);
+}
+
 TEST(Films, HoldTheirLastPictureAtTheVeryEnd) {
     const FilmTimes held = times_in(R"("hold": 0.5, "poster": "last")");
     ASSERT_EQ(held.frames.size(), 45u);
