@@ -168,8 +168,6 @@ int command_line(int argc, const char* const* argv) {
         return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
     } catch (const sim::Interrupted&) {
         return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
-    } catch (const Stopped&) {
-        return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
     } catch (const std::bad_alloc&) {
         return fail(kInputOutput, fmt::format("beamcam: {}", render::memory_words()));
     } catch (const std::exception& e) {

@@ -6,11 +6,11 @@
 
 #include "output/data/manifest.hpp"
 #include "output/data/table_reader.hpp"
-#include "output/files/interrupt.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/outputs/run_context.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -86,7 +86,7 @@ Comparison compare_pictures(const DiffArguments& args) {
     output::Raster left, right;
     std::string name_a, name_b;
     for (;;) {
-        if (output::interrupted()) throw Stopped();
+        stop_if_interrupted();
         const bool more_a = a.next(left, name_a), more_b = b.next(right, name_b);
         if (!more_a && !more_b) break;
         all.pictures_a += more_a ? 1 : 0;

@@ -63,6 +63,8 @@ int act(const LyapunovArguments& args) {
     };
     write_answer({[&] { return output::exponents_json(found); }, [&] { return report(found); }, content}, args.files,
                  args.common, manifest);
+    if (std::cmp_greater(args.count, found.lambda.size()))
+        say(args.common, fmt::format("note: there are {} exponents, no {}", found.lambda.size(), args.count));
     for (const std::string& warning : found.warnings) say(args.common, "warning: " + warning);
     return 0;
 }

@@ -5,7 +5,6 @@
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/errors.hpp"
-#include "output/files/interrupt.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/findings.hpp"
@@ -15,6 +14,7 @@
 #include "scenes/format/reader.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/motions.hpp"
+#include "scenes/outputs/run_context.hpp"
 #include "scenes/plan/survey.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -92,7 +92,7 @@ class PaperWriter {
         }
     }
     void write(const std::string& file, const std::string& bytes) {
-        if (output::interrupted()) throw Stopped();
+        stop_if_interrupted();
         const fs::path path = fs::path(args_.directory) / file;
         output::Target target = manifest_.target(path, {{}, std::string(kVersion), {}});
         target.within = args_.directory;

@@ -5,14 +5,16 @@
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
-#include "output/files/interrupt.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "render/draw/canvas.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/outputs/run_context.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+constexpr int kTallest = 32767;  // [px] of Cairo's pictures
 
 struct SheetArguments {
     Common common;
@@ -45,8 +47,7 @@ long count_of(const std::string& film) {
     output::Raster picture;
     std::string name;
     long count = 0;
-    for (; source.next(picture, name); ++count)
-        if (output::interrupted()) throw Stopped();
+    for (; source.next(picture, name); ++count) stop_if_interrupted();
     return count;
 }
 
@@ -66,10 +67,15 @@ render::Image sheet_of(const SheetArguments& args) {
     int k = 0;
     std::optional<Grid> grid;
     for (long frame = 0; k < shown && source.next(picture, name); ++frame) {
-        if (output::interrupted()) throw Stopped();
+        stop_if_interrupted();
         if (!is_shown(frame, frames, shown, k)) continue;
         if (!grid) {
             grid.emplace(args, shown, picture);
+            if (grid->total_height() > kTallest)
+                throw UsageError(
+                    fmt::format("the sheet would be {} × {} pixels, more than {} high; use more --columns, "
+                                "or a smaller --width or --count",
+                                args.width, grid->total_height(), kTallest));
             sheet = render::Image(args.width, grid->total_height());
             render::Canvas(sheet, fonts).paint(render::rgb(0xFFFFFF));
         }

@@ -27,6 +27,8 @@
 namespace beamcam::scenes {
 namespace {
 
+constexpr int kUsualParts = 16;
+
 struct SweepArguments {
     Common common;
     std::string scene, file;
@@ -35,7 +37,7 @@ struct SweepArguments {
     std::optional<std::string> diagram, figure, ordinate, caption;
     std::string column = "elsevier";
     std::optional<std::string> shard, emit;
-    int parts = 16;
+    int parts = 0;  // 0: kUsualParts
 };
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -57,9 +59,8 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     SweptKey over;
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
-    Dimension dimension = dimension::kNone;
-    for (const sim::NumberKey& key : sim::number_keys(problem))
-        if (key.path == over.key) dimension = key.dimension;
+    const auto key = sim::number_key(problem, over.key);
+    const Dimension dimension = key ? key->dimension : dimension::kNone;  // other keys are refused later
     if (value.starts_with('@')) {
         const std::size_t colon = value.rfind(':');
         if (colon == std::string::npos) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
@@ -198,7 +199,7 @@ void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOpti
     if (store.count() > 0) say(args.common, fmt::format("{} points are there already", store.count()));
     try {
         make_points(grid, part, options.threads, progress, store);
-    } catch (const Stopped&) {
+    } catch (const sim::Interrupted&) {
         progress.end();
         say(args.common, fmt::format("{} points are kept; the same command goes on from there", store.count()));
         throw;
@@ -249,6 +250,7 @@ void judge_parts(const SweepArguments& args) {
 }
 
 void refuse_idle_options(const SweepArguments& args) {
+    if (args.parts > 0 && !args.emit) throw UsageError("--parts belongs to --emit");
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
     if (args.figure) throw UsageError("--figure belongs to --diagram");
@@ -265,8 +267,9 @@ int act(const SweepArguments& args) {
     const RunOptions options = run_options(args.common, "");
     const SweepGrid grid(scene);
     if (args.emit)
-        print_text(engine_script(*args.emit, command_of(args), args.file,
-                                 static_cast<int>(std::min<std::uint64_t>(args.parts, grid.tasks()))));
+        print_text(engine_script(
+            *args.emit, command_of(args), args.file,
+            static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
     else if (args.common.dry_run)
         print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
     else

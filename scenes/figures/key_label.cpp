@@ -47,8 +47,7 @@ std::string axis_label(const std::string& symbol, const std::string& unit) {
 }
 
 std::string key_label(const std::string& key, const sim::Problem& problem) {
-    for (const sim::NumberKey& each : sim::number_keys(problem))
-        if (each.path == key) return axis_label(symbol_of(key), si_unit(each.dimension));
+    if (const auto known = sim::number_key(problem, key)) return axis_label(symbol_of(key), si_unit(known->dimension));
     return symbol_of(key);
 }
 

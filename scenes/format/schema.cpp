@@ -108,9 +108,11 @@ class SchemaWriter {
         add(out, "additionalProperties", truth_node(false));
         if (!needed.items.empty()) add(out, "required", std::move(needed));
         const Node& known = out.find("properties")->value;
+        std::vector<Node> together;
         for (const auto& [one, other] : shape.exclusive)
             if (known.find(one) && known.find(other))
-                add(out, "not", node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
+                together.push_back(node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
+        if (!together.empty()) add(out, "not", one_of("anyOf", std::move(together)));
         for (const Node& restriction : shape.restrictions) append(out, restriction);
         --depth_;
         return out;

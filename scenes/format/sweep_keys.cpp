@@ -26,19 +26,60 @@ static void visit(SceneVisitor& v, sim::CamSpan& span) {
     v.exclude("cam_turns", "time");
 }
 
+// The dimension of the scene's key; none where it is refused anyway.
+static sim::Dimension dimension_of(const std::string& key, const ObjectReader& r) {
+    const auto known = sim::number_key(r.context().scene.problem, key);
+    return known ? known->dimension : dim::kNone;
+}
+
+// A value of another key, in its units.
+template <class Number>  // double, or optional<double>
+static Form value_form(Number& value, const std::string& of) {
+    const auto read = [&value, &of](ObjectReader& r, const Node& node, const std::string& key) {
+        double given = 0;
+        if (r.number_value(node, key, dimension_of(of, r), given)) value = given;
+    };
+    return {"number, or text with the unit of the key", R"({"anyOf": [{"type": "number"}, {"type": "string"}]})", read,
+            [&value] {
+                const std::optional<double> given = value;
+                return given ? std::optional(number_node(*given)) : std::nullopt;
+            }};
+}
+
+static Form values_form(std::vector<double>& values, const std::string& of) {
+    const auto read = [&values, &of](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::array || node.items.empty())
+            return r.fail(node, key, fmt::format("{} must be a list of numbers, not {}", r.path(key), shown(node)));
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            double given = 0;
+            if (r.number_value(node.items[i], fmt::format("{}.{}", key, i), dimension_of(of, r), given))
+                values.push_back(given);
+        }
+    };
+    const auto write = [&values]() -> std::optional<Node> {
+        if (values.empty()) return std::nullopt;
+        Node all = array_node();
+        for (const double value : values) all.items.push_back(number_node(value));
+        return all;
+    };
+    return {"list of numbers, or texts with the unit of the key",
+            R"({"type": "array", "minItems": 1, "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}})", read,
+            write};
+}
+
 static void visit(SceneVisitor& v, RandomKey& key) {
     v.text(sim::required("key", "\"initial.angle\""), key.key, "A key of the scene that is a number.");
-    v.number("from", key.from, sim::kPlainNumber, sim::kAny, "Lowest value, in the key's SI unit.");
-    v.number("to", key.to, sim::kPlainNumber, sim::kAny, "Highest value.");
+    v.form("from", value_form(key.from, key.key), "Lowest value.");
+    v.form("to", value_form(key.to, key.key), "Highest value.");
 }
 
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
-    v.number("from", over.from, sim::kPlainNumber, sim::kAny, "First value, in the key's SI unit.");
-    v.number("to", over.to, sim::kPlainNumber, sim::kAny, "Last value.");
+    v.form("from", value_form(over.from, over.key), "First value.");
+    v.form("to", value_form(over.to, over.key), "Last value.");
     v.whole("count", over.count, 1, 100'000'000, "How many values, both ends included.");
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}}, "Of the values between the ends.");
-    v.numbers("values", over.values, sim::kPlainNumber, sim::kAny, {1}, "The values themselves.");
+    v.form("values", values_form(over.values, over.key), "The values themselves.");
     v.text(sim::written_if(!over.file.empty(), "file"), over.file, "A .csv or .npz file with the values.");
     v.text(sim::written_if(!over.column.empty(), "column"), over.column, "Its column.");
     v.exclude("from", "values");
@@ -169,7 +210,8 @@ void visit(SceneVisitor& v, Sweep& sweep) {
         "at random.");
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
-            r.fail(r.place("over"), problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
+            if (!r.findings().failed(r.path(problem.key)))  // told already
+                r.fail(r.place("over"), problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
     });
 }
 

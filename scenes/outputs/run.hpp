@@ -24,11 +24,6 @@ struct RunOptions {
     ProgressStyle progress = ProgressStyle::automatic;
 };
 
-// Signals asked to stop: nothing half-written is left.
-struct Stopped : std::runtime_error {
-    Stopped() : std::runtime_error("interrupted") {}
-};
-
 // Some outputs could not be made, which was told; all others were.
 struct Incomplete : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -39,7 +34,7 @@ struct NameClash : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// "-" as a file name is standard output. Throws what sim, render and output throw, NameClash, Stopped and, at
+// "-" as a file name is standard output. Throws what sim, render and output throw, NameClash and, at
 // the end, Incomplete.
 void run(std::span<const Scene> scenes, const RunOptions& options);
 void run(const Scene& scene, const RunOptions& options);

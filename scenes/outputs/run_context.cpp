@@ -11,7 +11,7 @@ std::string counted(std::size_t n, std::string_view thing) {
 }
 
 void stop_if_interrupted() {
-    if (output::interrupted()) throw Stopped();
+    if (output::interrupted()) throw sim::Interrupted();
 }
 
 RunContext::RunContext(const RunOptions& wanted)

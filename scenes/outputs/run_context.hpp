@@ -16,7 +16,7 @@
 namespace beamcam::scenes {
 
 std::string counted(std::size_t n, std::string_view thing);  // "2 impacts"
-void stop_if_interrupted();                                  // throws Stopped
+void stop_if_interrupted();                                  // throws sim::Interrupted
 inline bool is_stdout(const std::string& file) { return file == "-"; }
 
 // Where the time went [s], for -v; drawing is summed over threads.

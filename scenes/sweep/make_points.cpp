@@ -13,6 +13,7 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/outputs/run.hpp"
+#include "scenes/outputs/run_context.hpp"
 #include "scenes/scene/version.hpp"
 #include "sim/sweep/sweep_point.hpp"
 
@@ -70,7 +71,7 @@ class PointMaker {
     void make(const SweepGrid::Task& task) {
         std::vector<double> state;
         for (const std::uint64_t index : task.points) {
-            stop_if_asked();
+            stop_if_interrupted();
             if (store_.has(index)) {
                 if (task.carries) state = store_.read(index).state;
                 continue;
@@ -84,18 +85,12 @@ class PointMaker {
     }
 
   private:
-    static void stop_if_asked() {
-        if (output::interrupted()) throw Stopped();
-    }
-
     output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start, bool carries) {
         try {
             return stored(index,
                           sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr,
                                            [](double) { return !output::interrupted(); }),
                           grid_.sampling(), carries);
-        } catch (const sim::Interrupted&) {
-            throw Stopped();
         } catch (const std::invalid_argument& impossible) {  // a start inside the cam
             sim::SweepPoint none;
             none.motion.failure = impossible.what();

@@ -15,7 +15,7 @@ struct SweepPart {
 };
 std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // by point
 
-// Those that the store has not. The bits of a point depend on neither the threads nor the parts. Throws Stopped,
+// Those that the store has not. The bits of a point depend on neither the threads nor the parts. Throws Interrupted,
 // IoError.
 void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
                  output::PointStore& store);

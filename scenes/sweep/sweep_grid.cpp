@@ -61,11 +61,9 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     scene_.title.clear();
     scene_.end_time = Scene{}.end_time;
     Sweep& sweep = *scene_.sweep;
-    const std::vector<sim::NumberKey> keys = sim::number_keys(scene_.problem);
     for (SweptKey& over : sweep.over) {
         if (!over.file.empty()) read_column(over);
-        const auto key = std::ranges::find(keys, over.key, &sim::NumberKey::path);
-        axes_.push_back({over.key, si_unit(key->dimension), values_of(over)});
+        axes_.push_back({over.key, si_unit(sim::number_key(scene_.problem, over.key)->dimension), values_of(over)});
         cells_ *= axes_.back().values.size();
     }
     for (const SeedKind kind : sweep.seeds.kinds)

@@ -69,6 +69,12 @@ std::vector<NumberKey> number_keys(const Problem& problem) {
     return keys;
 }
 
+std::optional<NumberKey> number_key(const Problem& problem, std::string_view path) {
+    for (NumberKey& key : number_keys(problem))
+        if (key.path == path) return std::move(key);
+    return std::nullopt;
+}
+
 bool set_number(Problem& problem, std::string_view path, double value) {
     bool done = false;
     NumberWalk walk([&](const NumberKey& key, const auto& set) {

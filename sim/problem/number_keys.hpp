@@ -2,6 +2,7 @@
 // can vary.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct NumberKey {
 };
 // Of the problem as it is: the keys of its own drive, friction and so on.
 std::vector<NumberKey> number_keys(const Problem& problem);
+std::optional<NumberKey> number_key(const Problem& problem, std::string_view path);
 
 // False where the problem has no such key, or the key takes whole numbers alone and this is none. Ranges are judged by
 // `validate`.

@@ -55,8 +55,14 @@ def mutants(scene):
             yield changed
 
 
+def without_duplicates(pairs):
+    """Of two equal keys of an object, JSON readers keep the last alone."""
+    assert len(dict(pairs)) == len(pairs), [key for key, _ in pairs]
+    return dict(pairs)
+
+
 def main():
-    schema = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
+    schema = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"), object_pairs_hook=without_duplicates)
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
     if sys.argv[2] == "--mutate":

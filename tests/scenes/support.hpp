@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenes/format/reader.hpp"
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::scenes::testing {
 

@@ -17,13 +17,7 @@
 #include "sim/integrate/integrator.hpp"
 #include "sim/problem/keys.hpp"
 #include "sim/run/simulate.hpp"
-
-// For tests that take minutes under a sanitizer, and whose code shorter ones run too.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SKIP_UNDER_SANITIZERS() GTEST_SKIP() << "takes minutes under a sanitizer"
-#else
-#define SKIP_UNDER_SANITIZERS() (void)0
-#endif
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::sim::testing {
 

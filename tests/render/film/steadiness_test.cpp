@@ -11,6 +11,7 @@
 #include "render/plot/labels.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -65,6 +66,7 @@ void no_paper_between(Style style, std::optional<double> factor) {
 }
 
 TEST(Steadiness, ATouchingContactShowsNoPaperBetween) {
+    SKIP_UNDER_SANITIZERS();
     no_paper_between(Style::flat, 1);
     no_paper_between(Style::flat, {});
     no_paper_between(Style::flat, 20);

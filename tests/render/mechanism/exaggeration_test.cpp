@@ -6,6 +6,7 @@
 
 #include "render/plot/ticks.hpp"
 #include "tests/render/synthetic.hpp"
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -34,6 +35,7 @@ class Exaggerated : public testing::TestWithParam<Case> {
 };
 
 TEST_P(Exaggerated, TouchingBeamStillTouchesWithinHalfAPixel) {
+    SKIP_UNDER_SANITIZERS();
     int touching = 0;
     for (const sim::Pose& pose : film.poses) {
         if (!pose.nearest->touching || pose.nearest->gap > 1e-6) continue;

@@ -7,6 +7,7 @@
 
 #include "render/film/film.hpp"
 #include "tests/render/synthetic.hpp"
+#include "tests/sanitizers.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -79,6 +80,7 @@ double nearest_to_words(FilmSetup setup, std::size_t words) {
 }
 
 TEST(Placement, NoBeamEverComesToTheWordsOfAFilm) {
+    SKIP_UNDER_SANITIZERS();
     for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {1080, 1080}, {640, 640}}) {
         FilmSetup setup = test::synthetic_film({.duration = 0.6});
         setup.width = w, setup.height = h;

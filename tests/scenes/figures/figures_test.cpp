@@ -247,6 +247,7 @@ TEST(Captions, HaveTheDigitsThatModesAndToleranceSupport) {
 }
 
 TEST(Figures, ModelsAreComparedInTheSameShapes) {
+    SKIP_UNDER_SANITIZERS();
     const auto figure = figure_of(scene_from(R"({"cam": {"speed": 0}, "time": {"end": 0.7}})"), "models");
     ASSERT_EQ(figure.panels.size(), 3u);
     std::map<std::string, double> largest;
@@ -263,6 +264,7 @@ TEST(Figures, ModelsAreComparedInTheSameShapes) {
 
 // Also what a figure computes beside the scene must be possible: without the cam nothing rests on it.
 TEST(Figures, OfARestingBeamAreMadeOrRefused) {
+    SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", R"({"initial": {"shape": "resting"}, "time": {"end": 0.2}})");
     for (const Recipe& recipe : recipes()) {
@@ -695,6 +697,7 @@ constexpr const char* kLight = R"({"beam": {"length": 0.5, "area": 1.5e-4, "seco
     "contact": {"stiffness": 3.4e10, "restitution": 0.6, "offset": "half-depth"}, "time": {"end": 0.5}})";
 
 TEST(Figures, DoWithoutTheMotionsThatTheyChoseThemselves) {
+    SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", kLight);
     const Finished apex = shell(folder, "$BEAMCAM figure s.json apex-modes -o a.svg --data a.csv");
@@ -705,6 +708,7 @@ TEST(Figures, DoWithoutTheMotionsThatTheyChoseThemselves) {
 
 // 80 µs of contact among the rows of half a second.
 TEST(Figures, ACollisionReachesItsPeak) {
+    SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", kLight);
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json collision -o c.svg --data c.csv").code, 0);

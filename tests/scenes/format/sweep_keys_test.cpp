@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -47,6 +49,16 @@ TEST(SweepKeys, MeanWhatTheySay) {
     EXPECT_THAT(sweep.seeds.kinds, ElementsAre(SeedKind::random));
     EXPECT_EQ(sweep.seeds.random, 4);
     EXPECT_FALSE(read("{}").scene->sweep);
+    const Sweep units =
+        *read(scene_with(R"({"over": [{"key": "initial.angle", "from": "30°", "to": "90 deg", "count": 4},
+        {"key": "cam.speed", "values": ["60 rpm", 7]}],
+        "seed": {"random": 2, "key": [{"key": "initial.angular_velocity", "from": "-60 rpm", "to": 1}]}})"))
+             .scene->sweep;
+    EXPECT_NEAR(*units.over[0].from, std::numbers::pi / 6, 1e-15);
+    EXPECT_NEAR(*units.over[0].to, std::numbers::pi / 2, 1e-15);
+    EXPECT_NEAR(units.over[1].values.at(0), 2 * std::numbers::pi, 1e-14);
+    EXPECT_EQ(units.over[1].values.at(1), 7);
+    EXPECT_NEAR(units.seeds.keys.at(0).from, -2 * std::numbers::pi, 1e-14);
     EXPECT_FALSE(read(scene_with("null")).scene->sweep);
 }
 
@@ -58,6 +70,7 @@ TEST(SweepKeys, AreRefusedWithTheRemedy) {
     EXPECT_THAT(only(R"({"over": [{"key": "cam.spee", "from": 1, "to": 2, "count": 3}]})"),
                 HasSubstr("did you mean \"cam.speed\"?"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1}]})"), HasSubstr("give from, to and count"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "values": ["3 mm"]}]})"), HasSubstr("rad/s"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1, "to": 2, "count": 1}]})"), HasSubstr("one value"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": -1, "to": 2, "count": 4, "spacing": "log"}]})"),
                 HasSubstr("one sign"));

@@ -117,6 +117,7 @@ TEST(SpooledPoses, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
 // ---- with the cache and without ----------------------------------------------------------------
 
 TEST(Films, HaveTheSamePixelsWithTheCacheAndWithout) {
+    SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 1.5}, "outputs": [{"type": "trajectory", "file": "m.csv", "rate": 50},
         {"type": "frames", "file": "f-###.png", "size": [480, 270], "fps": 12, "from": 0.2, "to": 0.5, "view": {"style": "flat", "tip_path": "whole"},

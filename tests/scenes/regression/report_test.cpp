@@ -105,6 +105,7 @@ TEST(Foreign, PicturesOfAnotherToolAreJudgedByDigestOrTolerance) {
 }
 
 TEST(Foreign, AnAcceptedFilmIsWhatASceneIsHeldTo) {
+    SKIP_UNDER_SANITIZERS();
     const Guarded folder;
     folder.write("film.json", R"({"time": {"end": 0.4}, "outputs": [
   {"type": "video", "file": "film.mp4", "fps": 10, "size": [320, 180], "view": {"style": "flat"}}]})");

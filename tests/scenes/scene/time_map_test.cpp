@@ -162,6 +162,7 @@ TEST(FilmTimes, StillsHaveRowsWithinTheCollisionsOfAStrip) {
 
 // A strip that turns from one collision to the next is smooth at any speed of the film.
 TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
+    SKIP_UNDER_SANITIZERS();
     sim::Result motion;
     const auto add = [&](double from, std::optional<double> to) {
         sim::Impact& next = motion.impacts.emplace_back();

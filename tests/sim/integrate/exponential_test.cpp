@@ -452,6 +452,7 @@ TEST(ExponentialContact, StepsOverStrongDamping) {
 }
 
 TEST(ExponentialContact, WhatItDoesNotCoverStepsOverStrongDampingToo) {
+    SKIP_UNDER_SANITIZERS();
     const auto lean = [](auto&& change) {
         Problem p;
         p.beam.damping_ratio = {1000};

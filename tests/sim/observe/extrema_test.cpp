@@ -87,6 +87,7 @@ TEST(Extrema, OfADampedBeamExceedEverySample) {
 TEST(Extrema, OfThePapersModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::paper, 3), 0.5, 12'000); }
 
 TEST(Extrema, OfTheSecondOrderModelExceedEverySample) {
+    SKIP_UNDER_SANITIZERS();
     expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 6'000);
 }
 
@@ -99,6 +100,7 @@ TEST(Extrema, OfClampedShapesExceedEverySample) {
 }
 
 TEST(Extrema, OfOtherMethodsExceedEverySample) {
+    SKIP_UNDER_SANITIZERS();
     for (const Method method : {Method::rk8, Method::cvode_adams, Method::cvode_bdf}) {
         Problem p = turning_cam(ModelKind::first_order, 2);
         p.solver.method = method;
@@ -125,6 +127,7 @@ Problem six_impacts() {
 }
 
 TEST(ContactPeaks, AreThoseOfDenseSampling) {
+    SKIP_UNDER_SANITIZERS();
     const Problem p = six_impacts();
     const Result r = run(p, 0.29);
     ASSERT_GE(r.impacts.size(), 6u);

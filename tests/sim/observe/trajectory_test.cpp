@@ -177,6 +177,7 @@ class Everything : public ::testing::TestWithParam<StoredCase> {};
 
 TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
     const auto& [name, problem, end] = GetParam();
+    if (problem.beam.model > ModelKind::paper) SKIP_UNDER_SANITIZERS();
     const Kept kept = keep(problem, end);
     const Trajectory trajectory(problem, kept.numbers);
     EXPECT_EQ(trajectory.end(), end);
@@ -192,6 +193,7 @@ TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
 
 TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
     const auto& [name, problem, end] = GetParam();
+    if (problem.beam.model > ModelKind::paper) SKIP_UNDER_SANITIZERS();
     std::vector<Request> requests;
     for (double share : {0.3, 1.0, 0.0}) requests.push_back(curious(problem, share * end));
     requests.push_back({});

@@ -36,6 +36,7 @@ TEST(Exponents_, LinearGrowthIsNoChaos) {
 
 // Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of this very run.                                            (S73)
 TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
+    SKIP_UNDER_SANITIZERS();
     struct Case {
         int modes;
         double ratio, restitution, duration;
@@ -71,6 +72,7 @@ TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
 }
 
 TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
+    SKIP_UNDER_SANITIZERS();
     const Problem p = PressedBeam().on_orbit(54);
     const Exponents e = lyapunov_exponents(p, {1, 20, 400, 20});
     EXPECT_TRUE(e.chaotic()) << e.lambda[0] << " ± " << e.error[0];

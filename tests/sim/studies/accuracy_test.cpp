@@ -68,6 +68,7 @@ void the_recommendation_is_the_loosest_tolerance_that_serves(const Accuracy& fou
 
 // One assessment, looked at from several sides.
 TEST(Accuracy, OfAFallingBeam) {
+    SKIP_UNDER_SANITIZERS();
     AccuracyRequest request = quick(0.1);
     request.target = 1e-6;
     // `exact` with the same assertions would take minutes under a sanitizer.

@@ -119,6 +119,7 @@ Problem random_motion(Dice& dice) {
 }
 
 TEST(RigidMotion, HasTheImpactsOfTheGeneralRunInRandomProblems) {
+    SKIP_UNDER_SANITIZERS();
     int compared = 0;
     for (unsigned seed = 0; seed < 400; ++seed) {
         Dice dice(seed);
