@@ -14,8 +14,8 @@ namespace {
 using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
 constexpr std::size_t kCaptionLines = 6;
-constexpr double kNearContact = 2e-3;      // of the beam's length: what looks like touching
-constexpr double kCaptionLine = 29;  // from line to line [design px]
+constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
+constexpr double kCaptionLine = 29;    // from line to line [design px]
 
 }  // namespace
 

@@ -107,9 +107,10 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
     v.number("freeze", event.freeze, dim::kTime, kNotNegative,
              "The picture stands still for so long, in the film's time.");
     v.text("text", event.text, "Words beside the contact.");
-    v.number("show", event.show, dim::kTime, kNotNegative,
-             "How long the words are shown, in the film's time; at least as long as the picture stands still. When left "
-             "out, 1.5 s or until the next words come.");
+    v.number(
+        "show", event.show, dim::kTime, kNotNegative,
+        "How long the words are shown, in the film's time; at least as long as the picture stands still. When left "
+        "out, 1.5 s or until the next words come.");
 }
 
 static void visit_span(SceneVisitor& v, FrameSpan& span) {

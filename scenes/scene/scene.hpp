@@ -82,8 +82,8 @@ struct Speed {
 // What the film does at an instant: stands still, says something.
 struct FilmEvent {
     Instant at;
-    double freeze = 0;  // [s] of the film
-    std::string text;   // plain, beside the contact
+    double freeze = 0;                // [s] of the film
+    std::string text;                 // plain, beside the contact
     std::optional<double> show = {};  // [s] of the film; absent: 1.5 s, or until the next words come
 };
 
