@@ -325,6 +325,7 @@ struct VideoWriter::Impl {
         settings.missing = recipe.missing;
         if (layout == PixelLayout::indices) std::copy(colors.begin(), colors.end(), settings.palette.emplace().begin());
         settings.metadata.assign(options.metadata.begin(), options.metadata.end());
+        settings.chapters = options.chapters;
         const VideoLibrary& library = video_library();
         if (options.codec == Codec::av1 && library.has_encoder("libsvtav1")) {
             if (!has_memory_for_svt_av1(options.width, options.height)) throw std::bad_alloc();

@@ -16,6 +16,7 @@
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
 #include "output/film/video_format.hpp"
+#include "output/film/video_library.hpp"
 #include "render/draw/image.hpp"
 #include "render/draw/tiles.hpp"
 
@@ -49,6 +50,7 @@ struct VideoOptions {
     // film's end, it is coded again.
     bool variable_rate = false;
     std::map<std::string, std::string> metadata;
+    std::vector<Chapter> chapters;  // increasing; containers without chapters leave them out
 };
 // Everything about these options that a film cannot do, in words with the alternative. `ending` with the dot.
 std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");

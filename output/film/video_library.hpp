@@ -32,6 +32,11 @@ struct Mismatch : IoError {
 
 using OptionList = std::vector<std::pair<std::string, std::string>>;
 
+struct Chapter {
+    double from = 0, to = 0;  // of the film [s]
+    std::string title;
+};
+
 struct EncoderSettings {
     std::filesystem::path file;   // exists; it is overwritten
     std::filesystem::path named;  // what messages call it
@@ -46,6 +51,7 @@ struct EncoderSettings {
     std::string missing;                                    // the message when there is none of these encoders
     std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
     OptionList metadata;
+    std::vector<Chapter> chapters;
 };
 
 // A picture to be filled by the caller: the planes of its pixel format, those that it has.

@@ -81,11 +81,12 @@ double luminance(const Color& c) {
     const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
     return kLumaRed * linear(c.r) + kLumaGreen * linear(c.g) + kLumaBlue * linear(c.b);
 }
+}  // namespace
+
 double contrast(const Color& a, const Color& b) {
     const double x = luminance(a), y = luminance(b);
     return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
-}  // namespace
 
 Color readable(const Palette& palette, Color color) {
     constexpr double kLeast = 3;

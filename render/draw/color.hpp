@@ -40,6 +40,7 @@ const Palette& palette(Theme theme);
 
 // Colours of curves and motions that stand beside each other; the first is `motion`, none is `contact`.
 Color series_color(const Palette& palette, std::size_t index);
+double contrast(const Color& a, const Color& b);  // 1…21, WCAG 2.1
 // For words in a colour: as it is where it stands out from the paper (contrast 3 : 1, WCAG 2.1 for large text), else
 // with as much ink as it takes.
 Color readable(const Palette& palette, Color color);

@@ -116,12 +116,12 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     const FilmSetup& setup = *facts.setup;
     const Layout& places = facts.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const std::string title = escape(canvas.drawable(setup.title));
-        canvas.text({b->x, b->y + 38 * u}, title, fitted_title(canvas, title, *b, u, facts.palette->ink).style);
+        const FittedTitle title = fitted_title(canvas, setup.title, *b, u, facts.palette->ink);
+        for (const FittedTitle::Line& line : title.lines) canvas.text(line.baseline, line.markup, title.style);
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
-    const ParameterLine line = parameter_line(canvas, places, setup.title, common_pieces(problems));
+    const ParameterLine line = parameter_line(canvas, places, setup.title, common_pieces(problems, setup.units.rpm));
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
@@ -189,17 +189,17 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     const std::string text = clock_text(facts.time, facts.at(0, frame), last);
     const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
     if (widest > b.w) return;
-    canvas.text({b.x, b.y + 40 * u}, text, big);
+    if (setup.view.show.clock) canvas.text({b.x, b.y + 40 * u}, text, big);
     struct Pill {
         std::string words, widest;
         Color color;
     };
     std::vector<Pill> pills;
-    if (facts.factor > 1 && mechanism) {
+    if (setup.view.show.legend && facts.factor > 1 && mechanism) {
         const std::string words = fmt::format("deflection ×{}", power_text(facts.factor));
         pills.push_back({words, words, facts.palette->motion});
     }
-    if (!setup.speeds.empty())
+    if (setup.view.show.legend && !setup.speeds.empty())
         pills.push_back(
             {speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed, facts.palette->contact});
     const auto style_of = [&](const Pill& p) {
@@ -209,7 +209,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         const TextStyle style = style_of(p);
         return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 34 * u;
     };
-    const double first = b.x + widest + 36 * u, gap = 14 * u;
+    const double first = b.x + (setup.view.show.clock ? widest + 36 * u : 0), gap = 14 * u;
     double all = first - gap;  // the same in all frames
     for (const Pill& p : pills) all += gap + 38 * u + canvas.measure(p.widest, style_of(p)).w;
     if (all > b.right())

@@ -46,8 +46,10 @@ struct View {
     std::optional<double> exaggeration;  // of deflection, >= 1; absent: a round factor that shows it
     Orbit orbit = {};                    // of the solid view
     TraceColor trace = TraceColor::force;
-    bool tip_path = false;     // all of the tip's path so far, not only its last second
-    bool transparent = false;  // no paper: the pictures have an alpha channel
+    bool tip_path = false;                    // all of the tip's path so far, not only its last second
+    bool transparent = false;                 // no paper: the pictures have an alpha channel
+    std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
+    Shown show = {};
 };
 
 // Poses kept elsewhere than in memory, read by several threads at once.
@@ -88,10 +90,17 @@ struct Callout {
     std::string text;         // plain
 };
 
+// What angles and speeds of rotation are written in; SI otherwise.
+struct Units {
+    bool degrees = false, rpm = false;
+    bool operator==(const Units&) const = default;
+};
+
 struct FilmSetup : Motion {
-    std::string title;                // plain text; cut with an ellipsis when too long
+    std::string title;                // plain text; on two lines when long, cut with an ellipsis when too long
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
+    Units units;
     std::optional<LayoutNode> layout;  // absent: the standard arrangement
     std::vector<Motion> others;        // to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;

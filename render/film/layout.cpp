@@ -48,7 +48,7 @@ struct Frame {
 };
 
 // `beside`: panels may stand beside the header, whose lines have to leave them their room.
-Frame frame(int width, int height, bool beside) {
+Frame frame(int width, int height, bool beside, const Shown& shown) {
     Frame f;
     Layout& out = f.out;
     f.wide = width >= 1.4 * height;
@@ -58,8 +58,10 @@ Frame frame(int width, int height, bool beside) {
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
-    const bool has_title = w >= 320 * u && h >= 300 * u, has_parameters = w >= 560 * u && h >= 480 * u;
-    const bool has_clock = w >= 230 * u && h >= 190 * u, has_scales = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u;
+    const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
+               has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
+    const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
+    const bool is_large = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
         f.top += 54 * u;
@@ -69,7 +71,7 @@ Frame frame(int width, int height, bool beside) {
         out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
         f.top += 36 * u;
     }
-    if (has_scales) {
+    if (shown.accuracy && is_large) {
         out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 34 * u;
     }
@@ -86,7 +88,7 @@ Frame frame(int width, int height, bool beside) {
         out.scales = Box{w - margin - 600 * u, out.clock->y, 600 * u, 56 * u};
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
-    if (has_title) f.top += 10 * u;
+    if (has_title || has_parameters) f.top += 10 * u;
     if (has_clock) f.bottom -= 10 * u;
     return f;
 }
@@ -212,9 +214,9 @@ Box plot_area(const Box& box, double u) {
 }
 
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
-                               const Sight& sight) {
+                               const Sight& sight, const Shown& shown) {
     const bool beside = members < kSeveral;
-    Frame f = frame(width, height, beside);
+    Frame f = frame(width, height, beside, shown);
     Layout& out = f.out;
     const double u = out.unit, w = width, h = height;
     Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
@@ -276,24 +278,25 @@ double scale_of(const Layout& layout, const Sight& sight) {
     return least;
 }
 
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const Sight& sight) {
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const Sight& sight,
+              const Shown& shown) {
     using enum Arrangement;
     const bool wide = width >= 1.4 * height, tall = height > 1.35 * width;
     std::optional<Layout> best;
-    Layout without = *arranged(alone, width, height, side, members, sight);
+    Layout without = *arranged(alone, width, height, side, members, sight, shown);
     const double least = members < kSeveral ? 0 : kKept * scale_of(without, sight);
     for (Arrangement how : wide   ? std::vector{column, row}
                            : tall ? std::vector{stack, column}
                                   : std::vector{row, column}) {
-        std::optional<Layout> one = arranged(how, width, height, side, members, sight);
+        std::optional<Layout> one = arranged(how, width, height, side, members, sight, shown);
         if (!one || scale_of(*one, sight) < least) continue;
         if (!best || scale_of(*one, sight) > scale_of(*best, sight)) best = std::move(one);
     }
     return best ? *std::move(best) : without;
 }
 
-Layout layout(int width, int height, const LayoutNode& wanted) {
-    Frame f = frame(width, height, false);
+Layout layout(int width, int height, const LayoutNode& wanted, const Shown& shown) {
+    Frame f = frame(width, height, false, shown);
     LayoutNode grid = wanted;
     // What stands side by side in a wide picture stands one below the other in a tall one.
     if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {
@@ -305,7 +308,7 @@ Layout layout(int width, int height, const LayoutNode& wanted) {
     }
     place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
     // A picture too small for its grid shows what it can: the mechanism.
-    if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{});
+    if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{}, 1, {}, shown);
     return std::move(f.out);
 }
 
@@ -317,9 +320,9 @@ std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
     return out;
 }
 
-std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted) {
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown) {
     std::vector<PanelSpec> out = panels_of(wanted);
-    for (const PanelSlot& slot : layout(width, height, wanted).panels)
+    for (const PanelSlot& slot : layout(width, height, wanted, shown).panels)
         if (const auto shown = std::ranges::find(out, slot.spec); shown != out.end()) out.erase(shown);
     return out;
 }

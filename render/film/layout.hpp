@@ -35,6 +35,15 @@ struct LayoutNode {
     std::vector<LayoutNode> children = {};
 };
 
+// What stands around the panels, and the words within the mechanism. What is not shown leaves its room to the panels.
+struct Shown {
+    bool title = true, parameters = true, clock = true;
+    bool legend = true;    // colour scales; what the picture exaggerates, how fast it runs
+    bool accuracy = true;  // the line in the corner
+    bool labels = true;    // angle, speed, force, scale bar
+    bool operator==(const Shown&) const = default;
+};
+
 struct PanelSlot {
     PanelSpec spec;
     Box box;  // title, labels and all; whole pixels
@@ -44,7 +53,7 @@ struct Layout {
     double unit = 1;           // [px] of one design pixel (1920×1080)
     std::optional<Box> title;  // line boxes; text stands on `baseline(box)`
     std::optional<Box> parameters;
-    std::optional<Box> clock;   // with the pills
+    std::optional<Box> clock;   // with the pills; with these alone where the time is not shown
     std::optional<Box> scales;  // colour bars
     std::optional<Box> note;    // accuracy
     std::vector<PanelSlot> panels;
@@ -61,18 +70,19 @@ enum class Arrangement { alone, column, row, stack };
 // where that leaves the mechanisms the larger scale for their `sight`. Room that they do not need goes to the panels.
 // The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a
 // motion.
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {});
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {},
+              const Shown& shown = {});
 // One of them; none where the picture is too small for it.
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
-                               const Sight& sight);
+                               const Sight& sight, const Shown& shown = {});
 // Of the smallest mechanism [px/m]; 0 without one.
 double scale_of(const Layout& layout, const Sight& sight);
 // The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
 // become rows.
-Layout layout(int width, int height, const LayoutNode& wanted);
+Layout layout(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
 // The panels of a grid in reading order; and those which come out too small.
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);
-std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted);
+std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
 
 // The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
 Box plot_area(const Box& box, double unit);

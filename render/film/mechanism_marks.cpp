@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/draw/wrap.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -12,35 +13,9 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
-
-// Markup of the lines that plain words fill, broken where they say so or grow too wide; six at most.
-std::vector<std::string> wrapped(Canvas& canvas, const std::string& words, const TextStyle& style) {
-    constexpr std::size_t kMost = 6;
-    TextStyle natural = style;
-    natural.max_width = 0;
-    std::vector<std::string> lines;
-    std::string line;
-    const auto markup = [&](const std::string& plain) { return escape(canvas.drawable(plain)); };
-    const auto end_line = [&] {
-        lines.push_back(markup(line));
-        line.clear();
-    };
-    for (std::size_t at = 0; at < words.size() && lines.size() < kMost;) {
-        const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
-        const std::string word = words.substr(at, end - at);
-        std::string longer = line;
-        if (!line.empty()) longer += ' ';
-        longer += word;
-        // The last line takes what is left; it is cut.
-        const bool fits = lines.size() + 1 == kMost || canvas.measure(markup(longer), natural).w <= style.max_width;
-        if (!fits && !line.empty()) end_line();
-        line += line.empty() ? word : " " + word;
-        if (end < words.size() && words[end] == '\n') end_line();
-        at = end + 1;
-    }
-    if (!line.empty() && lines.size() < kMost) end_line();
-    return lines;
-}
+constexpr std::size_t kCaptionLines = 6;
+constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
+constexpr double kCaptionLine = 29;    // from line to line [design px]
 
 }  // namespace
 
@@ -62,7 +37,7 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
 }
 
 void draw_angle_arc(const MechanismScene& s, double room) {
-    if (s.at.small) return;
+    if (!s.at.labelled()) return;
     double radius = std::min(92 * s.at.marks, room);
     if (s.at.problem().cam) {
         const double free = norm(s.pose.cam_centre) - s.at.problem().cam->radius - s.at.problem().cam->eccentricity;
@@ -101,11 +76,11 @@ void draw_angle_arc(const MechanismScene& s, double room) {
 
 // Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
 void draw_cam_speed(const MechanismScene& s) {
-    if (!s.at.problem().cam || s.at.small) return;
+    if (!s.at.problem().cam || !s.at.labelled()) return;
     const sim::Cam& cam = *s.at.problem().cam;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
     const double swept = (cam.radius + cam.eccentricity) * s.at.look.camera.scale, radius = swept + 20 * s.at.unit;
-    const std::string label = math("ω") + "\u2009=\u2009" + quantity(cam.speed, "rad/s");
+    const std::string label = math("ω") + "\u2009=\u2009" + turning_speed(cam.speed, s.at.facts.setup->units.rpm);
     TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
     if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
     if (cam.speed != 0) {
@@ -145,7 +120,7 @@ void draw_base_line(const MechanismScene& s) {
 static void draw_disc_letters(const MechanismScene& s, Color ink) {
     const DiscShape& d = *s.shape.disc;
     const double size = 22 * s.at.marks;
-    if (size < kReadable || d.radius < 60 * s.at.marks) return;
+    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
@@ -227,7 +202,7 @@ void draw_force(const MechanismScene& s) {
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (s.at.small) return;
+    if (!s.at.labelled()) return;
     const TextStyle style{.size = 22 * s.at.unit,
                           .color = s.at.palette.contact,
                           .weight = Weight::medium,
@@ -242,51 +217,85 @@ void draw_force(const MechanismScene& s) {
     s.canvas.text(at, label, style);
 }
 
-// Words at the contact, on a plate beside it.
+// Words at the contact, on plates beside it: the latest with a line to the contact, earlier ones below or above it.
+namespace {
+struct Caption {
+    std::vector<std::string> lines;
+    Box plate;
+};
+
+Caption caption_of(const MechanismScene& s, const Callout& words, const TextStyle& style, Vec2 at) {
+    Caption out{wrapped(s.canvas, words.text, style, kCaptionLines), {}};
+    double widest = 0;
+    for (const std::string& line : out.lines) widest = std::max(widest, s.canvas.measure(line, style).w);
+    out.plate = {at.x, at.y, widest + 32 * s.at.unit,
+                 (17 + kCaptionLine * static_cast<double>(out.lines.size())) * s.at.unit};
+    return out;
+}
+
+// The cam's speed, which captions keep off.
+std::optional<Box> speed_words(const MechanismScene& s) {
+    if (!s.at.problem().cam || !s.at.labelled()) return {};
+    return s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * s.at.unit, s.view);
+}
+
+void place_caption(const MechanismScene& s, const std::optional<Box>& words, Box& plate) {
+    const auto keep_inside = [&] {
+        plate.x = std::clamp(plate.x, s.at.box.x, std::max(s.at.box.x, s.at.box.right() - plate.w));
+        plate.y = std::clamp(plate.y, s.at.box.y, std::max(s.at.box.y, s.at.box.bottom() - plate.h - 40 * s.at.unit));
+    };
+    keep_inside();
+    if (words && plate.overlaps(*words)) plate.y = words->bottom() + 12 * s.at.unit;  // below them, else above
+    keep_inside();
+    if (words && plate.overlaps(*words)) plate.y = std::max(s.at.box.y, words->y - 12 * s.at.unit - plate.h);
+}
+
+void draw_caption(const MechanismScene& s, const Caption& caption, const TextStyle& style) {
+    const Box& plate = caption.plate;
+    s.canvas.rounded(plate, 8 * s.at.unit);
+    s.canvas.fill_keeping_path(s.at.palette.paper);
+    s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
+    for (std::size_t i = 0; i < caption.lines.size(); ++i)
+        s.canvas.text({plate.x + 16 * s.at.unit, plate.y + (31 + kCaptionLine * static_cast<double>(i)) * s.at.unit},
+                      caption.lines[i], style);
+}
+}  // namespace
+
 void draw_callout(const MechanismScene& s, Vec2 tip) {
-    const Callout* last = nullptr;  // a later one takes the place of those before
+    std::vector<const Callout*> shown;
     for (const Callout& c : s.at.facts.setup->callouts)
-        if (s.frame >= c.first && s.frame <= c.last && (!last || c.first >= last->first)) last = &c;
-    if (last) {
-        const Callout& c = *last;
-        const TextStyle style{.size = 22 * s.at.unit,
-                              .color = s.at.palette.ink,
-                              .weight = Weight::medium,
-                              .max_width = 0.45 * s.at.box.w};
-        const std::vector<std::string> lines = wrapped(s.canvas, c.text, style);
-        const double line = 29 * s.at.unit;
-        double widest = 0;
-        for (const std::string& words : lines) widest = std::max(widest, s.canvas.measure(words, style).w);
-        const Vec2 foot = s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tip);
-        // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
-        const double swept = s.at.problem().cam ? (s.at.problem().cam->radius + s.at.problem().cam->eccentricity) *
-                                                      s.at.look.camera.scale
-                                                : 0;
-        const Vec2 from = s.at.problem().cam ? s.px(s.pose.cam_centre) : foot;
-        Box plate{from.x + swept + 60 * s.at.unit, from.y + 26 * s.at.unit, widest + 32 * s.at.unit,
-                  17 * s.at.unit + line * static_cast<double>(lines.size())};
-        const auto keep_inside = [&] {
-            plate.x = std::clamp(plate.x, s.at.box.x, std::max(s.at.box.x, s.at.box.right() - plate.w));
-            plate.y =
-                std::clamp(plate.y, s.at.box.y, std::max(s.at.box.y, s.at.box.bottom() - plate.h - 40 * s.at.unit));
-        };
-        keep_inside();
-        if (s.at.problem().cam && !s.at.small) {
-            const Box words = s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * s.at.unit, s.view);
-            if (plate.overlaps(words))
-                plate.y = words.bottom() + 12 * s.at.unit;  // below the cam's speed, else above it
-            keep_inside();
-            if (plate.overlaps(words)) plate.y = std::max(s.at.box.y, words.y - 12 * s.at.unit - plate.h);
-        }
-        s.canvas.move_to({plate.x + 10 * s.at.unit, plate.y + 10 * s.at.unit});
+        if (s.frame >= c.first && s.frame <= c.last) shown.push_back(&c);
+    if (shown.empty()) return;
+    std::ranges::stable_sort(shown, std::ranges::greater(), [](const Callout* c) { return c->first; });
+    const TextStyle style{
+        .size = 22 * s.at.unit, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * s.at.box.w};
+    const Vec2 foot = s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tip);
+    // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
+    const auto& cam = s.at.problem().cam;
+    const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
+    const Vec2 from = cam ? s.px(s.pose.cam_centre) : foot;
+    Caption latest = caption_of(s, *shown.front(), style, {from.x + swept + 60 * s.at.unit, from.y + 26 * s.at.unit});
+    const std::optional<Box> words = speed_words(s);
+    place_caption(s, words, latest.plate);
+    // A line to the contact while there is one; without a cam to the tip.
+    if (!cam || (s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length)) {
+        s.canvas.move_to({latest.plate.x + 10 * s.at.unit, latest.plate.y + 10 * s.at.unit});
         s.canvas.line_to(foot);
         s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
-        s.canvas.rounded(plate, 8 * s.at.unit);
-        s.canvas.fill_keeping_path(s.at.palette.paper);
-        s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
-        for (std::size_t i = 0; i < lines.size(); ++i)
-            s.canvas.text({plate.x + 16 * s.at.unit, plate.y + 31 * s.at.unit + line * static_cast<double>(i)},
-                          lines[i], style);
+    }
+    draw_caption(s, latest, style);
+    const double gap = 8 * s.at.unit;
+    double below = latest.plate.bottom() + gap, above = latest.plate.y - gap;
+    for (std::size_t i = 1; i < shown.size(); ++i) {
+        Caption other = caption_of(s, *shown[i], style, {latest.plate.x, below});
+        other.plate.x = std::max(s.at.box.x, std::min(other.plate.x, s.at.box.right() - other.plate.w));
+        if (words && other.plate.overlaps(*words)) other.plate.y = words->bottom() + gap;
+        const bool fits = other.plate.bottom() <= s.at.box.bottom() - 40 * s.at.unit;
+        if (!fits) other.plate.y = above - other.plate.h;
+        if (!fits && words && other.plate.overlaps(*words)) other.plate.y = words->y - gap - other.plate.h;
+        if (other.plate.y < s.at.box.y) return;  // no room for more
+        (fits ? below : above) = fits ? other.plate.bottom() + gap : other.plate.y - gap;
+        draw_caption(s, other, style);
     }
 }
 

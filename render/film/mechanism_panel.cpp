@@ -79,17 +79,17 @@ OccupancyGrid MechanismPanel::still_room() const {
         room.cover(Box{at_.box.x, o.y - 3 * at_.unit, at_.box.w, 6 * at_.unit}, 1);  // the horizontal
         if (!p->cam || !at_.problem().cam) continue;
         const Vec2 axis = at_.px(p->cam->centre);
-        const bool arrow = p->cam->speed != 0 && !at_.small;
+        const bool arrow = p->cam->speed != 0 && at_.labelled();
         room.cover_disc(axis,
                         (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale + (arrow ? 34 : 4) * at_.unit);
-        if (!at_.small) room.cover(at_.speed_box(axis, 150 * at_.unit, nullptr), 1);
+        if (at_.labelled()) room.cover(at_.speed_box(axis, 150 * at_.unit, nullptr), 1);
     }
     for (const Sight::Push& push : sight.pushes) {
         const Vec2 foot = at_.px(push.foot), n{push.normal.x, -push.normal.y};
         const double length = push_length(push.share, at_.small, at_.marks), half = 8 * at_.marks;
         const Vec2 side = Vec2{-n.y, n.x} * half, tip = foot + n * length;
         room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
-        if (at_.small) continue;
+        if (!at_.labelled()) continue;
         const Vec2 at = foot + n * push_label(length, at_.look.depth * at_.look.camera.scale, at_.unit);
         room.cover(Box{at.x - 150 * at_.unit, at.y - 16 * at_.unit, 136 * at_.unit, 28 * at_.unit},
                    1);  // its number
@@ -99,7 +99,7 @@ OccupancyGrid MechanismPanel::still_room() const {
 
 bool MechanismPanel::has_label() const { return at_.facts.members() > 1 && at_.box.w >= 160 * at_.unit; }
 bool MechanismPanel::has_bar() const {
-    return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.facts.places.clock &&
+    return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
            at_.facts.setup->view.style != Style::solid;
 }
 

@@ -18,6 +18,7 @@ struct MechanismView {
     double unit,
         marks = 1;  // [px] of a design pixel: of lines and words; of what is drawn on the mechanism (mark_unit)
     bool small;
+    bool labelled() const { return !small && facts.setup->view.show.labels; }
     MechanismLook look;
     double wide;  // of the beam across the plane of motion, in the solid view [px]
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "render/base/error.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -71,7 +72,11 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
 
 FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
-    palette = &render::palette(setup->view.theme);
+    colors = render::palette(setup->view.theme);
+    if (setup->view.paper) colors.paper = rgb(*setup->view.paper);
+    palette = &colors;
+    Shown shown = setup->view.show;
+    shown.title = shown.title && !setup->title.empty();
     cjk = needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
     for (const Callout& c : setup->callouts) cjk = cjk || needs_cjk(c.text);
     for (int m = 0; m < members(); ++m) {
@@ -82,9 +87,9 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     ++counts->font_sets;
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
-    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout);
+    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
     if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
-    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight);
+    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight, shown);
     unit = places.unit;
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
@@ -95,6 +100,17 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
         span.high = std::max(span.high, *std::ranges::max_element(*t));
     }
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
+}
+
+double FilmFacts::shown_factor(Channel channel) const {
+    const std::string unit = sim::unit(channel, setup->problem);
+    return setup->units.degrees && (unit == "rad" || unit == "rad/s") ? 180 / std::numbers::pi : 1;
+}
+
+std::string FilmFacts::shown_unit(Channel channel) const {
+    const std::string unit = sim::unit(channel, setup->problem);
+    if (unit == "m/s^2") return "m/s²";
+    return shown_factor(channel) == 1 ? unit : unit == "rad" ? "°" : "°/s";
 }
 
 const sim::Problem* FilmFacts::with(int member) const {

@@ -20,9 +20,12 @@ namespace beamcam::render {
 // What all panels of a film share.
 struct FilmFacts {
     explicit FilmFacts(std::shared_ptr<const FilmSetup> setup);
+    FilmFacts(const FilmFacts&) = delete;
+    FilmFacts& operator=(const FilmFacts&) = delete;
 
     std::shared_ptr<const FilmSetup> setup;
-    const Palette* palette = nullptr;
+    Palette colors;
+    const Palette* palette = nullptr;  // of these
     bool cjk = false;
     Layout places;
     double unit = 1;  // [px] of one design pixel
@@ -46,6 +49,9 @@ struct FilmFacts {
     // A motion with a cam, to one without: their sections lie alike. Else null.
     const sim::Problem* with(int member) const;
     double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
+    // What values of a channel are multiplied with to be shown, and their unit then.
+    double shown_factor(sim::Channel channel) const;
+    std::string shown_unit(sim::Channel channel) const;
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "render/draw/wrap.hpp"
 #include "render/plot/labels.hpp"
 
 namespace beamcam::render {
@@ -36,12 +37,37 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
 TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
 
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
-    constexpr double kSmallest = 2.0 / 3;
+    constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55};  // of the full size
     FittedTitle out{.style = title_style(u, color)};
-    const double natural = canvas.measure(title, out.style).w;
-    if (natural > box.w) out.style.size *= std::max(kSmallest, 0.999 * box.w / natural);
+    const std::string whole = escape(canvas.drawable(title));
+    const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
+    const auto set = [&](double share) {
+        out.style.size = share * full;
+        out.style.max_width = 0;
+        const auto width = [&](const std::string& line) { return canvas.measure(line, out.style).w; };
+        TextStyle within = out.style;
+        within.max_width = box.w;
+        std::vector<std::string> lines = wrapped(canvas, title, within, 2);
+        // Lines of about one length read better than a word alone.
+        while (lines.size() == 2 && width(lines[1]) < 0.6 * width(lines[0])) {
+            within.max_width *= 0.95;
+            std::vector<std::string> narrower = wrapped(canvas, title, within, 2);
+            if (width(narrower.back()) > within.max_width) break;
+            lines = std::move(narrower);
+        }
+        out.lines.clear();
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            out.lines.push_back({lines[i], {box.x, box.y + (18 + 28 * static_cast<double>(i)) * u}});
+        out.cut = std::ranges::any_of(lines, [&](const std::string& line) { return width(line) > box.w; });
+    };
+    if (kSmallest * natural > box.w) {
+        for (const double share : kOfTwo)
+            if (set(share); !out.cut) break;
+    } else {
+        out.lines = {{whole, {box.x, box.y + 38 * u}}};
+        if (natural > box.w) out.style.size *= 0.999 * box.w / natural;
+    }
     out.style.max_width = box.w;
-    out.cut = kSmallest * natural > box.w;
     return out;
 }
 
@@ -98,25 +124,30 @@ std::string plain(const std::string& markup) {
 }
 
 std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& grid, int members,
-                                      const std::string& title, const std::vector<const sim::Problem*>& problems) {
-    const Layout places =
-        grid ? layout(width, height, *grid) : layout(width, height, std::vector<PanelSpec>{}, members);
+                                      const std::string& title, const std::vector<const sim::Problem*>& problems,
+                                      const Shown& asked, bool rpm) {
+    Shown shown = asked;
+    shown.title = shown.title && !title.empty();
+    const Layout places = grid ? layout(width, height, *grid, shown)
+                               : layout(width, height, std::vector<PanelSpec>{}, members, {}, shown);
     std::vector<std::string> out;
-    std::vector<std::string> missing = common_pieces(problems);
+    std::vector<std::string> missing;
+    if (shown.parameters) missing = common_pieces(problems, rpm);
     const bool titled = places.title && !title.empty();
-    if (!title.empty() && !titled) out.emplace_back("the title");
+    if (shown.title && !titled) out.emplace_back("the title");
     if (places.parameters || titled) {
         const Fonts fonts(needs_cjk(title));
         Image scratch(1, 1);
         Canvas canvas(scratch, fonts);
-        if (titled && fitted_title(canvas, escape(canvas.drawable(title)), *places.title, places.unit).cut)
+        if (titled && fitted_title(canvas, title, *places.title, places.unit).cut)
             out.emplace_back("the end of the title");
         missing = parameter_line(canvas, places, title, missing).without_room;
     }
     for (const std::string& piece : missing) out.push_back(plain(piece));
     const bool colored = std::ranges::any_of(
         problems, [](const sim::Problem* p) { return p->cam.has_value() || p->beam.model != sim::ModelKind::rigid; });
-    if (!places.scales && colored && places.first(PanelKind::mechanism)) out.emplace_back("colour scales");
+    if (shown.legend && !places.scales && colored && places.first(PanelKind::mechanism))
+        out.emplace_back("colour scales");
     return out;
 }
 

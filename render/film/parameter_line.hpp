@@ -29,9 +29,15 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
 
 // The title as it is drawn at full size.
 TextStyle title_style(double unit, Color color = {});
-// A long title (markup) becomes smaller, down to two thirds; then it is cut where the box ends.
+// A long title (plain text) becomes smaller, down to two thirds; then it fills two lines; then it is cut where the
+// second ends.
 struct FittedTitle {
+    struct Line {
+        std::string markup;
+        Vec2 baseline;
+    };
     TextStyle style;
+    std::vector<Line> lines;
     bool cut = false;
 };
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double unit, Color color = {});
@@ -40,7 +46,8 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
 // in plain words: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no
 // room for title and parameters. Throws FontError.
 std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& layout, int members,
-                                      const std::string& title, const std::vector<const sim::Problem*>& problems);
+                                      const std::string& title, const std::vector<const sim::Problem*>& problems,
+                                      const Shown& shown = {}, bool rpm = false);
 
 // Markup as people type it: "K = 10^8 N m^−1.5".
 std::string plain(const std::string& markup);

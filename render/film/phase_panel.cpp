@@ -16,7 +16,7 @@ namespace {
 
 using sim::ChannelKind;
 
-RoundAxis axis(double low, double high, const char* unit, int most) {
+RoundAxis axis(double low, double high, const std::string& unit, int most) {
     if (!(low <= high)) low = 0, high = 1;
     if (high - low < 1e-9) low -= 0.05, high += 0.05;
     return {low, high, unit, most};
@@ -45,8 +45,11 @@ class PhasePanel final : public Panel {
             }
         }
         const double u = facts.unit;
-        x_ = axis(x0, x1, "rad", std::clamp(static_cast<int>(plot_.w / (85 * u)), 2, 6));
-        y_ = axis(y0, y1, "rad/s", std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 6));
+        factor_ = facts.shown_factor({ChannelKind::theta, 0});
+        const std::string angle = facts.shown_unit({ChannelKind::theta, 0}),
+                          speed = facts.shown_unit({ChannelKind::theta_dot, 0});
+        x_ = axis(factor_ * x0, factor_ * x1, angle, std::clamp(static_cast<int>(plot_.w / (85 * u)), 2, 6));
+        y_ = axis(factor_ * y0, factor_ * y1, speed, std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 6));
         for (int m = 0; m < facts.members(); ++m) paths_.push_back(path(m));
     }
 
@@ -70,7 +73,7 @@ class PhasePanel final : public Panel {
         const std::string name = x_.name(math("θ"));
         const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
         for (double mark : x_.marks().values) {
-            const double at = std::round(to_pixels(x_.value(mark), 0).x) + 0.5;
+            const double at = std::round(plot_.x + x_.along(plot_.w, x_.value(mark))) + 0.5;
             canvas.move_to({at, plot_.y});
             canvas.line_to({at, plot_.bottom()});
             canvas.stroke(grid);
@@ -120,7 +123,7 @@ class PhasePanel final : public Panel {
   private:
     Color color(std::size_t member) const { return series_color(*facts_.palette, member); }
     Vec2 to_pixels(double theta, double speed) const {
-        return {plot_.x + x_.along(plot_.w, theta), plot_.bottom() - y_.along(plot_.h, speed)};
+        return {plot_.x + x_.along(plot_.w, factor_ * theta), plot_.bottom() - y_.along(plot_.h, factor_ * speed)};
     }
     GrowingPath path(int member) const {
         const sim::Table& table = facts_.motion(member).chart;
@@ -150,6 +153,7 @@ class PhasePanel final : public Panel {
     const FilmFacts& facts_;
     Box box_, plot_;
     RoundAxis x_, y_;
+    double factor_ = 1;  // of what is shown
     std::vector<GrowingPath> paths_;
 };
 

@@ -30,11 +30,6 @@ std::string colored(const std::string& markup, Color color) {
                        markup);
 }
 
-std::string unit_text(Channel channel, const sim::Problem& problem) {
-    const std::string unit = sim::unit(channel, problem);
-    return unit == "m/s^2" ? "m/s²" : unit;
-}
-
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
 
 using ForceRow = std::array<double, 2>;  // instant, force
@@ -96,7 +91,7 @@ Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
     const Motion& one = facts.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
     if (t && v) curve.t = *t, curve.v = *v;
-    for (double& value : curve.v) value -= zero_of(one.chart, channel);
+    for (double& value : curve.v) value = facts.shown_factor(channel) * (value - zero_of(one.chart, channel));
     return curve;
 }
 
@@ -111,7 +106,7 @@ Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel
         const Motion& one = facts.motion(m);
         const bool still = facts.frames() == 1;  // it shows its past alone, which is the chart's
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
-            see(still ? one.pose(0).theta : one.surveyed(k).theta);
+            see(facts.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
     }
     if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
     if (!(low <= high)) return {0, 1};
@@ -200,13 +195,13 @@ ChartContent blank_content(const FilmFacts& facts, const PanelSpec& spec, int me
 
 double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
     const sim::Pose& pose = facts.pose(member, frame);
-    if (channel.kind == ChannelKind::theta) return pose.theta;
-    if (channel.kind == ChannelKind::theta_dot) return pose.theta_dot;
+    if (channel.kind == ChannelKind::theta) return facts.shown_factor(channel) * pose.theta;
+    if (channel.kind == ChannelKind::theta_dot) return facts.shown_factor(channel) * pose.theta_dot;
     if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
     if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
     const sim::Table& table = facts.motion(member).chart;
     const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
-    return t && v ? value_at(*t, *v, pose.t) - zero_of(table, channel) : kNan;
+    return t && v ? facts.shown_factor(channel) * (value_at(*t, *v, pose.t) - zero_of(table, channel)) : kNan;
 }
 
 ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
@@ -216,7 +211,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
     c.words = single ? fmt::format("{} ", label_of(first.kind).words) : "";
-    c.unit = unit_text(first, facts.setup->problem);
+    c.unit = facts.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);
         if (!single && facts.members() == 1)

@@ -21,7 +21,7 @@ namespace beamcam::render {
 
 // An axis of values with round ends and a mark at every multiple of one step: the outermost marks carry labels.
 // Labels are (value − offset)/scale, so that small, large and nearly equal values all get short ones; the name says
-// what was done to them. `unit` "", "rad" and "rad/s" get powers of ten, others SI prefixes.
+// what was done to them. `unit` "", "rad", "rad/s", "°" and "°/s" get powers of ten, others SI prefixes.
 class RoundAxis {
   public:
     RoundAxis() = default;
@@ -38,7 +38,7 @@ class RoundAxis {
     Range ends() const { return ends_; }  // scaled
 
   private:
-    bool by_prefix() const { return !unit_.empty() && unit_ != "rad" && unit_ != "rad/s"; }
+    bool by_prefix() const { return !unit_.empty() && unit_ != "rad" && unit_ != "rad/s" && !unit_.starts_with("°"); }
     std::string unit_;
     double offset_ = 0, scale_ = 1;
     Range ends_;

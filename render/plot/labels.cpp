@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/draw/canvas.hpp"
 #include "render/plot/ticks.hpp"
@@ -37,6 +38,7 @@ struct FrictionPiece {
 
 // What turns the hub; empty: nothing does.
 struct DrivePiece {
+    bool rpm = false;
     std::string operator()(const sim::FreeDrive&) const { return {}; }
     std::string operator()(const sim::ConstantTorque& d) const { return "torque " + quantity(d.value, "N\u2009m"); }
     std::string operator()(const sim::HarmonicTorque& d) const {
@@ -44,15 +46,24 @@ struct DrivePiece {
     }
     std::string operator()(const sim::TorqueTable&) const { return "torque by table"; }
     std::string operator()(const sim::ConstantSpeed& d) const {
-        return d.speed == 0 ? "hub held" : "hub at " + quantity(d.speed, "rad/s");
+        return d.speed == 0 ? "hub held" : "hub at " + turning_speed(d.speed, rpm);
     }
     std::string operator()(const sim::SpinUp& d) const {
-        return fmt::format("hub to {} in {}", quantity(d.speed, "rad/s"), quantity(d.duration, "s"));
+        return fmt::format("hub to {} in {}", turning_speed(d.speed, rpm), quantity(d.duration, "s"));
     }
     std::string operator()(const sim::AngleTable&) const { return "hub by table"; }
 };
 
 }  // namespace
+
+std::string turning_speed(double speed, bool rpm) {
+    const double value = std::abs(rpm ? speed * 30 / std::numbers::pi : speed);
+    // Ordinary numbers need no prefix; the others keep that of a quantity.
+    if (!rpm && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
+    std::string number = fmt::format("{:.3g}", value);
+    if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
+    return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
+}
 
 std::string power_of_ten(int exponent) {
     return fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
@@ -66,7 +77,7 @@ std::string power_text(double value, int digits) {
     return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 
-std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm) {
     std::vector<std::string> out;
     out.push_back(equation("L", quantity(problem.beam.length, "m")));
     if (problem.cam) {
@@ -78,7 +89,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
     else
         out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
                                   problem.beam.modes == 1 ? "" : "s"));
-    if (std::string drive = std::visit(DrivePiece{}, problem.hub.drive); !drive.empty())
+    if (std::string drive = std::visit(DrivePiece{rpm}, problem.hub.drive); !drive.empty())
         out.push_back(std::move(drive));
     if (problem.gravity == 0) out.emplace_back("no gravity");
     if (problem.cam) {
@@ -90,10 +101,10 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem) {
     return out;
 }
 
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems) {
-    std::vector<std::string> out = parameter_pieces(*problems.front());
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm) {
+    std::vector<std::string> out = parameter_pieces(*problems.front(), rpm);
     for (const sim::Problem* other : problems) {
-        const std::vector<std::string> its = parameter_pieces(*other);
+        const std::vector<std::string> its = parameter_pieces(*other, rpm);
         std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
     }
     return out;
@@ -135,11 +146,11 @@ TimeFormat time_format(const std::vector<double>& times) {
         }
         return out;
     }
-    // A step that only few frames have, such as the one into a freeze, does not count.
+    // Steps that only few frames have do not count, nor do those of rounding: into freezes and out of them.
     std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i)
-        if (times[i] > times[i - 1]) steps.push_back(times[i] - times[i - 1]);
-    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 50);
+        if (times[i] - times[i - 1] > 1e-9 * span) steps.push_back(times[i] - times[i - 1]);
+    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 20);
     std::ranges::nth_element(steps, steps.begin() + rare);
     const double step = steps[static_cast<std::size_t>(rare)];
     // One digit beyond the smallest step, so that each frame's reading differs; 9 is a nanosecond.

@@ -9,9 +9,12 @@
 namespace beamcam::render {
 
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
-std::vector<std::string> parameter_pieces(const sim::Problem& problem);
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm = false);
 // Those that several problems have in common.
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems);
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm = false);
+
+// "0.5 rad/s", "−300 rpm": without SI prefixes. `speed` in rad/s.
+std::string turning_speed(double speed, bool rpm);
 
 // "1/50 speed", "2× speed", "frozen"; empty at the true speed. Speeds on the way from one to another are told by
 // a round fraction.

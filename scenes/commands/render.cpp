@@ -22,7 +22,7 @@ struct RenderArguments {
     std::string scene, file;
     std::vector<std::string> others;
     std::optional<std::string> at, from, to, size, fps, style, theme, speed, codec, background, comparison, frames,
-        shard, poster;
+        shard, poster, show, duration;
 };
 
 // What `render` draws like: the scene's first film, sequence or still, else the default film.
@@ -116,6 +116,14 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     scene.title = fmt::format("{} motions compared", kCounts[args.others.size() - 1]);
 }
 
+Instant instant_argument(const char* option, const std::string& text) {
+    if (names_event(text)) {
+        if (const auto instant = parse_instant(text)) return *instant;
+        throw UsageError(fmt::format("{} {}: {}", option, text, kEventsCount));
+    }
+    return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
+}
+
 void apply_render_options(const RenderArguments& args, VideoOutput& film) {
     if (args.size) {
         const auto size = parse_size(*args.size);
@@ -130,10 +138,25 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
             throw UsageError(fmt::format("--fps {}: write frames a second, for example 60 or 30000/1001", *args.fps));
         film.span.fps = *fps;
     }
-    if (args.from) film.span.from = seconds_argument("--from", *args.from);
-    if (args.to) film.span.to = seconds_argument("--to", *args.to);
-    if (args.speed) apply_speed(*args.speed, film.span.speed);
-    if (args.background) film.view.transparent = *args.background == "transparent";
+    if (args.from) {
+        std::optional<double> from;
+        take_bound(instant_argument("--from", *args.from), from, film.span.from_event);
+        film.span.from = from.value_or(0);
+    }
+    if (args.to) take_bound(instant_argument("--to", *args.to), film.span.to, film.span.to_event);
+    if (args.speed) apply_speed(*args.speed, film.span.speed), film.span.duration.reset();
+    if (args.speed && args.duration) throw UsageError("--speed and --duration exclude each other; keep one");
+    if (args.duration) {
+        film.span.speed = {};
+        film.span.duration = seconds_argument("--duration", *args.duration);
+        if (!(*film.span.duration > 0)) throw UsageError("--duration must be positive");
+    }
+    if (args.background) {
+        if (!take_background(*args.background, film.view))
+            throw UsageError(
+                fmt::format("--background {}: write paper, transparent or a colour such as #f4f1ea", *args.background));
+    }
+    if (args.show) film.view.show = *shown_preset(*args.show);
     if (args.style)
         film.view.style = *args.style == "flat"    ? render::Style::flat
                           : *args.style == "solid" ? render::Style::solid
@@ -144,19 +167,10 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
                                                    : render::Theme::light;
 }
 
-Instant instant_argument(const char* option, const std::string& text) {
-    if (text.starts_with("impact") || text.starts_with("collision")) {
-        if (const auto instant = parse_instant(text)) return *instant;
-        throw UsageError(
-            fmt::format("{} {}: impacts and collisions are counted from 1, for example impact:1", option, text));
-    }
-    return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
-}
-
 Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
-    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png"});
+    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".html"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.poster && ending == ".png")
         throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
@@ -166,6 +180,13 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
         if (args.from || args.to || args.fps || args.speed)
             throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
         return StillOutput{film, args.file, instant_argument("--at", *args.at)};
+    }
+    if (ending == ".html") {
+        PageOutput page{film, args.file, film.span};
+        page.span.fps = args.fps ? film.span.fps : PageOutput().span.fps;
+        page.span.speed = {}, page.span.duration.reset(), page.span.events.clear(), page.span.hold = 0;
+        page.compare.clear();
+        return page;
     }
     if (ending == ".png") {
         if (!numbered)
@@ -220,7 +241,7 @@ Ask asked_part(const RenderArguments& args, const Scene& scene) {
 // In a scene such a poster is the film's nearest frame, so that films can be shortened; here it was asked for.
 void require_poster_inside(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time);
-    if (!span.poster || span.poster->kind != Instant::Kind::time) return;
+    if (!span.poster || span.poster->kind != Instant::Kind::time || span.from_event || span.to_event) return;
     if (span.poster->t < span.from || span.poster->t > to)
         throw UsageError(fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t,
                                      span.from, to));
@@ -249,23 +270,27 @@ void add_render(Grammar& grammar) {
     auto args = std::make_shared<RenderArguments>();
     Command& app = grammar.command("render",
                                    "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
-                                   "(name-####.png) or still (--at, .png)");
+                                   "(name-####.png), still (--at, .png) or page that plays the motion (.html)");
     add_scene(app, args->scene, args->common);
     app.positional("OTHERS", &args->others, "More scenes, to be compared with the first in one picture");
     app.option("-o,--output", &args->file, "FILE", "File to make").required();
-    app.option("--at", &args->at, "T",
-               "One picture of this instant, in seconds, with a unit, or impact:N, collision:N");
-    app.option("--from", &args->from, "T", "First instant of the film");
-    app.option("--to", &args->to, "T", "Last instant of the film");
+    app.option(
+        "--at", &args->at, "T",
+        "One picture of this instant: seconds, with a unit, or impact:N, collision:N, apex:N, touch, release, last");
+    app.option("--from", &args->from, "T", "First instant of the film, as for --at");
+    app.option("--to", &args->to, "T", "Last instant of the film, as for --at");
     app.option("--size", &args->size, "WxH", "Pixels, for example 1280x720");
     app.option("--fps", &args->fps, "RATE", "Frames a second, for example 60 or 30000/1001");
     app.option("--style", &args->style, "STYLE", "lit or solid (OpenGL; in perspective), or flat")
         .one_of({"lit", "flat", "solid"});
     app.option("--theme", &args->theme, "THEME", "light, dark or print").one_of({"light", "dark", "print"});
     app.option("--speed", &args->speed, "S", "Of time, 1 is real; or impacts: slow motion around them");
+    app.option("--duration", &args->duration, "T", "How long the film is to last, in place of --speed");
     app.option("--codec", &args->codec, "CODEC",
                "h264, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
-    app.option("--background", &args->background, "WHAT", "paper or transparent").one_of({"paper", "transparent"});
+    app.option("--background", &args->background, "WHAT", "paper, transparent, or a colour such as #f4f1ea");
+    app.option("--show", &args->show, "PRESET", "What stands around the panels: all, talk, paper or clean")
+        .one_of({"all", "talk", "paper", "clean"});
     app.option("--comparison", &args->comparison, "HOW", "Several scenes as panels, or as ghosts in one")
         .one_of({"panels", "ghosts"});
     app.option("--frames", &args->frames, "A:B",

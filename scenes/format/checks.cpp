@@ -61,6 +61,18 @@ void judge_physics(ObjectReader& r, const sim::Problem& problem) {
 
 // ---- pictures ----------------------------------------------------------------------------------
 
+void take_written_units(ObjectReader& r, render::Units& units) {
+    const auto ends_in = [&](const char* object, const char* key, std::initializer_list<std::string_view> names) {
+        const Member* inside = r.node()->find(object);
+        const Member* value = inside ? inside->value.find(key) : nullptr;
+        return value && value->value.kind == Node::Kind::string && std::ranges::any_of(names, [&](auto name) {
+                   return std::string_view(value->value.text).ends_with(name);
+               });
+    };
+    units.degrees = ends_in("initial", "angle", {"deg", "°"});
+    units.rpm = ends_in("cam", "speed", {"rpm"});
+}
+
 void warn_of_unused_camera(ObjectReader& r, const render::View& view) {
     if (r.has("camera") && view.style != render::Style::solid)
         r.findings().warning(
@@ -73,6 +85,13 @@ void judge_picture(ObjectReader& r, Picture& picture) {
         r.findings().warning(r.node()->place,
                              fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
                                          r.what(), picture.size.width, picture.size.height, memory / 1e9));
+    if (const auto paper = picture.view.paper) {
+        const render::Color ink = render::palette(picture.view.theme).ink;
+        if (render::contrast(ink, render::rgb(*paper)) < 3)
+            r.findings().warning(
+                r.place("background").place,
+                fmt::format("{} leaves the text hardly readable; choose another \"theme\"", r.path("background")));
+    }
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
         r.findings().warning(
             r.node()->place,
@@ -87,6 +106,7 @@ void judge_picture(ObjectReader& r, Picture& picture) {
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
+    if (span.from_event || span.to_event) return {};
     if (!span.real_time()) {
         if (to > span.from) return {};  // how many frames, only the motion tells
         return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,

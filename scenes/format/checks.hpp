@@ -16,6 +16,8 @@ inline constexpr std::size_t kMostCompared = 8;
 Form layout_form(std::optional<render::LayoutNode>& layout);
 
 void judge_physics(ObjectReader& r, const sim::Problem& problem);
+// The units in which the scene writes its angle and its speed are those of its pictures.
+void take_written_units(ObjectReader& r, render::Units& units);
 void warn_of_unused_camera(ObjectReader& r, const render::View& view);
 void judge_picture(ObjectReader& r, Picture& picture);
 void judge_layout(ObjectReader& r, const Picture& picture);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <numeric>
 
@@ -146,28 +147,32 @@ Form frame_rate_form(FrameRate& rate) {
 // ---- instants, speed ---------------------------------------------------------------------------
 
 std::optional<Instant> parse_instant(std::string_view text) {
-    for (const auto& [word, kind] : {std::pair{std::string_view("impact:"), Instant::Kind::impact},
-                                     std::pair{std::string_view("collision:"), Instant::Kind::collision}}) {
-        if (!text.starts_with(word)) continue;
-        const std::string_view digits = text.substr(word.size());
-        const auto number = number_in<int>(digits);
-        const bool counts = number && *number >= 1 && digits.front() != '0';
-        return counts ? std::optional(Instant{.kind = kind, .number = *number}) : std::nullopt;
+    if (text == "last") return Instant{.kind = Instant::Kind::last};
+    for (const EventWord& event : kEventWords) {
+        if (!text.starts_with(event.word)) continue;
+        std::string_view digits = text.substr(event.word.size());
+        if (digits.empty() && event.alone) return Instant{.kind = event.kind};
+        if (!digits.starts_with(':') || digits.starts_with(":0")) return std::nullopt;
+        const auto number = number_in<int>(digits.substr(1));
+        return number && *number >= 1 ? std::optional(Instant{.kind = event.kind, .number = *number}) : std::nullopt;
     }
     return std::nullopt;
+}
+
+bool names_event(std::string_view text) {
+    const auto begins = [&](const EventWord& event) { return text.starts_with(event.word); };
+    return text.starts_with("last") || std::ranges::any_of(kEventWords, begins);
 }
 
 namespace {
 
 void read_instant(ObjectReader& r, const Node& node, const std::string& key, std::optional<Instant>& out) {
     double t = 0;
-    if (node.kind == Node::Kind::string && (node.text.starts_with("impact") || node.text.starts_with("collision"))) {
+    if (node.kind == Node::Kind::string && names_event(node.text)) {
         if (const auto instant = parse_instant(node.text))
             out = instant;
         else
-            r.fail(node, key,
-                   fmt::format("{} = {}: impacts and collisions are counted from 1, \"impact:1\"", r.path(key),
-                               in_quotes(node.text)));
+            r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), kEventsCount));
     } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
         out = {.kind = Instant::Kind::time, .t = t};
     }
@@ -175,10 +180,13 @@ void read_instant(ObjectReader& r, const Node& node, const std::string& key, std
 
 Node written(const Instant& at) {
     if (at.kind == Instant::Kind::time) return number_node(at.t);
-    return text_node(fmt::format("{}:{}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number));
+    for (const EventWord& event : kEventWords)
+        if (event.kind == at.kind) return text_node(fmt::format("{}:{}", event.word, at.number));
+    return text_node("last");
 }
 
-constexpr const char* kInstantType = "time, \"impact:N\" or \"collision:N\"";
+constexpr const char* kInstantType =
+    "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"";
 constexpr const char* kInstantSchema = R"({"$ref": "#/$defs/instant"})";
 
 }  // namespace
@@ -198,6 +206,39 @@ Form instant_form(std::optional<Instant>& at) {
             [&at] { return at ? std::optional(written(*at)) : std::nullopt; }};
 }
 
+void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event) {
+    event.reset();
+    time.reset();
+    if (at.is_event())
+        event = at;
+    else if (at.kind == Instant::Kind::time)
+        time = at.t;
+}
+
+Form bound_form(double& time, std::optional<Instant>& event) {
+    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> some;
+        std::optional<double> given;
+        read_instant(r, node, key, some);
+        if (some) take_bound(*some, given, event);
+        if (given) time = *given;
+    };
+    return {kInstantType, kInstantSchema, read, [&] { return event ? written(*event) : number_node(time); }};
+}
+
+Form bound_form(std::optional<double>& time, std::optional<Instant>& event) {
+    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> some;
+        read_instant(r, node, key, some);
+        if (some) take_bound(*some, time, event);
+    };
+    const auto write = [&]() -> std::optional<Node> {
+        if (event) return written(*event);
+        return time ? std::optional(number_node(*time)) : std::nullopt;
+    };
+    return {kInstantType, kInstantSchema, read, write};
+}
+
 Form speed_form(Speed& speed) {
     const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind == Node::Kind::string && node.text == "impacts")
@@ -212,6 +253,62 @@ Form speed_form(Speed& speed) {
         "factor, \"impacts\" or object",
         R"({"anyOf": [{"const": "impacts"}, {"type": "number", "minimum": 1e-06, "maximum": 1000}, {"$ref": "#/$defs/percentage"}]})",
         read, write};
+}
+
+// ---- plates ------------------------------------------------------------------------------------
+
+bool take_background(std::string_view text, render::View& view) {
+    view.transparent = text == "transparent";
+    view.paper.reset();
+    if (view.transparent || text == "paper") return true;
+    if (text.size() != 7 || text.front() != '#') return false;
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (error != std::errc() || end != text.data() + text.size()) return false;
+    view.paper = value;
+    return true;
+}
+
+Form background_form(render::View& view) {
+    const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::string || !take_background(node.text, view))
+            r.fail(node, key,
+                   fmt::format("{} = {} is no background; write \"paper\", \"transparent\" or a colour such as "
+                               "\"#f4f1ea\"",
+                               r.path(key), shown(node)));
+    };
+    const auto write = [&view] {
+        return text_node(view.paper ? fmt::format("#{:06x}", *view.paper) : view.transparent ? "transparent" : "paper");
+    };
+    return {"\"paper\", \"transparent\" or \"#rrggbb\"",
+            R"({"anyOf": [{"enum": ["paper", "transparent"]}, {"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"}]})",
+            read, write};
+}
+
+std::optional<render::Shown> shown_preset(std::string_view name) {
+    if (name == "all") return render::Shown{};
+    if (name == "talk") return render::Shown{.parameters = false, .accuracy = false};
+    if (name == "paper") return render::Shown{.title = false, .parameters = false, .accuracy = false};
+    if (name == "clean") return render::Shown{false, false, false, false, false, false};
+    return std::nullopt;
+}
+
+Form show_form(render::Shown& show) {
+    const auto read = [&show](ObjectReader& r, const Node& node, const std::string& key) {
+        const auto preset = node.kind == Node::Kind::string ? shown_preset(node.text) : std::nullopt;
+        if (preset)
+            show = *preset;
+        else
+            r.fail(node, key,
+                   fmt::format("{} = {} is no preset{}", r.path(key), shown(node),
+                               suggestion_or_list(node.text, {std::begin(kPresets), std::end(kPresets)})));
+    };
+    const auto write = [&show]() -> std::optional<Node> {
+        for (const char* name : kPresets)
+            if (show == *shown_preset(name)) return text_node(name);
+        return std::nullopt;
+    };
+    return {"preset or object", fmt::format(R"({{"enum": ["{}"]}})", fmt::join(kPresets, "\", \"")), read, write};
 }
 
 // ---- channels ----------------------------------------------------------------------------------

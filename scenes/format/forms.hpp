@@ -17,7 +17,16 @@ Form size_form(Size& size);
 Form frame_rate_form(FrameRate& rate);
 Form instant_form(Instant& at);
 Form instant_form(std::optional<Instant>& at);
+// A film's first or last instant: a time, or an event.
+Form bound_form(double& time, std::optional<Instant>& event);
+Form bound_form(std::optional<double>& time, std::optional<Instant>& event);
+void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event);
 Form speed_form(Speed& speed);
+Form background_form(render::View& view);
+Form show_form(render::Shown& show);
+bool take_background(std::string_view text, render::View& view);  // false: it is none
+std::optional<render::Shown> shown_preset(std::string_view name);
+inline constexpr const char* kPresets[] = {"all", "talk", "paper", "clean"};
 Form channels_form(std::vector<sim::Channel>& channels);
 Form grouped_channels_form(std::vector<SeriesPanel>& panels);  // a panel for each unit
 Form abscissa_form(std::string& against);                      // of a series: "t", "turns", or a channel
@@ -27,7 +36,10 @@ std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channel
 
 std::optional<Size> parse_size(std::string_view text);             // "1280x720"
 std::optional<FrameRate> parse_frame_rate(std::string_view text);  // "60", "29.97", "30000/1001"
-std::optional<Instant> parse_instant(std::string_view text);       // "impact:2", "collision:1"
+std::optional<Instant> parse_instant(std::string_view text);       // "impact:2", "apex:1", "touch", "last"
+bool names_event(std::string_view text);                           // it is meant to be one of these
+inline constexpr const char* kEventsCount =
+    "events are counted from 1: impact:1, collision:2, apex:1, release:3, touch";
 
 inline constexpr sim::Range kFromStart{0, sim::Range::kInfinity, false, false, "is before the start; times begin at 0"};
 inline constexpr sim::Range kSpeedRange{1e-6, 1000, false, false,

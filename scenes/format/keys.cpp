@@ -42,6 +42,17 @@ void visit(SceneVisitor& v, Scene& scene) {
                       "Time to simulate, from 0.");
     };
     v.object("time", time, "How long.", nullptr);
+    v.check([&scene](ObjectReader& r) { take_written_units(r, scene.units); });
+    v.object(
+        sim::written_if(scene.units != render::Units{}, "units"),
+        [&scene](sim::Visitor& inside) {
+            auto& s = static_cast<SceneVisitor&>(inside);
+            s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
+                     "As initial.angle is written when left out.");
+            s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
+                     "Of rotation; as cam.speed is written when left out.");
+        },
+        "In which units films tell angles and speeds.", nullptr);
     v.check([&scene](ObjectReader& r) { judge_physics(r, scene.problem); });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();

@@ -23,11 +23,11 @@ constexpr const char* kDefinitions = R"({
         "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *%? *$"
     },
     "instant": {
-        "description": "A time, or the first touch of an impact or collision, counted from 1: \"impact:2\".",
+        "description": "A time; an event, counted from 1: the first touch of an \"impact:2\" or \"collision:1\", the \"release:2\" of an impact, the \"apex:1\" of the first rebound (without collisions, of the hub's angle); \"touch\" and \"release\" are the first ones; \"last\" is the end.",
         "anyOf": [
             {"type": "number", "minimum": 0},
             {"$ref": "#/$defs/withUnit"},
-            {"type": "string", "pattern": "^(impact|collision):[1-9][0-9]{0,8}$"}
+            {"type": "string", "pattern": "^((impact|collision|apex|touch|release):[1-9][0-9]{0,8}|touch|release|last)$"}
         ]
     }
 })";

@@ -78,6 +78,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     alone.outputs = {wanted};
     alone.sweep.reset();
     if (is_data(wanted)) alone.title.clear();
+    if (!is_picture(wanted)) alone.units = {};
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
     if (extent != Extent::scene) alone.end_time = extent == Extent::run ? until : 0;
     std::string other = part;

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 // Most pictures and films carry their scene inside; these do not.
 bool carries_no_scene(const fs::path& file) {
-    static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp"};
+    static constexpr std::string_view kEndings[] = {".csv",  ".npz", ".json", ".gif", ".apng",
+                                                    ".webp", ".vtt", ".srt",  ".html"};
     return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
 }
 
@@ -54,6 +55,7 @@ std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
     if (p.kind != Pictures::Kind::frames) {
         all.push_back(path_of(p.file));
         if (!p.poster_file.empty() && (!p.settled || p.makes_poster())) all.push_back(path_of(p.poster_file));
+        if (!p.subtitles_file.empty() && p.part.empty()) all.push_back(path_of(p.subtitles_file));
     } else if (!p.settled) {
         all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, also before their number is known
     } else {

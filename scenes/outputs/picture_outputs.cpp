@@ -1,4 +1,7 @@
 // Outputs "video", "frames" and "still": pictures of the mechanism and its charts.
+#include <algorithm>
+#include <cmath>
+
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
@@ -7,7 +10,7 @@
 namespace beamcam::scenes {
 
 namespace dim = sim::dimension;
-using sim::between, sim::kNotNegative, sim::Named, sim::Range, sim::required, sim::written_if;
+using sim::between, sim::kNotNegative, sim::kPositive, sim::Named, sim::Range, sim::required, sim::written_if;
 
 // ---- how pictures look -------------------------------------------------------------------------
 
@@ -40,13 +43,28 @@ static void visit(SceneVisitor& v, render::View& view) {
              "auto");
 }
 
+static void visit(SceneVisitor& v, render::Shown& show) {
+    v.truth("title", show.title, "The scene's title.");
+    v.truth("parameters", show.parameters, "The line below the title.");
+    v.truth("clock", show.clock, "The time.");
+    v.truth("legend", show.legend, "Colour scales, and how far deflection is exaggerated and time slowed down.");
+    v.truth("accuracy", show.accuracy, "Tolerance and closure of the energy balance, in the corner.");
+    v.truth("labels", show.labels, "Names, numbers and scale bar within the mechanism.");
+}
+
 static void visit_picture(SceneVisitor& v, Picture& picture) {
     using render::Theme, render::Comparison;
     v.object("view", picture.view, "How the mechanism is seen.");
     v.choice("theme", picture.view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
              "Colours.");
-    v.choice("background", picture.view.transparent, {{false, "paper"}, {true, "transparent"}},
-             "transparent: no paper behind the picture, where the format can.");
+    v.form("background", background_form(picture.view),
+           "paper: the theme's; \"#rrggbb\": this colour; transparent: none behind the picture, where the format can.");
+    v.either(
+        "show", show_form(picture.view.show),
+        [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.show); },
+        "What stands around the panels: all, a preset (talk: no parameters, no accuracy; paper: labels, legend and "
+        "clock, "
+        "since the caption tells the rest; clean: nothing), or an object that leaves parts out.");
     v.form("size", size_form(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
     v.either(
         "layout", layout_form(picture.layout),
@@ -89,21 +107,28 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
     v.number("freeze", event.freeze, dim::kTime, kNotNegative,
              "The picture stands still for so long, in the film's time.");
     v.text("text", event.text, "Words beside the contact.");
-    v.number("show", event.show, dim::kTime, kNotNegative,
-             "How long the words are shown, in the film's time; at least as long as the picture stands still.");
+    v.number(
+        "show", event.show, dim::kTime, kNotNegative,
+        "How long the words are shown, in the film's time; at least as long as the picture stands still. When left "
+        "out, 1.5 s or until the next words come.");
 }
 
 static void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.form("fps", frame_rate_form(span.fps),
            "Frames a second, 0.1 to 1000, or a fraction such as \"30000/1001\"; 29.97 means that one.");
-    v.number("from", span.from, dim::kTime, kFromStart, "First instant.");
-    v.number("to", span.to, dim::kTime, kFromStart, "Last instant; the end of the scene when left out.");
+    v.form("from", bound_form(span.from, span.from_event), "First instant.");
+    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.either(
         "speed", speed_form(span.speed),
         [&span](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), span.speed); },
         "How fast time runs: a factor, 1 is real time; \"impacts\": slow motion around them, or an object that says "
         "how "
         "slow.");
+    v.number("duration", span.duration, dim::kTime, kPositive,
+             "How long the film is to last, freezes and all, in place of \"speed\".");
+    v.exclude("speed", "duration");
+    v.number(written_if(span.hold > 0, "hold"), span.hold, dim::kTime, kNotNegative,
+             "The last picture stands still for so long, in the film's time.");
     v.list("events", SceneVisitor::items_of(span.events),
            "What the film does at instants: it stands still, or says something at the contact.");
 }
@@ -128,6 +153,12 @@ void VideoOutput::visit(SceneVisitor& v) {
         "poster", instant_form(span.poster),
         "The frame at this instant, or the first after it, is also put beside the film as a picture: fall.png beside "
         "fall.mp4. A time outside the film stands for its nearest frame.");
+    v.choice(written_if(subtitles != Subtitles::none, "subtitles"), subtitles,
+             {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
+             "A file beside the film that tells of its impacts and captions: fall.vtt beside fall.mp4.");
+    v.truth(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
+    v.choice(written_if(lang != Lang::en, "lang"), lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
+             "Language of subtitles and chapters.");
     v.choice(sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
              "Codec; by the ending when left out: .mp4 h264 (or av1), .webm vp9 (av1), .mov prores (h264), .mkv ffv1 "
              "(h264, vp9, av1).");
@@ -162,6 +193,25 @@ void StillOutput::visit(SceneVisitor& v) {
     v.check([this](ObjectReader& r) { name_after_scene(r, file, ".png"); });
 }
 
+void PageOutput::visit(SceneVisitor& v) {
+    using render::Theme;
+    v.form("file", file_form(file, {".html"}), "Name of the page; the scene's name with .html when left out.");
+    v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
+             "Colours.");
+    v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
+             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
+    v.form(
+        "fps", frame_rate_form(span.fps),
+        "Poses a second that are looked at, at least a thousand in all; those that the page finds by interpolation are "
+        "left out of it.");
+    v.form("from", bound_form(span.from, span.from_event), "First instant.");
+    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, ".html");
+        judge_span(r, span);
+    });
+}
+
 namespace {
 
 template <class Output>
@@ -181,6 +231,8 @@ void VideoOutput::plan(Planner& planner, std::size_t output) const {
     p.span = span;
     p.encoding = encoding;
     if (span.poster) p.poster_file = poster_file(*this);
+    p.subtitles = subtitles, p.chapters = chapters, p.lang = lang;
+    p.subtitles_file = subtitles_file(*this);
     planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
 }
 
@@ -190,10 +242,23 @@ void FramesOutput::plan(Planner& planner, std::size_t output) const {
     planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
 }
 
+void PageOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p = pictures(Pictures::Kind::page, *this, output);
+    p.picture = {.view = view};
+    p.picture.view.style = render::Style::flat;
+    p.span = span;
+    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
+    const double end = span.to.value_or(planner.scene().end_time),
+                 rate = kFewestPoses / std::max(end - span.from, 1e-9);
+    if (rate > span.fps.value()) p.span.fps = {static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1};
+    planner.add(std::move(p), end);
+}
+
 void StillOutput::plan(Planner& planner, std::size_t output) const {
     Pictures p = pictures(Pictures::Kind::still, *this, output);
     p.at = at;
-    planner.add(std::move(p), at.kind == Instant::Kind::time ? at.t : planner.scene().end_time);
+    if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
+    planner.add(std::move(p), p.at.is_event() ? planner.scene().end_time : p.at.t);
 }
 
 }  // namespace beamcam::scenes

@@ -10,6 +10,7 @@
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
+#include "render/film/page.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
@@ -79,11 +80,8 @@ void SceneRun::find_impacts(double far) {
     const auto start = Clock::now();
     settle(
         plan_, scene_,
-        [&](const sim::Problem& problem, double until) {
-            sim::Request request;
-            request.end_time = until;
-            request.turning_points = false;
-            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : until);
+        [&](const sim::Problem& problem, const sim::Request& request) {
+            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : request.end_time);
         },
         [&](const Pictures& p, const std::string& why) { refuse(p.output, why); });
     context_.times.simulate += seconds_since(start);
@@ -141,23 +139,39 @@ void SceneRun::write_pictures(std::size_t picture) {
     stop_if_interrupted();
     warn_of_missing(p);
     const auto start = Clock::now();
-    render::Film film(film_setup(plan_, picture, scene_, results_));
+    render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
+    if (p.kind == Pictures::Kind::page) return write_page(p, setup);
+    const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
+                       film_track(setup, p.lang)};
+    render::Film film(std::move(setup));
     if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields())
         context_.say(
             "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
             "far from where it touches\n",
             p.file, film.exaggeration(), *wanted);
-    const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p))};
     const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
     files_.note_work(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()), start,
                      files_.files_of(p));
 }
 
+void SceneRun::write_page(const Pictures& p, const render::FilmSetup& setup) {
+    const std::string page = render::html_page(setup);
+    const fs::path file = files_.path_of(p.file);
+    output::write_file(files_.target(file, p.output), page);
+    files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(page.size()) / 1000));
+}
+
 // What was asked for and the picture does not show.
 void SceneRun::warn_of_missing(const Pictures& p) const {
     if (!p.too_small.empty())
         context_.say("warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
+    constexpr std::size_t kFewFrames = 12;
+    if (const std::size_t frames = plan_.times(p).size();
+        (p.kind == Pictures::Kind::video || p.kind == Pictures::Kind::frames) && p.span.real_time() &&
+        frames < kFewFrames)
+        context_.say("warning: {} has {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
+                     p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
     if (!p.unshown.empty())
         context_.say("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
     if (!context_.options.verbose || context_.options.quiet) return;

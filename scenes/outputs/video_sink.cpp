@@ -2,6 +2,7 @@
 #include <mutex>
 #include <utility>
 
+#include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
 #include "output/image/png.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
@@ -38,6 +39,7 @@ output::VideoOptions options_of(const Pictures& p, render::Film& film, const Sin
     output::VideoOptions options = video_options(p);
     if (options.codec == output::Codec::gif) options.palette = palette_of(film);
     options.metadata = film_metadata(p, to);
+    if (p.chapters && p.part.empty()) options.chapters = to.track.chapters;
     return options;
 }
 
@@ -116,6 +118,11 @@ class VideoSink final : public PictureSink {
         to_.context.times.encode += spent.encode_seconds;
         to_.context.work.frames_encoded += spent.frames;
         to_.files.wrote(to_.files.path_of(p_.file), fmt::format("{} frames", p_.draw.size()));
+        if (!p_.subtitles_file.empty() && p_.part.empty()) {
+            const std::filesystem::path file = to_.files.path_of(p_.subtitles_file);
+            output::write_file(to_.files.target(file, p_.output), subtitle_file(to_.track.subtitles, p_.subtitles));
+            to_.files.wrote(file, "subtitles");
+        }
         if (p_.makes_poster()) to_.files.wrote(to_.files.path_of(p_.poster_file), "poster");
     }
 

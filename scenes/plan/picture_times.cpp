@@ -12,12 +12,25 @@ namespace {
 // A still of an instant is chosen by what led to it; one of an impact, which is found in the whole motion, by that.
 double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
 
+sim::Request events_until(double end, bool apexes) {
+    sim::Request request;
+    request.end_time = end;
+    request.turning_points = apexes;
+    return request;
+}
+
+bool looks_at_apexes(const Pictures& p) {
+    std::vector<Instant> named = p.span.instants();
+    named.push_back(p.at);
+    return std::ranges::any_of(named, [](const Instant& at) { return at.kind == Instant::Kind::apex; });
+}
+
 // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
 FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
-    const sim::Result first = find(p.compared.front().problem, p.end_time);
+    const sim::Result first = find(p.compared.front().problem, events_until(p.end_time, looks_at_apexes(p)));
     std::vector<sim::Impact> all = first.impacts;
     for (std::size_t i = 1; i < p.compared.size(); ++i) {
-        const sim::Result other = find(p.compared[i].problem, p.end_time);
+        const sim::Result other = find(p.compared[i].problem, events_until(p.end_time, false));
         all.insert(all.end(), other.impacts.begin(), other.impacts.end());
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
@@ -76,7 +89,9 @@ void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const Refus
     for (Pictures& p : plan.pictures) {
         if (p.settled) continue;
         const bool compares = !p.compared.empty();
-        if (!compares && !own) own = find(scene.problem, *plan.impacts_until);
+        if (!compares && !own)
+            own = find(scene.problem,
+                       events_until(*plan.impacts_until, std::ranges::any_of(plan.pictures, looks_at_apexes)));
         try {
             put_times(p, compares ? none : plan.simulation->request,
                       compares ? times_of_compared(p, find) : times_of(p, *own));

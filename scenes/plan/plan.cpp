@@ -92,9 +92,10 @@ std::string unwritten(const Pictures& p, const Scene& scene) {
     for (const Compared& each : picture.compare) problems.push_back(&each.problem);
     if (problems.empty()) problems.push_back(&scene.problem);
     const int members = picture.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
-    return fmt::format("{}", fmt::join(render::without_room(picture.size.width, picture.size.height, picture.layout,
-                                                            members, scene.title, problems),
-                                       "; "));
+    return fmt::format("{}",
+                       fmt::join(render::without_room(picture.size.width, picture.size.height, picture.layout, members,
+                                                      scene.title, problems, picture.view.show, scene.units.rpm),
+                                 "; "));
 }
 
 void note_unwritten(Plan& plan, const Scene& scene) {
@@ -110,7 +111,8 @@ void note_unwritten(Plan& plan, const Scene& scene) {
 }
 
 bool is_slow_motion(const Pictures& p) {
-    return p.picture.compare.empty() && (p.span.speed.around || p.span.speed.factor <= 0.1);
+    return p.picture.compare.empty() && (p.span.speed.around || p.span.speed.factor <= 0.1 ||
+                                         (p.span.duration && p.end_time - p.span.from <= 0.1 * *p.span.duration));
 }
 
 bool Pictures::makes_poster() const { return poster && std::ranges::binary_search(draw, *poster); }

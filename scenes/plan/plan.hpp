@@ -74,7 +74,7 @@ struct ComparedMotion {
 
 // A film, a sequence or a still: the same pictures, put away differently.
 struct Pictures {
-    enum class Kind { video, frames, still };
+    enum class Kind { video, frames, still, page };
     Kind kind = Kind::video;
     std::size_t output = 0;  // index into the scene's outputs
     std::string file;
@@ -92,8 +92,12 @@ struct Pictures {
     std::string part;       // of a film: "30:60 of 0:90"; empty: the whole
     // Index into Simulation::ends; absent: the run ends with it, or it compares motions.
     std::optional<std::size_t> until;
-    std::optional<int> poster;   // of a video: the frame that is also put into poster_file, as in `draw`
-    std::string poster_file;     // empty: none
+    std::optional<int> poster;  // of a video: the frame that is also put into poster_file, as in `draw`
+    std::string poster_file;    // empty: none
+    Subtitles subtitles = Subtitles::none;
+    std::string subtitles_file;  // empty: none
+    bool chapters = false;
+    Lang lang = Lang::en;
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<std::string> unshown;  // events of a film that it does not reach: "impact 3"
@@ -183,11 +187,11 @@ bool is_slow_motion(const Pictures& p);
 // "fall.mp4" as the second of three: "fall.2of3.mp4".
 std::string shard_file(const std::string& file, int shard, int shards);
 
-// Gives the pictures that wait for impacts their instants. `find` runs a problem until an instant for its impacts; it
-// is called once for the scene's own motion, if a picture needs that, and for each compared one. A picture of an
-// instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is thrown. Throws what
-// `find` throws and render::PictureError.
-using FindImpacts = std::function<sim::Result(const sim::Problem& problem, double until)>;
+// Gives the pictures that wait for impacts their instants. `find` runs a problem for its impacts, and its apexes where
+// the request has them; it is called once for the scene's own motion, if a picture needs that, and for each compared
+// one. A picture of an instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is
+// thrown. Throws what `find` throws and render::PictureError.
+using FindImpacts = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
 using RefusePicture = std::function<void(const Pictures& p, const std::string& why)>;
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
 

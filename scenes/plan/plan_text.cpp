@@ -27,6 +27,8 @@ const char* kind_name(Pictures::Kind kind) {
             return "video";
         case Pictures::Kind::frames:
             return "frames";
+        case Pictures::Kind::page:
+            return "page";
         case Pictures::Kind::still:
             return "still";
     }
@@ -94,10 +96,9 @@ std::string span_words(const Pictures& p, const std::vector<double>& times) {
     const bool still = p.kind == Pictures::Kind::still;
     if (!p.settled) {
         if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture of {:g} s", p.at.t);
-        if (still)
-            return fmt::format("one picture of {} {}", p.at.kind == Instant::Kind::impact ? "impact" : "collision",
-                               p.at.number);
-        if (p.span.real_time()) {  // only its charts or its poster ask for the impacts
+        if (still) return "one picture of " + name_of(p.at);
+        if (p.span.real_time() && !p.span.from_event &&
+            !p.span.to_event) {  // only its charts or its poster ask for the impacts
             FrameSpan alone = p.span;
             alone.poster.reset();
             return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second",

@@ -27,7 +27,8 @@ std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& 
 std::string too_small(const Picture& picture) {
     std::string out;
     if (!picture.layout) return out;
-    for (const render::PanelSpec& panel : render::left_out(picture.size.width, picture.size.height, *picture.layout))
+    for (const render::PanelSpec& panel :
+         render::left_out(picture.size.width, picture.size.height, *picture.layout, picture.view.show))
         out += (out.empty() ? "" : ", ") +
                (panel.channels.empty() ? std::string(type_of(panel.kind).name) : name(panel.channels.front()));
     return out;
@@ -135,7 +136,7 @@ void Planner::add(Pictures p, double ends) {
     if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
-    p.settled = !p.collisions && (still ? p.at.kind == Instant::Kind::time : !p.span.looks_at_impacts());
+    p.settled = !p.collisions && (still ? !p.at.is_event() : !p.span.looks_at_impacts());
     p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
     p.too_small = too_small(p.picture);
     if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));

@@ -49,10 +49,8 @@ void EntryGroup::run_alone(const RegressionOptions& options, RegressionResult& a
 void EntryGroup::prepare(Job& job) {
     const Scene& scene = job.test->entry().scene;
     job.plan = plan(scene);
-    settle(job.plan, scene, [](const sim::Problem& some, double until) {
-        sim::Request only_impacts;
-        only_impacts.end_time = until;
-        return sim::simulate(some, only_impacts, [](double) { return !output::interrupted(); });
+    settle(job.plan, scene, [](const sim::Problem& some, const sim::Request& events) {
+        return sim::simulate(some, events, [](double) { return !output::interrupted(); });
     });
     // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
     // statics, behind which there is no motion at all.

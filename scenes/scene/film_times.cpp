@@ -52,33 +52,72 @@ FilmTimes real_time(const FrameSpan& span, double to) {
 }
 
 // Absent where the film is cut short before it; the whole motion has to have it.
-std::optional<double> reached(const Instant& at, const FrameSpan& span, const sim::Result& motion) {
+std::optional<double> reached(const Instant& at, const FrameSpan& span, double to, const sim::Result& motion) {
+    if (at.kind == Instant::Kind::last) return to;
     return span.to ? find_instant(at, motion) : instant_of(at, motion);
 }
 
-std::string name_of(const Instant& at) {
-    return fmt::format("{} {}", at.kind == Instant::Kind::impact ? "impact" : "collision", at.number);
+FrameSpan with_times(FrameSpan span, const sim::Result& motion) {
+    if (span.from_event) span.from = instant_of(*span.from_event, motion);
+    if (span.to_event) span.to = instant_of(*span.to_event, motion);
+    return span;
+}
+
+struct ShownEvent {
+    const FilmEvent* event;
+    double t;
+};
+
+// Words without a time of their own give way to the next ones.
+std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, const TimeMap& map, double fps) {
+    constexpr double kUsual = 1.5;  // [s]
+    std::vector<render::Callout> out;
+    std::vector<const FilmEvent*> events;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto& [event, t] = shown[i];
+        if (event->text.empty()) continue;
+        double from = map.film_time(t);  // one after the other where several are of one instant
+        for (std::size_t j = 0; j < i; ++j)
+            if (shown[j].t == t) from += shown[j].event->freeze;
+        const double length = std::max(event->show.value_or(kUsual), event->freeze);
+        out.push_back({static_cast<int>(std::ceil(from * fps - 1e-6)),
+                       static_cast<int>(std::floor((from + length) * fps + 1e-6)), event->text});
+        events.push_back(event);
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+        for (const render::Callout& next : out)
+            if (!events[i]->show && next.first > out[i].first) out[i].last = std::min(out[i].last, next.first - 1);
+    return out;
+}
+
+// A wanted duration leaves the motion what freezes and the end do not take.
+Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
+    if (!span.duration) return span.speed;
+    double left = *span.duration - span.hold;
+    for (const FilmEvent& event : span.events)
+        if (const auto t = reached(event.at, span, to, motion); t && *t >= span.from && *t <= to) left -= event.freeze;
+    if (!(left > 0))
+        throw render::PictureError(fmt::format(
+            "a film of {:g} s has no time left beside its freezes and its hold; raise \"duration\"", *span.duration));
+    return {.factor = (to - span.from) / left};
 }
 
 // Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
 FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
                  std::vector<double>& fine) {
-    TimeMap map(span.from, to, span.speed, slowed);
+    TimeMap map(span.from, to, speed_of(span, to, motion), slowed);
     FilmTimes out;
-    struct Shown {
-        const FilmEvent* event;
-        double t;
-    };
-    std::vector<Shown> shown;
+    std::vector<ShownEvent> shown;
     for (const FilmEvent& event : span.events) {
-        const std::optional<double> t = reached(event.at, span, motion);
+        const std::optional<double> t = reached(event.at, span, to, motion);
         if (t && *t >= span.from && *t <= to) {
             shown.push_back({&event, *t});
             if (event.freeze > 0) map.freeze(*t, event.freeze);
-        } else if (event.at.kind != Instant::Kind::time) {  // the reader has told of those
+        } else if (event.at.is_event()) {  // the reader has told of those
             out.unshown.push_back(name_of(event.at));
         }
     }
+    map.freeze(to, span.hold);
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
     if (count > kMostFrames)
         throw render::PictureError(
@@ -94,20 +133,12 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
         // Freezes begin between frames: rounding must not step back by an ulp.
         previous = std::max(previous, map.instant(film));
         out.frames.push_back(previous);
-        out.speeds.push_back(map.speed(film));
+        // The last picture stands, but nobody has frozen it.
+        out.speeds.push_back(span.hold > 0 && previous >= to ? map.speed_at(to) : map.speed(film));
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
     }
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const auto& [event, t] = shown[i];
-        if (event->text.empty()) continue;
-        double from = map.film_time(t);  // one after the other where several are of one instant
-        for (std::size_t j = 0; j < i; ++j)
-            if (shown[j].t == t) from += shown[j].event->freeze;
-        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
-                  last = static_cast<int>(std::floor((from + std::max(event->show, event->freeze)) * fps + 1e-6));
-        out.callouts.push_back({first, last, event->text});
-    }
+    out.callouts = callouts_of(shown, map, fps);
     return out;
 }
 
@@ -171,13 +202,14 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     return film_times(span, end_time, motion, motion.impacts, collisions);
 }
 
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions) {
+    const FrameSpan span = with_times(asked, motion);
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
     if (span.poster) {
-        if (const std::optional<double> t = reached(*span.poster, span, motion))
+        if (const std::optional<double> t = reached(*span.poster, span, to, motion))
             out.poster = first_at(out.frames, *t);
         else
             out.unshown.push_back(name_of(*span.poster) + ", its poster");

@@ -29,7 +29,7 @@ struct FilmTimes {
 // `collisions`: the charts get more rows within each of the motion's.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
 // `slowed`: the impacts that time slows around, of all the motions that a picture compares; "impact:3" is `motion`'s.
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
+FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
 // `until`: how far the motion goes that gives the still its scales [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);

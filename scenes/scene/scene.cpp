@@ -1,5 +1,7 @@
 #include "scenes/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -13,10 +15,18 @@ std::string poster_file(const VideoOutput& video) {
     return std::filesystem::path(video.file).replace_extension(".png").generic_string();
 }
 
+std::string subtitles_file(const VideoOutput& video) {
+    if (video.subtitles == Subtitles::none) return {};
+    const char* ending = video.subtitles == Subtitles::vtt ? ".vtt" : ".srt";
+    return std::filesystem::path(video.file).replace_extension(ending).generic_string();
+}
+
 std::vector<std::string> written_by(const Output& output) {
     std::vector<std::string> files{file_of(output)};
-    if (const auto* video = std::get_if<VideoOutput>(&output); video && video->span.poster)
-        files.push_back(poster_file(*video));
+    if (const auto* video = std::get_if<VideoOutput>(&output)) {
+        if (video->span.poster) files.push_back(poster_file(*video));
+        if (video->subtitles != Subtitles::none) files.push_back(subtitles_file(*video));
+    }
     return files;
 }
 
@@ -34,15 +44,29 @@ double memory_of(const Picture& picture) {
     return 0;
 }
 
+bool is_picture(const Output& output) {
+    return std::visit([](const auto& o) { return std::is_base_of_v<Picture, std::decay_t<decltype(o)>>; }, output);
+}
+
 bool is_data(const Output& output) {
     return std::visit([](const auto& o) { return o.kIsData; }, output);
 }
 
-bool FrameSpan::looks_at_impacts() const {
-    return speed.around || (poster && poster->kind != Instant::Kind::time) ||
-           std::any_of(events.begin(), events.end(),
-                       [](const FilmEvent& event) { return event.at.kind != Instant::Kind::time; });
+std::string name_of(const Instant& at) {
+    for (const EventWord& each : kEventWords)
+        if (each.kind == at.kind) return fmt::format("{} {}", each.word, at.number);
+    return at.kind == Instant::Kind::last ? "the end" : fmt::format("{:g} s", at.t);
 }
+
+std::vector<Instant> FrameSpan::instants() const {
+    std::vector<Instant> all;
+    for (const FilmEvent& event : events) all.push_back(event.at);
+    for (const auto& each : {from_event, to_event, poster})
+        if (each) all.push_back(*each);
+    return all;
+}
+
+bool FrameSpan::looks_at_impacts() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
 
 VideoOutput default_film(const Scene& scene) {
     VideoOutput film;

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -38,14 +39,29 @@ struct Encoding {
     bool variable_rate = false;       // pictures that do not change are coded once and last longer
 };
 
-// An instant of the motion: a time, or the first touch of an impact or a collision, counted from 1.
+// An instant of the motion: a time, the end, or an event counted from 1: the first touch of an impact or a collision,
+// the release of an impact, the apex of a rebound (the largest hub angle between two collisions).
 struct Instant {
-    enum class Kind { time, impact, collision };
+    enum class Kind { time, last, impact, collision, release, apex };
     Kind kind = Kind::time;
     double t = 0;    // [s], >= 0
-    int number = 1;  // of the impact or collision
+    int number = 1;  // of the event
     bool operator==(const Instant&) const = default;
+
+    bool is_event() const { return kind != Kind::time && kind != Kind::last; }
 };
+// How scenes write events: "impact:3", or a word that is enough for the first one, "touch".
+struct EventWord {
+    std::string_view word;  // singular
+    Instant::Kind kind;
+    bool alone = false;  // without a number: the first
+};
+inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
+                                            {"collision", Instant::Kind::collision},
+                                            {"apex", Instant::Kind::apex},
+                                            {"release", Instant::Kind::release, true},
+                                            {"touch", Instant::Kind::impact, true}};
+std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
 
 // How fast the motion runs in a film.
 struct SlowMotion {
@@ -66,9 +82,9 @@ struct Speed {
 // What the film does at an instant: stands still, says something.
 struct FilmEvent {
     Instant at;
-    double freeze = 0;  // [s] of the film
-    std::string text;   // plain, beside the contact
-    double show = 1.5;  // [s] of the film, and at least as long as it stands still
+    double freeze = 0;                // [s] of the film
+    std::string text;                 // plain, beside the contact
+    std::optional<double> show = {};  // [s] of the film; absent: 1.5 s, or until the next words come
 };
 
 // Another motion in the same picture: this scene with some of its mechanics changed.
@@ -94,12 +110,19 @@ struct FrameSpan {
     double from = 0;                // [s] of the motion, >= 0
     std::optional<double> to = {};  // [s], > from; absent: the end of the scene
     Speed speed = {};
+    std::optional<double> duration = {};  // wanted of the film, freezes and all, in place of a speed [s], > 0
+    double hold = 0;                      // the last picture stands so long [s]
     std::vector<FilmEvent> events = {};
-    std::optional<Instant> poster = {};  // of a video: its frame that is put beside it as a picture
+    std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
+    std::optional<Instant> poster = {};                     // of a video: its frame that is put beside it as a picture
 
-    bool real_time() const { return speed.real_time() && events.empty(); }
-    bool looks_at_impacts() const;  // they have to be known before the frames' instants are
+    bool real_time() const { return speed.real_time() && events.empty() && !duration && hold == 0; }
+    std::vector<Instant> instants() const;  // all that it names
+    bool looks_at_impacts() const;          // events have to be known before the frames' instants are
 };
+
+enum class Lang { en, zh };
+enum class Subtitles { none, vtt, srt };
 
 class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp
@@ -116,6 +139,9 @@ struct VideoOutput : Picture {
     std::string file;                       // relative to the output directory, as in every output
     FrameSpan span;
     Encoding encoding;
+    Subtitles subtitles = Subtitles::none;  // a file beside it
+    bool chapters = false;                  // in it, at impacts
+    Lang lang = Lang::en;                   // of both
 
     Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
     void visit(SceneVisitor& v);
@@ -138,6 +164,17 @@ struct StillOutput : Picture {
     Instant at;
 
     Extent extent() const { return at.kind == Instant::Kind::time ? Extent::keys : Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+// The poses looked at are thinned by what the page can interpolate; its keys are few, since it fits any window.
+struct PageOutput : Picture {
+    static constexpr const char *kType = "page", *kMeaning = "A self-contained HTML page that plays the motion.";
+    static constexpr bool kIsData = false;
+    std::string file;  // .html
+    FrameSpan span{.fps = {1000, 1}};
+
+    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
@@ -172,7 +209,6 @@ struct SummaryOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-enum class Lang { en, zh };
 // One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
@@ -207,8 +243,8 @@ struct FigureOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-using Output =
-    std::variant<VideoOutput, FramesOutput, StillOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, SummaryOutput>;
+using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, FigureOutput, TrajectoryOutput,
+                            ImpactsOutput, SummaryOutput>;
 
 // About what a thread needs to draw it [bytes], and from where on people are told.
 double memory_of(const Picture& picture);
@@ -216,12 +252,15 @@ constexpr double kMuchMemory = 1e9;
 
 const std::string& file_of(const Output& output);
 std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
-std::vector<std::string> written_by(const Output& output);  // its file, and a film's poster
+std::string subtitles_file(const VideoOutput& video);       // "fall.vtt"; empty: none
+std::vector<std::string> written_by(const Output& output);  // its file, and what stands beside a film
 bool is_data(const Output& output);
+bool is_picture(const Output& output);
 
 struct Scene {
     std::string name = "scene";  // the file's name without its ending
     std::string title;
+    render::Units units;  // that films write
     sim::Problem problem;
     double end_time = 1.5;  // [s], > 0
     std::optional<Sweep> sweep;

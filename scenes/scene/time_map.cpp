@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "render/base/error.hpp"
@@ -150,28 +151,55 @@ double TimeMap::film_time(double t) const {
     return film;
 }
 
+// The highest apex of each rebound: between the beginnings of two collisions, or after the last. Without collisions
+// each apex counts.
+static std::vector<sim::Apex> rebounds(const sim::Result& motion) {
+    std::vector<sim::Apex> out;
+    if (motion.collisions.empty()) return motion.apexes;
+    for (std::size_t i = 0; i < motion.collisions.size(); ++i) {
+        const bool last = i + 1 == motion.collisions.size();
+        const double from = motion.collisions[i].t_start,
+                     to = last ? motion.end_time : motion.collisions[i + 1].t_start;
+        std::optional<sim::Apex> highest;
+        for (const sim::Apex& apex : motion.apexes)
+            if (apex.t > from && apex.t < to && (!highest || apex.theta > highest->theta)) highest = apex;
+        if (highest) out.push_back(*highest);
+    }
+    return out;
+}
+
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion) {
-    const auto pick = [&](const auto& all) -> std::optional<double> {
+    const auto pick = [&](const auto& all, auto time) -> std::optional<double> {
         if (instant.number < 1 || std::cmp_greater(instant.number, all.size())) return std::nullopt;
-        return all[static_cast<std::size_t>(instant.number - 1)].t_start;
+        return std::invoke(time, all[static_cast<std::size_t>(instant.number - 1)]);
     };
     switch (instant.kind) {
         case Instant::Kind::time:
             break;
+        case Instant::Kind::last:
+            return motion.end_time;
         case Instant::Kind::impact:
-            return pick(motion.impacts);
+            return pick(motion.impacts, &sim::Impact::t_start);
         case Instant::Kind::collision:
-            return pick(motion.collisions);
+            return pick(motion.collisions, &sim::Collision::t_start);
+        case Instant::Kind::release:
+            return pick(motion.impacts, &sim::Impact::t_end);
+        case Instant::Kind::apex:
+            return pick(rebounds(motion), &sim::Apex::t);
     }
     return instant.t;
 }
 
 double instant_of(const Instant& instant, const sim::Result& motion) {
     if (const auto t = find_instant(instant, motion)) return *t;
-    const bool impact = instant.kind == Instant::Kind::impact;
-    throw render::PictureError(fmt::format("there is no {} {}: the motion has {} until {:g} s",
-                                           impact ? "impact" : "collision", instant.number,
-                                           impact ? motion.impacts.size() : motion.collisions.size(), motion.end_time));
+    const auto released =
+        std::ranges::count_if(motion.impacts, [](const sim::Impact& i) { return i.t_end.has_value(); });
+    const std::size_t count = instant.kind == Instant::Kind::apex        ? rebounds(motion).size()
+                              : instant.kind == Instant::Kind::collision ? motion.collisions.size()
+                              : instant.kind == Instant::Kind::release   ? static_cast<std::size_t>(released)
+                                                                         : motion.impacts.size();
+    throw render::PictureError(
+        fmt::format("there is no {}: the motion has {} until {:g} s", name_of(instant), count, motion.end_time));
 }
 
 }  // namespace beamcam::scenes

@@ -50,8 +50,8 @@ class TimeMap {
     double length_ = 0;  // freezes apart [s]
 };
 
-// The instant that a scene names: a time, or the touch of an impact or collision, counted from 1. Where there are not
-// so many: nothing, or render::PictureError with their count in words.
+// The instant that a scene names, "last" being the motion's end. Where the motion has no such event: nothing, or
+// render::PictureError that tells how many it has.
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion);
 double instant_of(const Instant& instant, const sim::Result& motion);
 

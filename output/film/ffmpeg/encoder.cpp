@@ -141,6 +141,7 @@ class FfmpegEncoder : public Encoder {
         const int code = avcodec_parameters_from_context(stream.codecpar, codec_.get());
         if (code < 0) fail("setting up the film", code);
         for (const auto& [key, value] : settings_.metadata) file_.set_tag(key, value);
+        file_.set_chapters(settings_.chapters);
         file_.write_header(settings_.container_options);
     }
 

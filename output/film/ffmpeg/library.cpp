@@ -9,6 +9,7 @@ extern "C" {
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -196,6 +197,23 @@ void OutputFile::fail_to_write(int code) const {
 
 void OutputFile::set_tag(const std::string& key, const std::string& value) {
     av_dict_set(&format_->metadata, key.c_str(), value.c_str(), 0);
+}
+
+// The container frees them.
+void OutputFile::set_chapters(const std::vector<Chapter>& chapters) {
+    if (chapters.empty()) return;
+    format_->chapters = static_cast<AVChapter**>(av_calloc(chapters.size(), sizeof(AVChapter*)));
+    if (format_->chapters == nullptr) throw std::bad_alloc();
+    for (const Chapter& each : chapters) {
+        auto* chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
+        if (chapter == nullptr) throw std::bad_alloc();
+        format_->chapters[format_->nb_chapters++] = chapter;
+        chapter->id = format_->nb_chapters;
+        chapter->time_base = {1, 1000};
+        chapter->start = std::llround(each.from * 1000);
+        chapter->end = std::llround(each.to * 1000);
+        av_dict_set(&chapter->metadata, "title", each.title.c_str(), 0);
+    }
 }
 
 void OutputFile::write_header(const OptionList& options) {

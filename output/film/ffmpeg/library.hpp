@@ -71,6 +71,7 @@ class OutputFile {
     AVFormatContext& format() const { return *format_; }
     AVStream& stream() const { return *stream_; }
     void set_tag(const std::string& key, const std::string& value);
+    void set_chapters(const std::vector<Chapter>& chapters);
     void write_header(const OptionList& options);
     void write(AVPacket& packet);  // of the stream's time base
     void end();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "render/draw/canvas.hpp"
@@ -102,6 +103,32 @@ TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
     const TimeFormat slow = time_format({0.01, 0.01001, 0.0102});
     EXPECT_STREQ(slow.symbol, "ms");
     EXPECT_NE(clock_text(slow, 0.01, 1), clock_text(slow, 0.01001, 1));
+}
+
+// Freezes at round times make steps of rounding, and one odd step each.
+TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
+    std::vector<double> times;
+    for (int k = 0; k < 30; ++k) {
+        times.push_back(k / 30.0);
+        if (k % 10 == 3) times.insert(times.end(), 15, k / 30.0 + 1e-16 + (k == 13 ? 1e-7 : 0));
+    }
+    EXPECT_EQ(time_format(times).decimals, 3);
+}
+
+TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {
+    EXPECT_EQ(turning_speed(0.5, false), "0.5\u00A0rad/s");
+    EXPECT_EQ(turning_speed(-10 * std::numbers::pi, true), "−300\u00A0rpm");
+    EXPECT_EQ(turning_speed(0, false), "0\u00A0rad/s");
+}
+
+TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
+    const Layout all = layout(1920, 1080, kAll);
+    const Layout none = layout(1920, 1080, kAll, 1, {}, {false, false, false, false, false, false});
+    EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.note);
+    EXPECT_GT(none.panels.front().box.h, all.panels.front().box.h + 150);
+    const Layout untitled = layout(1920, 1080, kAll, 1, {}, {.title = false});
+    EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 54, 1);
+    EXPECT_TRUE(layout(1920, 1080, kAll, 1, {}, {.clock = false}).clock);  // its pills belong to the legend
 }
 
 TEST(Labels, LargeNumbersArePowersOfTen) {

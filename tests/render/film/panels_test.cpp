@@ -692,12 +692,17 @@ TEST(Panels, PictographsLeaveNoBoxes) {
     EXPECT_EQ(drawn(a, 2), drawn(b, 2));
 }
 
-TEST(Panels, TheLatestWordsTakeThePlaceOfThoseBefore) {
+TEST(Panels, WordsThatAreShownTogetherStandApart) {
     FilmSetup both = everything(), later = everything();
     both.callouts = {{5, 40, "first touch"}, {20, 30, "second touch"}};
     later.callouts = {{20, 30, "second touch"}};
     Film a(std::move(both)), b(std::move(later));
-    EXPECT_EQ(drawn(a, 25), drawn(b, 25));
+    const std::vector<Box> two = a.geometry(25).texts, one = b.geometry(25).texts;
+    ASSERT_EQ(two.size(), one.size() + 1);
+    std::vector<Box> added;  // the earlier caption
+    std::ranges::copy_if(two, std::back_inserter(added), [&](const Box& t) { return !std::ranges::count(one, t); });
+    ASSERT_EQ(added.size(), 1u);
+    for (const Box& text : one) EXPECT_FALSE(added.front().overlaps(text));
     EXPECT_NE(drawn(a, 10), drawn(b, 10));
 }
 

@@ -74,6 +74,26 @@ TEST(ParameterLine, WithoutATitleThereAreTwoLinesInTheirOrder) {
     EXPECT_GT(line.pieces.back().baseline.y, line.pieces.front().baseline.y);
 }
 
+TEST(ParameterLine, ALongTitleFillsTwoLinesInEveryScript) {
+    Image image(1, 1);
+    const Fonts fonts(true);
+    Canvas canvas(image, fonts);
+    const Box box{0, 0, 1100, 54};
+    for (const char* title :
+         {"Experimental and numerical investigation of the multiple impacts of a flexible beam that falls onto a cam",
+          "旋转柔性梁与偏心凸轮之间多次碰撞的实验与数值研究以及考虑接触阻尼和摩擦影响的动力学响应分析及其在不同转速下的"
+          "比较与验证"}) {
+        const FittedTitle fitted = fitted_title(canvas, title, box, 1);
+        ASSERT_EQ(fitted.lines.size(), 2u) << title;
+        EXPECT_FALSE(fitted.cut) << title;
+        for (const FittedTitle::Line& line : fitted.lines) {
+            EXPECT_LE(canvas.measure(line.markup, fitted.style).w, box.w);
+            EXPECT_LT(line.baseline.y, box.bottom());
+        }
+    }
+    EXPECT_EQ(fitted_title(canvas, "Fall", box, 1).lines.size(), 1u);
+}
+
 TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     const sim::Problem problem;
     EXPECT_TRUE(without_room(1920, 1080, {}, 1, "Fall", {&problem}).empty());
@@ -83,7 +103,8 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     EXPECT_EQ(tiny.back(), "colour scales");
     const std::string essay =
         "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "the end of the title");
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");  // on two lines
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay, {&problem}).front(), "the end of the title");
     EXPECT_TRUE(without_room(1920, 1080, {}, 1, essay, {&problem}).empty());
     EXPECT_EQ(without_room(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(plain(math("K") + "\u2009=\u2009" + power_text(1e8) + "\u00A0N\u2009m<sup>−1.5</sup>"),

@@ -41,6 +41,7 @@ TEST(Reader, TheShippedDefaultSaysInUnitsWhatTheDefaultsAreInNumbers) {
     scene.outputs.clear();
     EXPECT_EQ(to_json(scene), to_json([&] {
                   empty.problem.beam.damping_ratio = {0};
+                  empty.units.degrees = true;
                   return empty;
               }()));
 }
@@ -138,6 +139,30 @@ TEST(Reader, EveryOutputTypeIsRead) {
     EXPECT_EQ(table.times, (std::vector<double>{1, 0.5}));
     EXPECT_EQ(file_of(outputs[4]), "i.csv");
     EXPECT_TRUE(std::get<SummaryOutput>(outputs[5]).horizon);
+}
+
+TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
+    const auto view = [](const std::string& keys) {
+        const Reading reading = read(R"({"outputs": [{"type": "still", "at": 0, )" + keys + "}]}");
+        return std::pair{reading.scene ? std::get<StillOutput>(reading.scene->outputs[0]).view : render::View{},
+                         reading.report()};
+    };
+    EXPECT_EQ(view(R"("show": {"clock": false})").first.show, (render::Shown{.clock = false}));
+    EXPECT_FALSE(view(R"("show": "clean")").first.show.labels);
+    EXPECT_TRUE(view(R"("show": "paper")").first.show.legend);
+    EXPECT_THAT(view(R"("show": "tlak")").second, HasSubstr("talk"));
+    EXPECT_EQ(view(R"("background": "#f4f1ea")").first.paper, 0xf4f1eau);
+    EXPECT_THAT(view(R"("background": "#202020")").second, HasSubstr("hardly readable"));
+    EXPECT_THAT(view(R"("background": "beige")").second, HasSubstr("a colour such as"));
+}
+
+TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
+    const auto units = [](const std::string& text) { return read(text).scene->units; };
+    EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "cam": {"speed": "-300 rpm"}})"), (render::Units{true, true}));
+    EXPECT_EQ(units(R"({"initial": {"angle": 1}, "cam": {"speed": "2 rad/s"}})"), render::Units{});
+    EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "units": {"angle": "rad"}})"), render::Units{});
+    const std::string written = to_json(*read(R"({"initial": {"angle": "60 deg"}})").scene);
+    EXPECT_EQ(units(written), (render::Units{true, false}));
 }
 
 TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {

@@ -208,8 +208,8 @@ Identities identities(const Scene& scene) {
 }
 
 bool is_mechanics(const std::string& section) {
-    return section != "$schema" && section != "title" && section != "time" && section != "sweep" &&
-           section != "outputs";
+    return section != "$schema" && section != "title" && section != "time" && section != "units" &&
+           section != "sweep" && section != "outputs";
 }
 
 // Whether another value of the leaf is another motion, or is only drawn or written.
@@ -231,9 +231,11 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
                       std::holds_alternative<SummaryOutput>(any);
     if (place == "/$schema" || place.starts_with("/sweep/")) return false;
     if (place == "/title") return !data;
+    if (place.starts_with("/units/")) return is_picture(any);
     if (place != "/time/end") return true;
     if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;
     if (const auto* frames = std::get_if<FramesOutput>(&any)) return !frames->span.to;
+    if (const auto* page = std::get_if<PageOutput>(&any)) return !page->span.to;
     if (const auto* still = std::get_if<StillOutput>(&any)) return still->at.kind != Instant::Kind::time;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
     if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;

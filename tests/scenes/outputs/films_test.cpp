@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "render/mechanism/exaggeration.hpp"
+#include "scenes/outputs/film_track.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "sim/run/simulate.hpp"
@@ -120,6 +121,45 @@ TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
     EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
 }
 
+TEST(Films, EventsAreInstantsWhereverATimeIs) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "apex:1"},
+        {"type": "still", "file": "b.png", "at": "release:2"}, {"type": "still", "file": "c.png", "at": "last"},
+        {"type": "frames", "file": "d-##.png", "fps": 50, "from": "touch", "to": "apex:1"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    Plan made = plan(*reading.scene);
+    sim::Result motion;
+    settle(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+        return motion = sim::simulate(problem, request);
+    });
+    ASSERT_GE(motion.impacts.size(), 2u);
+    double highest = 0, apex = 0;  // of the first rebound, by every apex of the ripple
+    for (const sim::Apex& each : motion.apexes)
+        if (each.t > motion.collisions.at(0).t_start && each.t < motion.collisions.at(1).t_start &&
+            each.theta > highest)
+            highest = each.theta, apex = each.t;
+    EXPECT_GT(apex, 0.4);
+    EXPECT_EQ(made.times(made.pictures.at(0)).front(), apex);
+    EXPECT_EQ(made.times(made.pictures.at(1)).front(), motion.impacts[1].t_end);
+    EXPECT_EQ(made.times(made.pictures.at(2)).front(), 1);
+    const std::vector<double>& frames = made.times(made.pictures.at(3));
+    EXPECT_NEAR(frames.front(), motion.impacts[0].t_start, 0.5 / 50);
+    EXPECT_NEAR(frames.back(), apex, 1.5 / 50);
+    EXPECT_THAT(to_json(*reading.scene), HasSubstr("\"from\": \"impact:1\""));
+}
+
+TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "at": 0, "size": [96, 96],
+        "view": {"style": "flat"}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at apex:3").err,
+                HasSubstr("there is no apex 3: the motion has 0 until 0.1 s"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x-##.png --from release --to last").err,
+                HasSubstr("there is no release 1: the motion has 0"));
+    const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("events are counted from 1"));
+}
+
 // The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
 TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
     SKIP_UNDER_SANITIZERS();
@@ -228,7 +268,7 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     Plan p = plan(*reading.scene);
     EXPECT_EQ(p.impacts_until, 1.5);
     EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
-    settle(p, *reading.scene, [](const sim::Problem&, double) {
+    settle(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
         result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
@@ -358,13 +398,89 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
         {"type": "video", "fps": 30}]})");
     Plan made = plan(*reading.scene);
-    settle(made, *reading.scene, [](const sim::Problem& problem, double until) {
-        sim::Request request;
-        request.end_time = until;
-        return sim::simulate(problem, request);
-    });
+    settle(made, *reading.scene,
+           [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); });
     const auto& poses = made.simulation->request.poses;
     EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
+}
+
+// ---- how long films last, and what goes with them --------------------------------------------
+
+FilmTimes times_in(const std::string& keys, const sim::Result& motion = {}) {
+    const Reading reading =
+        testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "video", "fps": 30, )" + keys + "}]}");
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return film_times(std::get<VideoOutput>(reading.scene->outputs[0]).span, 1, motion);
+}
+
+TEST(Films, LastAsLongAsIsWanted) {
+    const FilmTimes slow = times_in(R"("duration": "10 s")");
+    EXPECT_EQ(slow.frames.size(), 300u);
+    EXPECT_NEAR(slow.frames.back(), 1 - 1.0 / 300, 1e-12);
+    const FilmTimes frozen = times_in(R"("duration": "10 s", "hold": 2, "events": [{"at": 0.5, "freeze": 3}])");
+    EXPECT_EQ(frozen.frames.size(), 300u);
+    EXPECT_NEAR(frozen.speeds.front(), 1.0 / 5, 1e-12);
+    EXPECT_THROW(times_in(R"("duration": 1, "hold": 2)"), std::runtime_error);
+}
+
+TEST(Films, ShowWordsForTheirTimeAndOthersUntilTheNext) {
+    const FilmTimes told = times_in(R"("events": [{"at": 0.1, "text": "a"}, {"at": 0.2, "text": "b", "show": 0.5},
+        {"at": 0.3, "text": "c"}])");
+    ASSERT_EQ(told.callouts.size(), 3u);
+    EXPECT_EQ(told.callouts[0].last, 5);
+    EXPECT_EQ(told.callouts[1].last, 21);
+    EXPECT_EQ(told.callouts[2].first, 9);
+}
+
+TEST(Films, HoldTheirLastPictureAtTheVeryEnd) {
+    const FilmTimes held = times_in(R"("hold": 0.5, "poster": "last")");
+    ASSERT_EQ(held.frames.size(), 45u);
+    for (std::size_t k = 30; k < 45; ++k) EXPECT_EQ(held.frames[k], 1);
+    EXPECT_EQ(held.speeds.back(), 1);  // nobody has frozen it
+    EXPECT_EQ(held.poster, 30);        // the first of them
+    EXPECT_EQ(times_in(R"("poster": "last")").poster, 29);
+}
+
+// Two impacts within half a second of the film are one chapter; a caption is a subtitle, escaped where the format asks.
+TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
+    render::FilmSetup film;
+    film.fps = 10;
+    for (int k = 0; k < 40; ++k) film.poses.emplace_back().t = k / 10.0;
+    for (const double t : {1.0, 1.05, 3.0}) film.impacts.emplace_back().t_start = t;
+    film.impacts[1].force_peak = 250;
+    film.callouts = {{20, 24, "a < b"}};
+    const FilmTrack track = film_track(film, Lang::en);
+    ASSERT_EQ(track.chapters.size(), 3u);
+    EXPECT_EQ(track.chapters[0].title, "Start");
+    EXPECT_EQ(track.chapters[1].title, "Impacts 1–2");
+    EXPECT_EQ(track.chapters[1].from, 1);
+    EXPECT_EQ(track.chapters[1].to, 3);
+    EXPECT_EQ(track.chapters[2].title, "Impact 3");
+    EXPECT_EQ(subtitle_file(track.subtitles, Subtitles::vtt),
+              "WEBVTT\n\n00:00:01.000 --> 00:00:03.000\nImpacts 1–2 · t = 1.0000 s · up to 250\u00A0N\n\n"
+              "00:00:02.000 --> 00:00:02.500\na &lt; b\n\n"
+              "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
+    EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
+                ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次碰撞"));
+}
+
+TEST(Films, HaveSubtitlesBesideThemAndChaptersWithin) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96], "fps": 20,
+        "view": {"style": "flat"}, "subtitles": "srt", "chapters": true}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "f.srt"), HasSubstr("Impact 1"));
+    EXPECT_THAT(testing::slurp(folder / "f.mkv"), HasSubstr("Impact 1"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("left ./f.mkv as it is"));
+}
+
+TEST(Films, OfFewFramesSuggestADuration) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": "20 ms"}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
+        "view": {"style": "flat"}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("\"duration\": \"4 s\" (speed 0.005)"));
 }
 
 // ---- what can come to nothing ----------------------------------------------------------------

@@ -201,7 +201,8 @@ TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
     "c": {"scene": {"beam": {"lenght": 1}}, "output": {"type": "still", "at": 0}},
     "d": {"scene": "s.json", "output": {"type": "video"}, "accepted": [{"sha256": ["xyz"]}]},
     "../e": {},
-    "f": 3
+    "f": 3,
+    "g": {"scene": "s.json", "output": {"type": "page"}}
   }
 })");
     const Finished finished = shell(folder, "$BEAMCAM test b.json");
@@ -209,7 +210,7 @@ TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
     for (const char* part : {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
                              "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
                              "b.json:6:30: unknown key \"lenght\"", "films are guarded before they are encoded",
-                             "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
+                             "a page has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
         EXPECT_THAT(finished.err, HasSubstr(part));
     for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
                              "nonsense", "\xff\xfe"}) {

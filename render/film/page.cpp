@@ -1,0 +1,192 @@
+#include "render/film/page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "render/film/panel.hpp"
+#include "render/film/player.hpp"
+#include "render/mechanism/exaggeration.hpp"
+
+namespace beamcam::render {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
+
+constexpr std::size_t kStations = 25;  // of the polyline
+constexpr double kTurns = std::numbers::pi * 2;
+
+// What the page knows of one instant.
+struct Instant {
+    double t = 0, theta = 0, cam_angle = 0, force = 0;
+    std::vector<Vec2> points;  // the drawn section's middle, root to tip; then the point of the disc nearest to it
+};
+
+Instant instant_of(const FilmFacts& facts, int frame, double depth, double& thickness) {
+    const sim::Pose pose = facts.pose(0, frame);
+    const DrawnBeam beam = drawn_beam(facts.motion(0).problem, pose, facts.factor, depth);
+    thickness = beam.high - beam.low;
+    Instant out{pose.t, pose.theta, pose.cam_angle, pose.nearest ? pose.nearest->force : 0, {}};
+    const std::size_t last = beam.line.size() - 1, stations = std::min(kStations, last + 1);
+    for (std::size_t i = 0; i < stations; ++i) {
+        const std::size_t at = i * last / (stations - 1);
+        out.points.push_back(beam.line[at] + beam.left[at] * ((beam.low + beam.high) / 2));
+    }
+    out.points.push_back(beam.contact ? beam.contact->on_disc : Vec2{});
+    return out;
+}
+
+// Whether the line from `a` to `b` tells what is between.
+bool tells(const Instant& a, const Instant& b, const Instant& between, double length) {
+    const double share = (between.t - a.t) / (b.t - a.t);
+    const auto off = [&](double x, double y, double z) { return std::abs(x + (y - x) * share - z); };
+    if (off(a.theta, b.theta, between.theta) > kPageTolerance) return false;
+    if (off(a.cam_angle, b.cam_angle, between.cam_angle) > kPageTolerance) return false;
+    if ((a.force > 0) != (between.force > 0) || (b.force > 0) != (between.force > 0)) return false;
+    for (std::size_t i = 0; i < between.points.size(); ++i)
+        if (norm(a.points[i] + (b.points[i] - a.points[i]) * share - between.points[i]) > kPageTolerance * length)
+            return false;
+    return true;
+}
+
+// The longest steps that tell all between them, one after the other.
+std::vector<Instant> thinned(std::vector<Instant> all, double length) {
+    constexpr std::size_t kLongest = 200;
+    std::vector<Instant> out{all.front()};
+    for (std::size_t from = 0; from + 1 < all.size();) {
+        std::size_t to = from + 1;
+        const auto fits = [&](std::size_t end) {
+            for (std::size_t i = from + 1; i < end; ++i)
+                if (!tells(all[from], all[end], all[i], length)) return false;
+            return true;
+        };
+        while (to + 1 < all.size() && to - from < kLongest && fits(to + 1)) ++to;
+        out.push_back(all[to]);
+        from = to;
+    }
+    return out;
+}
+
+template <class Number>
+std::string base64(const std::vector<Number>& numbers) {
+    gchar* text = g_base64_encode(reinterpret_cast<const guchar*>(numbers.data()), numbers.size() * sizeof(Number));
+    const std::string out = text;
+    g_free(text);
+    return out;
+}
+
+// JSON in a script element, which "</script>" would end.
+std::string quoted(const std::string& plain) {
+    std::string out = "\"";
+    for (const char c : plain)
+        out += static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\' || c == '<'
+                   ? fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)))
+                   : std::string(1, c);
+    return out + "\"";
+}
+
+std::string css(const Color& c) {
+    const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    return fmt::format("\"#{:02x}{:02x}{:02x}\"", byte(c.r), byte(c.g), byte(c.b));
+}
+
+// Where the disc was touched first, and how hard: one for each degree.
+std::string trace_json(const FilmFacts& facts, double radius) {
+    struct Place {
+        double t = 0, angle = 0, force = 0;
+    };
+    std::vector<Place> places;
+    for (const TraceSample& s : facts.samples.front()) {
+        const double angle = std::floor(s.s / radius / kTurns * 360) * kTurns / 360;
+        const auto same = std::ranges::find(places, angle, &Place::angle);
+        if (same == places.end())
+            places.push_back({s.t, angle, s.force});
+        else
+            same->force = std::max(same->force, s.force);
+    }
+    std::vector<std::string> out;
+    for (const Place& p : places)
+        out.push_back(
+            fmt::format("[{:.6g},{:.4g},{}]", p.t, p.angle,
+                        css(force_color(*facts.palette, std::sqrt(std::min(1.0, p.force / facts.force_scale))))));
+    return fmt::format("[{}]", fmt::join(out, ","));
+}
+
+std::string impacts_json(const FilmFacts& facts) {
+    std::vector<std::string> out;
+    for (const sim::Impact& i : facts.motion(0).impacts)
+        if (i.t_start >= facts.span.low && i.t_start <= facts.span.high)
+            out.push_back(fmt::format("{:.9g}", i.t_start));
+    return fmt::format("[{}]", fmt::join(out, ","));
+}
+
+std::string cam_json(const FilmFacts& facts) {
+    const auto& cam = facts.motion(0).problem.cam;
+    if (!cam) return "null";
+    return fmt::format(R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"trace":{}}})",
+                       cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, trace_json(facts, cam->radius));
+}
+
+std::string numbers_json(const std::vector<Instant>& kept) {
+    double largest = 0;
+    for (const Instant& i : kept)
+        for (const Vec2& p : i.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    const double quantum = largest / 32767;
+    const double begin = kept.front().t, tick = (kept.back().t - begin) / 4294967295.0;
+    std::vector<std::uint32_t> times;
+    std::vector<float> angles;
+    std::vector<std::int16_t> points;
+    for (const Instant& i : kept) {
+        times.push_back(tick > 0 ? static_cast<std::uint32_t>(std::llround((i.t - begin) / tick)) : 0);
+        for (const double value : {i.theta, i.cam_angle, i.force}) angles.push_back(static_cast<float>(value));
+        for (const Vec2& p : i.points)
+            for (const double value : {p.x, p.y})
+                points.push_back(static_cast<std::int16_t>(std::lround(value / quantum)));
+    }
+    return fmt::format(
+        R"("instants":{},"stations":{},"begin":{:.17g},"tick":{:.17g},"quantum":{:.17g},"times":"{}","values":"{}","points":"{}")",
+        kept.size(), kept.front().points.size() - 1, begin, tick, quantum, base64(times), base64(angles),
+        base64(points));
+}
+
+}  // namespace
+
+std::string html_page(const FilmSetup& setup) {
+    const FilmFacts facts(std::make_shared<const FilmSetup>(setup));
+    const sim::Problem& problem = facts.motion(0).problem;
+    const double length = problem.beam.length, depth = std::max(problem.beam.depth, 0.008 * length);
+    double thickness = depth;
+    std::vector<Instant> all;
+    for (int k = 0; k < facts.frames(); ++k) all.push_back(instant_of(facts, k, depth, thickness));
+    const Palette& p = *facts.palette;
+    const std::string colors = fmt::format(
+        R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"steel":{},"edge":{},"beam":{}}})",
+        css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(p.steel),
+        css(p.steel_edge), css(mix(p.paper, p.motion, 0.28)));
+    const std::string data = fmt::format(
+        R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
+        R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
+        quoted(setup.title), facts.factor, kPageTolerance * length, length, thickness, problem.hub.radius,
+        facts.arrow_scale, setup.units.degrees, colors, cam_json(facts), impacts_json(facts),
+        numbers_json(thinned(std::move(all), length)));
+    std::string page(player_html());
+    for (const auto& [mark, text] :
+         {std::pair<std::string, std::string>{"@TITLE@", setup.title.empty() ? "beamcam" : escape(setup.title)},
+          {"@PAPER@", css(p.paper).substr(1, 7)},
+          {"@INK@", css(p.ink).substr(1, 7)},
+          {"@MUTED@", css(p.muted).substr(1, 7)},
+          {"@MOTION@", css(p.motion).substr(1, 7)},
+          {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
+          {"@DATA@", data}})
+        for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos; at += text.size())
+            page.replace(at, mark.size(), text);
+    return page;
+}
+
+}  // namespace beamcam::render

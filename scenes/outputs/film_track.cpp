@@ -1,0 +1,95 @@
+#include "scenes/outputs/film_track.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr double kTogether = 0.5, kShown = 2.5;  // [s] of the film
+
+struct Group {
+    std::size_t first = 0, last = 0;  // impacts, from 0
+    double from = 0;                  // of the film [s]
+    double force = 0;                 // [N]; 0: none is known
+};
+
+std::vector<Group> groups_of(const render::FilmSetup& film) {
+    std::vector<Group> out;
+    const std::size_t frames = film.frames();
+    std::size_t k = 0;
+    double latest = 0;
+    for (std::size_t i = 0; i < film.impacts.size(); ++i) {
+        const sim::Impact& impact = film.impacts[i];
+        if (impact.t_start < film.time(0)) continue;
+        while (k < frames && film.time(k) < impact.t_start) ++k;
+        if (k == frames) break;
+        const double at = static_cast<double>(k) / film.fps;
+        if (out.empty() || at - latest > kTogether) out.push_back({i, i, at, 0});
+        latest = at;
+        out.back().last = i;
+        out.back().force = std::max(out.back().force, impact.force_peak.value_or(0));
+    }
+    return out;
+}
+
+std::string name_of(const Group& g, Lang lang) {
+    const bool one = g.first == g.last;
+    if (lang == Lang::zh)
+        return one ? fmt::format("第 {} 次碰撞", g.first + 1) : fmt::format("第 {}–{} 次碰撞", g.first + 1, g.last + 1);
+    return one ? fmt::format("Impact {}", g.first + 1) : fmt::format("Impacts {}–{}", g.first + 1, g.last + 1);
+}
+
+std::string words_of(const Group& g, const render::FilmSetup& film, Lang lang) {
+    std::string text = fmt::format("{} · t = {:.4f} s", name_of(g, lang), film.impacts[g.first].t_start);
+    if (g.force > 0)
+        text += fmt::format("{}{}", lang == Lang::zh ? " · 最大 " : " · up to ", render::quantity(g.force, "N"));
+    return text;
+}
+
+// "00:00:01.250", or with a comma.
+std::string stamp(double seconds, char point) {
+    const long ms = std::lround(seconds * 1000);
+    return fmt::format("{:02}:{:02}:{:02}{}{:03}", ms / 3'600'000, ms / 60'000 % 60, ms / 1000 % 60, point, ms % 1000);
+}
+
+}  // namespace
+
+FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
+    FilmTrack out;
+    const std::vector<Group> groups = groups_of(film);
+    const double end = static_cast<double>(film.frames()) / film.fps;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const double next = i + 1 < groups.size() ? groups[i + 1].from : end;
+        out.subtitles.push_back(
+            {groups[i].from, std::min(next, groups[i].from + kShown), words_of(groups[i], film, lang)});
+        if (out.chapters.empty() && groups[i].from > 0)
+            out.chapters.push_back({0, groups[i].from, lang == Lang::zh ? "开始" : "Start"});
+        out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});
+    }
+    for (const render::Callout& c : film.callouts)
+        out.subtitles.push_back({c.first / film.fps, (c.last + 1) / film.fps, c.text});
+    std::erase_if(out.subtitles, [](const Cue& cue) { return !(cue.to > cue.from); });
+    std::ranges::stable_sort(out.subtitles, {}, &Cue::from);
+    return out;
+}
+
+std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format) {
+    const bool vtt = format == Subtitles::vtt;
+    std::string out = vtt ? "WEBVTT\n\n" : "";
+    for (std::size_t i = 0; i < cues.size(); ++i) {
+        std::string text = cues[i].text;
+        for (std::size_t at = 0; vtt && (at = text.find_first_of("&<", at)) != std::string::npos; ++at)
+            text.replace(at, 1, text[at] == '&' ? "&amp;" : "&lt;");
+        if (!vtt) out += fmt::format("{}\n", i + 1);
+        const char point = vtt ? '.' : ',';
+        out += fmt::format("{} --> {}\n{}\n\n", stamp(cues[i].from, point), stamp(cues[i].to, point), text);
+    }
+    return out;
+}
+
+}  // namespace beamcam::scenes

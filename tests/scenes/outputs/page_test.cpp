@@ -1,0 +1,126 @@
+// The page is taken apart as its own program does, and compared with the motion.
+#include "render/film/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "render/film/film.hpp"
+#include "render/mechanism/exaggeration.hpp"
+#include "sim/run/simulate.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+render::FilmSetup setup_until(double end, double rate) {
+    render::FilmSetup setup;
+    sim::Request request;
+    request.end_time = end;
+    request.poses.emplace_back();
+    for (int k = 0; k <= std::lround(end * rate); ++k) request.poses[0].times.push_back(k / rate);
+    sim::Result result = sim::simulate(setup.problem, request);
+    setup.poses = std::move(result.poses[0]);
+    setup.impacts = std::move(result.impacts);
+    setup.title = "a </script> & \"b\"";
+    return setup;
+}
+
+template <class Number>
+std::vector<Number> decoded(const std::string& base64) {
+    static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : base64) {
+        if (c == '=') break;
+        bits = bits << 6 | static_cast<std::uint32_t>(kDigits.find(c));
+        count += 6;
+        if (count >= 8) count -= 8, bytes += static_cast<char>(bits >> count & 255);
+    }
+    std::vector<Number> out(bytes.size() / sizeof(Number));
+    std::memcpy(out.data(), bytes.data(), out.size() * sizeof(Number));
+    return out;
+}
+
+nlohmann::json data_of(const std::string& page) {
+    const std::string before = "const d = ";
+    const std::size_t from = page.find(before) + before.size();
+    return nlohmann::json::parse(page.substr(from, page.find(";\n", from) - from));
+}
+
+TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
+    const render::FilmSetup setup = setup_until(0.6, 1000);
+    const nlohmann::json d = data_of(render::html_page(setup));
+    const auto times = decoded<std::uint32_t>(d["times"]);
+    const auto values = decoded<float>(d["values"]);
+    const auto points = decoded<std::int16_t>(d["points"]);
+    const auto n = d["instants"].get<std::size_t>(), m = d["stations"].get<std::size_t>();
+    ASSERT_EQ(times.size(), n);
+    ASSERT_EQ(values.size(), 3 * n);
+    ASSERT_EQ(points.size(), 2 * (m + 1) * n);
+    EXPECT_LT(n, setup.poses.size());
+    const double tick = d["tick"], quantum = d["quantum"], tolerance = d["tolerance"];
+    EXPECT_EQ(tolerance, 1e-3);
+    const double depth = setup.problem.beam.depth;
+    std::size_t low = 0;
+    for (const sim::Pose& pose : setup.poses) {
+        while (low + 2 < n && times[low + 1] * tick < pose.t - 1e-9) ++low;
+        const double from = times[low] * tick, to = times[low + 1] * tick, share = (pose.t - from) / (to - from);
+        const auto mix = [&](const auto& all, std::size_t row, std::size_t i) {
+            return all[row * low + i] * (1 - share) + all[row * (low + 1) + i] * share;
+        };
+        EXPECT_NEAR(mix(values, 3, 0), pose.theta, tolerance + 1e-6) << pose.t;
+        EXPECT_NEAR(mix(values, 3, 1), pose.cam_angle, tolerance + 1e-6) << pose.t;
+        const render::DrawnBeam beam = render::drawn_beam(setup.problem, pose, d["factor"], depth);
+        for (std::size_t i = 0; i < m; ++i) {
+            const std::size_t at = i * (beam.line.size() - 1) / (m - 1);
+            const sim::Vec2 middle = beam.line[at] + beam.left[at] * ((beam.low + beam.high) / 2);
+            const sim::Vec2 found{quantum * mix(points, 2 * (m + 1), 2 * i),
+                                  quantum * mix(points, 2 * (m + 1), 2 * i + 1)};
+            EXPECT_LE(norm(found - middle), tolerance + quantum) << pose.t << " s, station " << i;
+        }
+    }
+}
+
+TEST(Page, TheSameMotionGivesTheSameBytes) {
+    const render::FilmSetup setup = setup_until(0.3, 500);
+    EXPECT_EQ(render::html_page(setup), render::html_page(setup));
+}
+
+TEST(Page, StandsAloneAndItsTitleIsText) {
+    const std::string page = render::html_page(setup_until(0.05, 500));
+    for (const char* outside : {"http:", "https:", "src=", "@import", "url("})
+        EXPECT_THAT(page, Not(HasSubstr(outside)));
+    EXPECT_THAT(page, HasSubstr("<title>a &lt;/script&gt; &amp; &quot;b&quot;</title>"));
+    EXPECT_EQ(data_of(page)["title"], "a </script> & \"b\"");
+    EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+}
+
+// A still motion is two instants.
+TEST(Page, WhatAStraightLineTellsIsLeftOut) {
+    render::FilmSetup setup = setup_until(0.001, 1000);
+    const sim::Pose pose = setup.poses.front();
+    setup.poses.assign(101, pose);
+    for (int k = 0; k <= 100; ++k) setup.poses[static_cast<std::size_t>(k)].t = 0.01 * k;
+    EXPECT_EQ(data_of(render::html_page(setup))["instants"], 2);
+}
+
+TEST(Page, IsAnOutputAndAFileOfRender) {
+    const testing::Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "page", "theme": "dark"}]})");
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM run s.json").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "s.html"), HasSubstr("color-scheme: dark"));
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM render s.json -o t.html --theme dark").code, 0);
+    EXPECT_EQ(testing::slurp(folder / "s.html"), testing::slurp(folder / "t.html"));
+    EXPECT_THAT(testing::shell(folder, "$BEAMCAM run s.json").err, HasSubstr("left ./s.html as it is"));
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
