@@ -255,9 +255,9 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             Box above = room;
             above.h -= used + 20 * u;
             used += given(spare(above, members, sight, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
-            const std::vector<PanelSpec> shown(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
+            const std::vector<PanelSpec> fitting(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
             out.panels.clear();
-            stack(out, shown, {room.x, room.bottom() - used, room.w, used});
+            stack(out, fitting, {room.x, room.bottom() - used, room.w, used});
             room.h -= used + 20 * u;
             break;
         }
@@ -323,7 +323,7 @@ std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
 std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown) {
     std::vector<PanelSpec> out = panels_of(wanted);
     for (const PanelSlot& slot : layout(width, height, wanted, shown).panels)
-        if (const auto shown = std::ranges::find(out, slot.spec); shown != out.end()) out.erase(shown);
+        if (const auto placed = std::ranges::find(out, slot.spec); placed != out.end()) out.erase(placed);
     return out;
 }
 

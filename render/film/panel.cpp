@@ -103,14 +103,14 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
 }
 
 double FilmFacts::shown_factor(Channel channel) const {
-    const std::string unit = sim::unit(channel, setup->problem);
-    return setup->units.degrees && (unit == "rad" || unit == "rad/s") ? 180 / std::numbers::pi : 1;
+    const std::string si = sim::unit(channel, setup->problem);
+    return setup->units.degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
 }
 
 std::string FilmFacts::shown_unit(Channel channel) const {
-    const std::string unit = sim::unit(channel, setup->problem);
-    if (unit == "m/s^2") return "m/s²";
-    return shown_factor(channel) == 1 ? unit : unit == "rad" ? "°" : "°/s";
+    const std::string si = sim::unit(channel, setup->problem);
+    if (si == "m/s^2") return "m/s²";
+    return shown_factor(channel) == 1 ? si : si == "rad" ? "°" : "°/s";
 }
 
 const sim::Problem* FilmFacts::with(int member) const {

@@ -38,7 +38,8 @@ TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = 
 
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
     constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55};  // of the full size
-    FittedTitle out{.style = title_style(u, color)};
+    FittedTitle out;
+    out.style = title_style(u, color);
     const std::string whole = escape(canvas.drawable(title));
     const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
     const auto set = [&](double share) {

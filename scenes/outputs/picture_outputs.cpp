@@ -244,7 +244,7 @@ void FramesOutput::plan(Planner& planner, std::size_t output) const {
 
 void PageOutput::plan(Planner& planner, std::size_t output) const {
     Pictures p = pictures(Pictures::Kind::page, *this, output);
-    p.picture = {.view = view};
+    p.picture.view = view;
     p.picture.view.style = render::Style::flat;
     p.span = span;
     constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
