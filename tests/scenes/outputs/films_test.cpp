@@ -498,7 +498,7 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
     const auto flat = told(R"({"type": "still", "at": 0.1, "view": {"style": "flat", "camera": {"yaw": 0.5}}})");
     EXPECT_TRUE(flat.first);
-    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera moves in the solid view alone"));
+    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera.yaw turns the solid view alone"));
     const std::string two = R"("compare": [{"label": "a"}, {"label": "b", "set": {"cam": null}}])";
     const auto collisions =
         told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
