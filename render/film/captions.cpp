@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "render/film/mechanism_marks.hpp"
 #include "render/plot/words.hpp"
 
 namespace beamcam::render {
@@ -75,6 +76,10 @@ class Captions {
         s.canvas.move_to(from);
         s.canvas.line_to(to);
         s.canvas.stroke({s.at.palette.ink.faded(opacity), 1.6 * u});
+        for (int i = 0; speed && i <= 64; ++i) {  // under the cam's speed, whose halo keeps it off
+            const Vec2 at = from + (to - from) * (i / 64.0);
+            if (Box{at.x, at.y, 1, 1}.overlaps(*speed)) return draw_cam_speed(s);
+        }
     }
 
     void draw(const Caption& caption) const {

@@ -18,7 +18,6 @@ namespace {
 using sim::Pose;
 
 using std::numbers::pi;
-constexpr double kFlash = 0.4;  // an impact's ring fades within so much of the film [s]
 constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
 constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
 
@@ -47,7 +46,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : 
     OccupancyGrid room = still_room();
     note_extent(room);
     place_words(std::move(room));
-    find_flashes();
+    rings_.find(at_);
     find_shots();
 }
 
@@ -220,24 +219,6 @@ void MechanismPanel::note_path() {
     path_ = thinned(times, inside, 0.5);
 }
 
-void MechanismPanel::find_flashes() {
-    std::vector<double> times;
-    for (int k = 0; k < at_.facts.frames(); ++k) times.push_back(at_.facts.at(at_.member, k));
-    for (const sim::Impact& impact : at_.motion().impacts) {
-        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
-        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
-        const int at = static_cast<int>(first - times.begin());
-        const DrawnBeam b = beam(at);
-        if (!b.contact) continue;
-        const double angle = std::atan2(b.contact->normal.y, b.contact->normal.x);
-        const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
-        const bool brief = times.size() > 1 && after - first < 2;
-        flashes_.push_back({at,
-                            angle - at_.facts.pose(at_.member, at).cam_angle,
-                            {b.contact->on_disc, b.contact->normal, brief ? impact.force_peak.value_or(0) : 0, true}});
-    }
-}
-
 void MechanismPanel::find_shots() {
     const FilmSetup& setup = *at_.facts.setup;
     const Shot& first = setup.view.shot;
@@ -375,8 +356,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     draw_disc_letters(s);
     if (!s.view && one) draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
-    flash(s);
-    draw_force(s, peak(s));
+    rings_.draw(s);
+    draw_force(s, rings_.peak(s));
     if (at.member == 0) draw_captions(s);
 }
 
@@ -442,46 +423,13 @@ void MechanismPanel::trail(const MechanismScene& s) const {
     }
 }
 
-double MechanismPanel::flash_frames() const { return kFlash * at_.facts.setup->fps; }
-
 // The camera, and the rings of impacts.
 bool MechanismPanel::plays(int frame) const {
     const View& view = at_.facts.setup->view;
     const auto now = static_cast<std::size_t>(frame);
     if (view.style == Style::solid && view.swing != 0) return true;
     if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
-    return std::ranges::any_of(flashes_, [&](const Flash& f) {
-        return frame >= f.frame && frame < f.frame + flash_frames() + 1;  // gone with the last
-    });
-}
-
-// A ring that opens and fades where an impact began, carried along by the disc.
-void MechanismPanel::flash(const MechanismScene& s) const {
-    if (!at_.problem().cam) return;
-    constexpr std::ptrdiff_t kMost = 6;  // more at once would be a heap
-    const auto later = std::ranges::upper_bound(flashes_, s.frame, {}, &Flash::frame);
-    for (const Flash& f : std::ranges::subrange(later - std::min(kMost, later - flashes_.begin()), later)) {
-        const int age = s.frame - f.frame;
-        if (age >= flash_frames()) continue;
-        const double share = age / flash_frames();
-        const Vec2 at =
-            s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * at_.problem().cam->radius);
-        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * at_.marks);
-        s.canvas.stroke(
-            {at_.palette.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(at_.marks, 0.45)});
-    }
-}
-
-// Of the latest contact that was too brief for the frames, while its ring is there: its largest force, where it was.
-std::optional<Push> MechanismPanel::peak(const MechanismScene& s) const {
-    if (!s.at.labelled()) return std::nullopt;  // nothing would say that it is one
-    const Flash* latest = nullptr;
-    for (const Flash& f : flashes_) {
-        const int age = s.frame - f.frame;
-        if (age < 0 || age >= flash_frames()) continue;
-        if (!latest || f.frame > latest->frame || f.peak.force > latest->peak.force) latest = &f;
-    }
-    return latest && latest->peak.force > 0 ? std::optional(latest->peak) : std::nullopt;
+    return rings_.play(frame);
 }
 
 std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "render/draw/growing.hpp"
+#include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
-#include "render/film/mechanism_marks.hpp"
 #include "render/plot/placement.hpp"
 
 namespace beamcam::render {
@@ -31,11 +31,6 @@ class MechanismPanel final : public Panel {
 
   private:
     struct Threads;  // State
-    struct Flash {
-        int frame = 0;              // the first that shows it
-        double material_angle = 0;  // on the disc, from its mark [rad]
-        Push peak = {};             // of a contact that less than two frames show; of others no force
-    };
     Perspective view_of(const MechanismView& at, int frame) const;
     void find_shots();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
@@ -52,7 +47,6 @@ class MechanismPanel final : public Panel {
     bool has_bar() const;
     void place_words(OccupancyGrid room);
     void note_path();
-    void find_flashes();
     void scale_bar(Canvas& canvas, const MechanismView& at) const;
     void label(Canvas& canvas) const;
     double scale_length(const MechanismView& at) const;
@@ -61,9 +55,6 @@ class MechanismPanel final : public Panel {
     bool view_strobes() const { return at_.facts.setup->view.strobe; }
     bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
     void trail(const MechanismScene& s) const;
-    double flash_frames() const;
-    void flash(const MechanismScene& s) const;
-    std::optional<Push> peak(const MechanismScene& s) const;
 
     MechanismView at_;
     std::optional<Box> label_, bar_;  // where they stand
@@ -72,7 +63,7 @@ class MechanismPanel final : public Panel {
     std::vector<Vec2> tips_;          // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box
-    std::vector<Flash> flashes_;
+    ImpactRings rings_;
     std::vector<Followed> followed_;  // of every frame
     std::vector<Sighting> shots_;     // of every frame; empty: always all of it
 };
