@@ -176,6 +176,7 @@ void SceneRun::warn_of_missing(const Pictures& p) const {
                      p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
     if (!p.unshown.empty())
         context_.say("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
+    if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // they draw no letters
     std::string written = scene_.title;
     for (const render::Callout& words : p.callouts) written += words.text;
     for (const Compared& motion : p.picture.compare) written += motion.label;

@@ -25,7 +25,7 @@ std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFi
 
 // A GIF's colours are those of a few of its frames.
 std::vector<std::uint32_t> palette_of(render::Film& film) {
-    constexpr int kSamples = 9;
+    constexpr int kSamples = 16;
     output::PaletteMaker maker;
     render::Image image;
     const int last = film.frames() - 1, samples = std::min(kSamples, film.frames());

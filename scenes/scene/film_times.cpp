@@ -81,9 +81,10 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
         for (std::size_t j = 0; j < i; ++j)
             if (shown[j].t == t) from += shown[j].event->freeze;
         const double length = std::max(event->show.value_or(kUsual), event->freeze);
-        out.push_back({static_cast<int>(std::ceil(from * fps - 1e-6)),
-                       static_cast<int>(std::floor((from + length) * fps + 1e-6)), event->text, event->anchor,
-                       static_cast<int>(std::lround(event->fade * fps))});
+        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
+                  last = static_cast<int>(std::floor((from + length) * fps + 1e-6));
+        const int fade = std::min(static_cast<int>(std::lround(event->fade * fps)), (last - first) / 2);
+        out.push_back({first, last, event->text, event->anchor, std::max(fade, 0)});
         events.push_back(event);
     }
     for (std::size_t i = 0; i < out.size(); ++i)

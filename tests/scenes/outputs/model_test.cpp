@@ -8,21 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "render/mechanism/exaggeration.hpp"
-#include "sim/run/simulate.hpp"
+#include "tests/scenes/outputs/filmed.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 render::FilmSetup moving_until(double end, double rate) {
-    render::FilmSetup setup;
+    render::FilmSetup setup = testing::filmed_until(end, rate);
     setup.view.exaggeration = 100;
-    sim::Request request;
-    request.end_time = end;
-    request.poses.emplace_back();
-    for (int k = 0; k <= std::lround(end * rate); ++k) request.poses[0].times.push_back(k / rate);
-    sim::Result result = sim::simulate(setup.problem, request);
-    setup.poses = std::move(result.poses[0]);
     setup.title = "a \"b\" $\\omega$";
     return setup;
 }
