@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/draw/formula.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -211,8 +212,10 @@ void draw_force(const MechanismScene& s, const std::optional<Push>& peak) {
                           .weight = Weight::medium,
                           .align = HAlign::right,
                           .halo = s.at.palette.paper};
-    const std::string label = (push->is_peak ? s.at.facts.say("peak") + "\u00A0" : std::string()) + math("F") +
-                              "\u2009=\u2009" + quantity(push->force, "N");
+    const bool chinese = s.at.facts.setup->view.lang == Lang::zh;
+    const std::string peak_of = s.at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
+    const std::string label =
+        (push->is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + quantity(push->force, "N");
     // Beside the tip and clear of the beam's back, however short the arrow.
     const double clear = push_label(length, s.at.look.depth * s.at.look.camera.scale, s.at.unit);
     const double w = s.canvas.measure(label, style).w;
