@@ -26,6 +26,20 @@ std::uint32_t packed(PaletteColor c) {
     return 0xff000000U | static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 |
            static_cast<std::uint32_t>(c.b);
 }
+PaletteColor unpacked(std::uint32_t color) {
+    return {static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255), static_cast<int>(color & 255)};
+}
+// By roughly what the eye tells apart.
+std::size_t nearest(const std::vector<std::uint32_t>& colors, PaletteColor c) {
+    std::size_t best = 0;
+    int least = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const PaletteColor p = unpacked(colors[i]);
+        const int dr = c.r - p.r, dg = c.g - p.g, db = c.b - p.b, d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;
+        if (d < least) least = d, best = i;
+    }
+    return best;
+}
 std::size_t cell_of(PaletteColor c, int bits) {
     const int drop = 8 - bits;
     return static_cast<std::size_t>(((c.r >> drop) << 2 * bits) | ((c.g >> drop) << bits) | (c.b >> drop));
@@ -42,8 +56,8 @@ void PaletteMaker::add(const render::Image& image) {
         ++counts[packed(c)];
     }
     for (const auto& [color, count] : counts) {
-        const PaletteColor c{static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255),
-                             static_cast<int>(color & 255)};
+        all_[color] += count;
+        const PaletteColor c = unpacked(color);
         Cell& cell = cells_[cell_of(c, kBits)];
         // Rare colours matter more than their area: edges and thin curves are what the eye follows.
         const double weight = std::max(1.0, 8.0 * static_cast<double>(count) / (8.0 + static_cast<double>(count) / 64));
@@ -84,6 +98,7 @@ std::vector<std::uint32_t> PaletteMaker::colors() const {
             }
     std::vector<std::uint32_t> out = frequent();
     if (items.empty()) return {0xff000000U};
+    const std::size_t fixed = out.size();
     // Median cut: the box with the most (weight × extent) is halved at the median of its longest side.
     struct Cut {
         std::size_t from, to;
@@ -138,9 +153,30 @@ std::vector<std::uint32_t> PaletteMaker::colors() const {
         const auto mean = [&](double v) { return static_cast<int>(std::lround(v / sum.count)); };
         out.push_back(packed({mean(sum.r), mean(sum.g), mean(sum.b)}));
     }
+    refine(out, fixed);
     std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
+}
+
+// Each colour but the first ones goes to the mean of the pixels that it is nearest to, a few times.
+void PaletteMaker::refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const {
+    constexpr int kSteps = 8;  // the error hardly falls any more
+    const std::map<std::uint32_t, std::uint64_t> ordered(all_.begin(), all_.end());
+    for (int step = 0; step < kSteps; ++step) {
+        std::vector<Cell> sums(colors.size());
+        for (const auto& [color, count] : ordered) {
+            const PaletteColor c = unpacked(color);
+            Cell& sum = sums[nearest(colors, c)];
+            const auto weight = static_cast<double>(count);
+            sum.count += weight, sum.r += weight * c.r, sum.g += weight * c.g, sum.b += weight * c.b;
+        }
+        for (std::size_t i = fixed; i < colors.size(); ++i) {
+            const Cell& s = sums[i];
+            const auto mean = [&](double v) { return static_cast<int>(std::lround(v / s.count)); };
+            if (s.count > 0) colors[i] = packed({mean(s.r), mean(s.g), mean(s.b)});
+        }
+    }
 }
 
 PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colors.begin(), colors.end()) {
@@ -148,24 +184,12 @@ PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colo
     index_.resize(static_cast<std::size_t>(kFineSide) * kFineSide * kFineSide);
     for (int r = 0; r < kFineSide; ++r)
         for (int g = 0; g < kFineSide; ++g)
-            for (int b = 0; b < kFineSide; ++b) {
-                const int R = 4 * r + 2, G = 4 * g + 2, B = 4 * b + 2;
-                int best = 0, least = std::numeric_limits<int>::max();
-                for (std::size_t i = 0; i < colors_.size(); ++i) {
-                    const int dr = R - static_cast<int>(colors_[i] >> 16 & 255),
-                              dg = G - static_cast<int>(colors_[i] >> 8 & 255),
-                              db = B - static_cast<int>(colors_[i] & 255);
-                    const int d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;  // roughly what the eye tells apart
-                    if (d < least) least = d, best = static_cast<int>(i);
-                }
+            for (int b = 0; b < kFineSide; ++b)
                 index_[static_cast<std::size_t>((r << 2 * kFineBits) | (g << kFineBits) | b)] =
-                    static_cast<std::uint8_t>(best);
-            }
+                    static_cast<std::uint8_t>(nearest(colors_, {4 * r + 2, 4 * g + 2, 4 * b + 2}));
     // Colours of the palette map to themselves whatever their cell's centre is nearest to.
     for (std::size_t i = 0; i < colors_.size(); ++i)
-        index_[cell_of({static_cast<int>(colors_[i] >> 16 & 255), static_cast<int>(colors_[i] >> 8 & 255),
-                        static_cast<int>(colors_[i] & 255)},
-                       kFineBits)] = static_cast<std::uint8_t>(i);
+        index_[cell_of(unpacked(colors_[i]), kFineBits)] = static_cast<std::uint8_t>(i);
 }
 
 void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,

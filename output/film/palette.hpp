@@ -1,14 +1,15 @@
 // 256 colours for a film, and the way from pixels to them.
 //
-// The colours are found once, from a few frames (median cut on a histogram of 5 bits a channel, each box then at the
-// mean of its pixels), so that nothing flickers; a table of 64³ cells turns pixels into indices, one picture at a
-// time. Transparent pixels show over white.
+// The colours are found once, from a few frames, so that nothing flickers: by median cut on a histogram of 5 bits a
+// channel, in which rare colours weigh more than their area, then by Lloyd's steps to the means of their pixels; a
+// table of 64³ cells turns pixels into indices, one picture at a time. Transparent pixels show over white.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "render/draw/image.hpp"
@@ -27,9 +28,11 @@ class PaletteMaker {
         double count = 0, r = 0, g = 0, b = 0;
     };
     std::vector<std::uint32_t> frequent() const;
+    void refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const;
     std::vector<Cell> cells_;                 // 32³
     std::vector<std::uint32_t> seen_colors_;  // flat colours, and how often
     std::vector<std::uint64_t> seen_counts_;
+    std::unordered_map<std::uint32_t, std::uint64_t> all_;  // colours, and how often
 };
 
 class PaletteTable {

@@ -11,6 +11,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/font_handles.hpp"
+#include "render/draw/formula.hpp"
 #include "render/draw/surface.hpp"
 
 namespace beamcam::render {
@@ -227,6 +228,11 @@ std::string Canvas::drawable(std::string_view plain) const {
 }
 
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
+    if (has_formula(markup)) {
+        if (style.align != HAlign::left)
+            baseline.x -= formula({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
+        return formula(baseline, markup, style, true);
+    }
     PangoLayout* layout = prepare(fonts_, markup, style);
     const Metrics m = metrics(layout);
     double x = baseline.x;
@@ -251,6 +257,7 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
 }
 
 Box Canvas::measure(const std::string& markup, const TextStyle& style) {
+    if (has_formula(markup)) return formula({}, markup, style, false);
     PangoLayout* layout = prepare(fonts_, markup, style);
     const Metrics m = metrics(layout);
     return {0, m.ink.y, m.advance, m.ink.h};

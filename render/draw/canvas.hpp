@@ -1,7 +1,7 @@
 // Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
 //
-// Text is Pango markup (`escape` what users wrote). Every text drawn can be recorded, so that tests
-// check that labels keep to their boxes and apart from each other.
+// Text is Pango markup (`escape` what users wrote) with formulas (formula.hpp). Every text drawn can be recorded, so
+// that tests check that labels keep to their boxes and apart from each other.
 #pragma once
 
 #include <functional>
@@ -68,6 +68,8 @@ class Canvas : public Brush {
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
 
   private:
+    Box formula(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);  // at the left
+
     struct Handles;
     std::unique_ptr<Handles> handles_;
     const Image& image_;

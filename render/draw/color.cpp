@@ -114,4 +114,20 @@ Color age_color(const Palette& p, double age, double half_life) {
     return mix(p.steel, p.contact, std::pow(0.5, age / half_life));
 }
 
+Palette Palette::without_paper() const {
+    Palette out = *this;
+    out.transparent = true;
+    const auto ink_of = [&](Color& pale, const Color& of) {
+        const auto far = [&](const Color& c) {
+            return std::abs(c.r - paper.r) + std::abs(c.g - paper.g) + std::abs(c.b - paper.b);
+        };
+        if (far(of) > 0) pale = of.faded(std::min(1.0, far(pale) / far(of)));
+    };
+    ink_of(out.faint, ink);
+    ink_of(out.grid, ink);
+    ink_of(out.motion_faint, motion);
+    ink_of(out.contact_faint, contact);
+    return out;
+}
+
 }  // namespace beamcam::render

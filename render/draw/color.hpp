@@ -35,6 +35,12 @@ struct Palette {
     std::array<Color, 5> moment;   // −1, −½, 0, ½, 1 of the scale
     std::array<Color, 3> force;    // 0, ½, 1 of the scale
     double shadow = 0.3;           // opacity of the soft shadow in lit views
+    bool transparent = false;      // there is no paper: pale colours are ink that shows the ground
+
+    // A colour so strong on the paper.
+    Color tint(Color c, double share) const { return transparent ? c.faded(share) : mix(paper, c, share); }
+    // The same on paper, right on any other ground: pale colours as ink with alpha.
+    Palette without_paper() const;
 };
 const Palette& palette(Theme theme);
 

@@ -39,16 +39,17 @@ class CloseUpPanel final : public Panel {
         const Palette& p = *facts_.palette;
         const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
             plain{.size = 21 * u, .weight = Weight::medium};
-        const double room = plot_.w - canvas.measure("penetration 000\u00A0µm", plain).w - 16 * u;
-        const std::string whose = of_motion(canvas, facts_, member_);
-        for (const std::string& heading : {"Contact close-up" + whose, "Contact" + whose, std::string("Contact")}) {
+        const double room = plot_.w - canvas.measure(facts_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
+        const std::string whose = of_motion(facts_, member_);
+        const std::string whole = facts_.say("Contact close-up"), brief = facts_.say("Contact");
+        for (const std::string& heading : {whole + whose, brief + whose, brief}) {
             // The reading stands beside it.
             if (canvas.measure(heading, bold).w > room) continue;
             draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, heading);
             break;
         }
         canvas.rectangle(plot_);
-        canvas.fill(mix(p.paper, p.grid, 0.35));
+        canvas.fill(p.tint(p.grid, 0.35));
         if (!motion().problem.cam) return;
         // One mark tells no scale: two at least, however low the panel.
         Ticks marks;
@@ -63,7 +64,8 @@ class CloseUpPanel final : public Panel {
             canvas.text({plot_.x - 12 * u, y + 6 * u}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
-        const std::string how = fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch);
+        const std::string how =
+            facts_.say(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
         TextStyle note{.size = 16 * u, .color = p.muted};
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
         const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
@@ -76,7 +78,7 @@ class CloseUpPanel final : public Panel {
         canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         for (const std::string& words :
-             {how, fmt::format("heights in {}m", unit_.symbol), fmt::format("{}m", unit_.symbol)}) {
+             {how, facts_.say(fmt::format("heights in {}m", unit_.symbol)), fmt::format("{}m", unit_.symbol)}) {
             if (canvas.measure(words, note).w > left) continue;
             canvas.text({plot_.x, y + 14 * u}, words, note);
             break;
@@ -158,7 +160,7 @@ class CloseUpPanel final : public Panel {
         if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, plot_.y + 31 * u}, "beam",
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, facts_.say("beam"),
                         {.size = 17 * u, .color = p.motion, .weight = Weight::medium});
             return;
         }
@@ -178,7 +180,7 @@ class CloseUpPanel final : public Panel {
             over.insert(over.end(), under.rbegin(), under.rend());
             canvas.polyline(over);
             canvas.close();
-            canvas.fill(mix(p.paper, p.contact, 0.55));
+            canvas.fill(p.tint(p.contact, 0.55));
             canvas.polyline(rim());  // seen through
             canvas.stroke({p.steel_edge, 2 * u});
         }
@@ -187,9 +189,9 @@ class CloseUpPanel final : public Panel {
         const TextStyle name{.size = 17 * u, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
-            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, "beam", name);
+            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, facts_.say("beam"), name);
         if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
-            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, "cam",
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, facts_.say("cam"),
                         {.size = 17 * u, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
@@ -219,30 +221,31 @@ class CloseUpPanel final : public Panel {
         const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                    : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-        told(canvas, {plot_.right(), box_.y + 26 * u}, deep ? "penetration" : "gap", amount, "00.0\u00A0mm",
+        told(canvas, {plot_.right(), box_.y + 26 * u}, facts_.say(deep ? "penetration" : "gap"), amount, "00.0\u00A0mm",
              {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
         // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
         // it.
-        const Color ground = mix(p.paper, p.grid, 0.35);
+        const Color ground = p.tint(p.grid, 0.35);
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
         const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
         const std::string count = counted(pose.t);
-        const double room = plot_.w - canvas.measure("beam", {.size = 17 * u}).w - 40 * u;
+        const double room = plot_.w - canvas.measure(facts_.say("beam"), {.size = 17 * u}).w - 40 * u;
         TextStyle style{.size = 17 * u, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
-        if (canvas.measure("friction ", style).w + canvas.measure(widest, style).w > room) return;
-        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, "force", quantity(near.force, "N"), widest, style);
+        if (canvas.measure(facts_.say("friction "), style).w + canvas.measure(widest, style).w > room) return;
+        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, facts_.say("force"), quantity(near.force, "N"), widest,
+             style);
         if (near.friction != 0)
-            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, "friction", quantity(std::abs(near.friction), "N"),
-                 widest, style);
+            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, facts_.say("friction"),
+                 quantity(std::abs(near.friction), "N"), widest, style);
     }
 
     // A word and a number that ends at `right`; the word stays where it is however long the number.
-    static void told(Canvas& canvas, Vec2 right, const char* word, const std::string& number, const char* widest,
+    static void told(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
                      TextStyle style) {
         style.align = HAlign::right;
         canvas.text(right, number, style);
@@ -265,7 +268,7 @@ class CloseUpPanel final : public Panel {
             end = i.t_end.value_or(t);
         }
         if (t > end + motion().problem.contact.collision_gap) return {};
-        return fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of);
+        return facts_.say(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
     }
 
     const FilmFacts& facts_;

@@ -30,7 +30,7 @@ class EnergyPanel final : public ChartPanel {
 
   private:
     struct Part {
-        const char* label;
+        std::string label;
         std::string symbol;  // where words find no room
         std::vector<ChannelKind> channels;
         Color color;
@@ -40,7 +40,7 @@ class EnergyPanel final : public ChartPanel {
         using K = ChannelKind;
         const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
             const Color color = *energy_color(p, channels.front());
-            return Part{label, std::move(symbol), std::move(channels), color};
+            return Part{facts.say(label), std::move(symbol), std::move(channels), color};
         };
         return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
                 part("bending", math("U"), {K::energy_elastic}),
@@ -52,7 +52,7 @@ class EnergyPanel final : public ChartPanel {
         const PanelSpec& spec = slot.spec;
         const int member = std::min(spec.member, facts.members() - 1);
         ChartContent c = blank_content(facts, spec, member);
-        if (is_wide(facts, slot.box)) c.words = "Energy ";  // else the legend alone stands beside the symbol
+        if (is_wide(facts, slot.box)) c.words = facts.say("Energy ");  // else the legend alone stands beside the symbol
         c.symbol = math("E");
         c.unit = "J";
         const sim::Table& table = facts.motion(member).chart;
@@ -90,7 +90,7 @@ class EnergyPanel final : public ChartPanel {
         std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
         const double first = plot.x +
                              canvas
-                                 .measure(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ",
+                                 .measure(facts_.say(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ"),
                                           {.size = 21 * u, .weight = Weight::semibold})
                                  .w +
                              20 * u;
@@ -132,7 +132,7 @@ class EnergyPanel final : public ChartPanel {
         if (facts_.members() == 1) return;
         const double u = facts_.unit;
         const Box plot = plot_area(box_, u);
-        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, escape(canvas.drawable(facts_.motion(member_).label)),
+        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, facts_.labels[static_cast<std::size_t>(member_)],
                     {.size = 18 * u,
                      .color = facts_.palette->ink,
                      .weight = Weight::semibold,

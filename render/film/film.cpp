@@ -20,7 +20,7 @@ namespace beamcam::render {
 
 struct Film::Prepared {
     FilmFacts facts;
-    std::vector<std::unique_ptr<Panel>> panels;  // as places.panels
+    std::vector<std::unique_ptr<Panel>> panels;  // of the layer
     const MechanismPanel* mechanism = nullptr;   // the first
     Image ground;                                // all that never changes
     std::vector<Box> ground_texts;
@@ -28,12 +28,13 @@ struct Film::Prepared {
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
         for (const PanelSlot& slot : facts.places.panels) {
+            if (!shows(slot.spec.kind == PanelKind::mechanism ? LayerOf::mechanism : LayerOf::charts)) continue;
             panels.push_back(type_of(slot.spec.kind).make(facts, slot));
             if (slot.spec.kind == PanelKind::mechanism && !mechanism)
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_ground();
-        widest_speed = widest_speed_text(facts.setup->speeds);
+        widest_speed = facts.say(widest_speed_text(facts.setup->speeds));
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
@@ -41,6 +42,10 @@ struct Film::Prepared {
         facts.sight = {};  // nobody asks any more
     }
 
+    bool shows(LayerOf layer) const {
+        const LayerOf wanted = facts.setup->view.layer;
+        return wanted == LayerOf::all || wanted == layer;
+    }
     void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<Panel::State>>& states) const;
@@ -106,9 +111,9 @@ void Film::Prepared::draw_ground() {
     canvas.halos = !setup.view.transparent;
     canvas.record = &ground_texts;
     if (!setup.view.transparent) canvas.paint(facts.palette->paper);
-    draw_header(canvas);
+    if (shows(LayerOf::charts)) draw_header(canvas);
     for (const auto& panel : panels) panel->draw_ground(canvas);
-    draw_color_bars(canvas);
+    if (shows(LayerOf::charts)) draw_color_bars(canvas);
 }
 
 void Film::Prepared::draw_header(Canvas& canvas) const {
@@ -121,16 +126,18 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
-    const ParameterLine line = parameter_line(canvas, places, setup.title, common_pieces(problems, setup.units.rpm));
+    std::vector<std::string> pieces = common_pieces(problems, setup.units.rpm);
+    for (std::string& piece : pieces) piece = facts.say(std::move(piece));
+    const ParameterLine line = parameter_line(canvas, places, setup.title, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escape(setup.accuracy_note),
+        canvas.text({b->right(), b->y + 19 * u}, escape(facts.say(setup.accuracy_note)),
                     {.size = 17 * u, .color = facts.palette->muted, .align = HAlign::right, .max_width = b->w});
 }
 
 void Film::Prepared::draw_color_bars(Canvas& canvas) const {
-    if (!facts.places.scales || !mechanism) return;
+    if (!facts.places.scales || !facts.places.first(PanelKind::mechanism)) return;
     const double u = facts.unit;
     const Palette& palette = *facts.palette;
     const Box& b = *facts.places.scales;
@@ -142,7 +149,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
         }
-        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, name, small);
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, facts.say(name), small);
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
@@ -173,14 +180,14 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
 
 // "×5" of "deflection ×5", "1/50" of "1/50 speed".
 static std::string short_of(std::string words) {
-    for (const std::string_view dispensable : {"deflection ", " speed"})
+    for (const std::string_view dispensable : {"deflection ", " speed", "挠度 ", " 倍速"})
         if (const auto at = words.find(dispensable); at != std::string::npos) words.erase(at, dispensable.size());
     return words;
 }
 
 // The clock, and beside it how the picture differs from what an eye would see.
 void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
-    if (!facts.places.clock) return;
+    if (!facts.places.clock || !shows(LayerOf::charts)) return;
     const Box& b = *facts.places.clock;
     const double u = facts.unit;
     const FilmSetup& setup = *facts.setup;
@@ -195,13 +202,13 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         Color color;
     };
     std::vector<Pill> pills;
-    if (setup.view.show.legend && facts.factor > 1 && mechanism) {
-        const std::string words = fmt::format("deflection ×{}", power_text(facts.factor));
+    if (setup.view.show.legend && facts.factor > 1 && facts.places.first(PanelKind::mechanism)) {
+        const std::string words = facts.say("deflection ×") + power_text(facts.factor);
         pills.push_back({words, words, facts.palette->motion});
     }
     if (setup.view.show.legend && !setup.speeds.empty())
-        pills.push_back(
-            {speed_text(setup.speeds[static_cast<std::size_t>(frame)]), widest_speed, facts.palette->contact});
+        pills.push_back({facts.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)])), widest_speed,
+                         facts.palette->contact});
     const auto style_of = [&](const Pill& p) {
         return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = HAlign::centre};
     };
@@ -257,9 +264,8 @@ bool Film::repeats(int frame) const {
     const FilmSetup& setup = *prepared_->facts.setup;
     const auto now = static_cast<std::size_t>(frame), before = now - 1;
     if (!setup.speeds.empty() && setup.speeds[now] != setup.speeds[before]) return false;
-    const auto shown = [](const Callout& words, int at) { return words.first <= at && at <= words.last; };
     for (const Callout& words : setup.callouts)
-        if (shown(words, frame) != shown(words, frame - 1)) return false;
+        if (words.opacity(frame) != words.opacity(frame - 1)) return false;
     if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->plays(frame); })) return false;
     const auto still = [&](const Motion& motion) { return motion.time(now) == motion.time(before); };
     return still(setup) && std::ranges::all_of(setup.others, still);
@@ -318,7 +324,7 @@ FrameGeometry Film::geometry(int frame) {
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {
-        out.camera = p.mechanism->camera();
+        out.camera = p.mechanism->camera(frame);
         out.beam = p.mechanism->beam(frame);
         out.words = p.mechanism->words();
     }

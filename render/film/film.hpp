@@ -17,8 +17,10 @@
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
 #include "render/draw/tiles.hpp"
+#include "render/film/camera.hpp"
 #include "render/film/layout.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/plot/lang.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/pose.hpp"
 #include "sim/problem/problem.hpp"
@@ -29,27 +31,27 @@ namespace beamcam::render {
 // lit: shaded, from the front; flat: a drawing; solid: bodies in perspective.
 enum class Style { lit, flat, solid };
 
-// Where the solid view is seen from. Over the film the camera swings once to either side and back.
-struct Orbit {
-    double yaw = 0.42;    // positive: from the right of the plane of motion [rad], within ±1.2
-    double pitch = 0.20;  // positive: from above [rad], within ±1.2
-    double swing = 0.16;  // of the yaw [rad], within ±1.2
-    bool operator==(const Orbit&) const = default;
-};
-
 // What colours the trace of the contact on the disc: the largest force so far, or how long ago the last touch was.
 enum class TraceColor { force, age };
+
+// What is drawn of a picture, at its place in the whole: layers of transparent films lie over each other as if they
+// were one. charts: all but the mechanism's panels.
+enum class LayerOf { all, mechanism, charts };
 
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
     std::optional<double> exaggeration;  // of deflection, >= 1; absent: a round factor that shows it
-    Orbit orbit = {};                    // of the solid view
+    Shot shot = {};                      // until the camera moves
+    double swing = 0;  // of the solid view: over the film its yaw goes once to either side and back [rad], within ±1.2
     TraceColor trace = TraceColor::force;
     bool tip_path = false;                    // all of the tip's path so far, not only its last second
     bool transparent = false;                 // no paper: the pictures have an alpha channel
     std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
     Shown show = {};
+    LayerOf layer = LayerOf::all;
+    bool strobe = false;   // other exposures are shown faintly under the beam; else all are blended into one
+    Lang lang = Lang::en;  // of what the picture says of itself
 };
 
 // Poses kept elsewhere than in memory, read by several threads at once.
@@ -65,8 +67,9 @@ class PoseStore {
 struct Motion {
     sim::Problem problem;
     std::string label;                        // plain text; told where several motions stand beside each other
-    std::vector<sim::Pose> poses;             // one a frame, true geometry, times not decreasing, at least one
+    std::vector<sim::Pose> poses;             // of each frame, true geometry, times not decreasing, at least one
     std::shared_ptr<const PoseStore> stored;  // in place of `poses`
+    std::size_t exposures = 1;                // poses of a frame: at its instant, then the others that it shows
     // The motion over the time that the film shows, in any order: what scales and camera are chosen by, so that they do
     // not depend on which instants the frames happen to be of. Absent: the frames.
     std::shared_ptr<const PoseStore> survey;
@@ -74,9 +77,14 @@ struct Motion {
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
 
-    std::size_t frames() const { return stored ? stored->size() : poses.size(); }
-    double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
-    sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
+    std::size_t frames() const { return (stored ? stored->size() : poses.size()) / exposures; }
+    double time(std::size_t frame) const {
+        return stored ? stored->time(frame * exposures) : poses[frame * exposures].t;
+    }
+    sim::Pose pose(std::size_t frame, std::size_t exposure = 0) const {
+        const std::size_t at = frame * exposures + exposure;
+        return stored ? stored->pose(at) : poses[at];
+    }
     std::size_t surveyed() const { return survey ? survey->size() : frames(); }
     sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
 };
@@ -84,10 +92,17 @@ struct Motion {
 // Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.
 enum class Comparison { panels, ghosts };
 
-// Words at the contact while these frames are shown.
+// Words while these frames are shown.
 struct Callout {
-    int first = 0, last = 0;  // frames
-    std::string text;         // plain
+    int first = 0, last = 0;            // frames
+    std::string text;                   // plain, with formulas between dollars
+    std::optional<Anchor> anchor = {};  // what they belong to; absent: the contact; all: the whole picture
+    int fade = 0;                       // frames in which they come, and go
+
+    bool shown(int frame) const { return first <= frame && frame <= last; }
+    double opacity(int frame) const {
+        return std::clamp((std::min(frame - first, last - frame) + 1.0) / (fade + 1.0), 0.0, 1.0);
+    }
 };
 
 // What angles and speeds of rotation are written in; SI otherwise.
@@ -104,9 +119,10 @@ struct FilmSetup : Motion {
     std::optional<LayoutNode> layout;  // absent: the standard arrangement
     std::vector<Motion> others;        // to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
-    double fps = 60;             // frames a second that it is shown at, > 0: what fades does so by the clock
-    std::vector<double> speeds;  // of time at each frame, 1: as it is; empty: always 1
-    bool slow_motion = false;    // the standard arrangement shows collisions one by one
+    double fps = 60;                // frames a second that it is shown at, > 0: what fades does so by the clock
+    std::vector<double> speeds;     // of time at each frame, 1: as it is; empty: always 1
+    std::vector<CameraMove> moves;  // by when they arrive
+    bool slow_motion = false;       // the standard arrangement shows collisions one by one
     std::vector<Callout> callouts;
     std::string accuracy_note;  // plain text in the corner; may be empty
 };

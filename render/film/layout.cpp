@@ -52,8 +52,8 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
     Frame f;
     Layout& out = f.out;
     f.wide = width >= 1.4 * height;
-    out.unit =
-        std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1240.0);
+    out.unit = shown.size * std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0)
+                                                           : std::min(width, height) / 1240.0);
     const double u = out.unit, w = width, h = height;
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;

@@ -41,6 +41,7 @@ struct Shown {
     bool legend = true;    // colour scales; what the picture exaggerates, how fast it runs
     bool accuracy = true;  // the line in the corner
     bool labels = true;    // angle, speed, force, scale bar
+    double size = 1;       // of words, lines and marks, against those that suit the picture
     bool operator==(const Shown&) const = default;
 };
 

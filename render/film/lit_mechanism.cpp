@@ -102,7 +102,7 @@ void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>&
     if (!renderer_) renderer_ = make_lit_renderer(width, height);
     Perspective inside = *s.view;
     inside.centre = inside.centre - Vec2{s.at.box.x, s.at.box.y};
-    const SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.unit, rim);
+    const SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
     renderer_->draw(scene, image_);
     s.canvas.image_part(image_, static_cast<int>(s.at.box.x), static_cast<int>(s.at.box.y),
                         {0, 0, s.at.box.w, s.at.box.h});

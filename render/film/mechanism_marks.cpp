@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "render/draw/wrap.hpp"
+#include "render/draw/formula.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -13,9 +13,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kReadable = 9;  // the least size of letters [px]
-constexpr std::size_t kCaptionLines = 6;
-constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
-constexpr double kCaptionLine = 29;    // from line to line [design px]
 
 }  // namespace
 
@@ -38,13 +35,13 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
 
 void draw_angle_arc(const MechanismScene& s, double room) {
     if (!s.at.labelled()) return;
-    double radius = std::min(92 * s.at.marks, room);
+    double radius = std::min(92 * s.at.marks * s.at.zoom(), room);
     if (s.at.problem().cam) {
         const double free = norm(s.pose.cam_centre) - s.at.problem().cam->radius - s.at.problem().cam->eccentricity;
         radius = std::min(radius, 0.86 * free * s.at.look.camera.scale);
     }
     const double letter = std::max(s.at.marks, kReadable / 21);  // [px] of a design pixel of θ
-    const double hub = hub_radius(s.at.problem(), s.at.look.camera, s.at.unit);
+    const double hub = s.at.hub();
     const double angle = drawn_angle(s.pose);
     if (radius < hub + 22 * s.at.marks || std::abs(angle) < 0.02) return;
     s.arc(s.at.px({0, 0}), radius, 0, angle);
@@ -80,11 +77,12 @@ void draw_cam_speed(const MechanismScene& s) {
     const sim::Cam& cam = *s.at.problem().cam;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
     const double swept = (cam.radius + cam.eccentricity) * s.at.look.camera.scale, radius = swept + 20 * s.at.unit;
+    if (!s.at.shows(s.on(axis + down(s.at.speed_way) * radius))) return;
     const std::string label = math("ω") + "\u2009=\u2009" + turning_speed(cam.speed, s.at.facts.setup->units.rpm);
     TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
     if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
     if (cam.speed != 0) {
-        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = -0.30 * pi;
+        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = s.at.speed_way;
         const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
         const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
         s.arc(axis, radius, from, to + back);
@@ -116,8 +114,17 @@ void draw_base_line(const MechanismScene& s) {
     });
 }
 
+static Color ink_on_disc(const MechanismScene& s) {
+    const bool dark = s.at.facts.setup->view.theme == Theme::dark;
+    if (s.view) return s.at.palette.ink;
+    if (dark && s.at.facts.setup->view.style == Style::flat) return s.at.palette.paper;
+    return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
+}
+
 // B and C beyond the ends of the line between them, so that they keep off it at any angle, and within the disc.
-static void draw_disc_letters(const MechanismScene& s, Color ink) {
+void draw_disc_letters(const MechanismScene& s) {
+    if (!s.shape.disc) return;
+    const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
     const double size = 22 * s.at.marks;
     if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
@@ -135,7 +142,6 @@ static void draw_disc_letters(const MechanismScene& s, Color ink) {
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     if (!s.shape.disc) return;
     const DiscShape& d = *s.shape.disc;
-    if (s.view) return draw_disc_letters(s, s.at.palette.ink);
     const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
     const auto place = [&](std::size_t i) {
         const double at = d.angle + 2 * pi * (static_cast<double>(i) + 0.5) / n, half = 2 * pi * 1.7 / n;
@@ -154,10 +160,7 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
         }
     }
     if (d.radius < 26 * s.at.marks) return;
-    const Color ink = s.at.facts.setup->view.theme == Theme::dark && s.at.facts.setup->view.style == Style::flat
-                          ? s.at.palette.paper
-                      : s.at.facts.setup->view.theme == Theme::dark ? rgb(0x14171D)
-                                                                    : s.at.palette.steel_edge;
+    const Color ink = ink_on_disc(s);
     const double apart = norm(d.centre - d.axis), pen = std::max(s.at.marks, 0.45);
     if (apart > d.bore + 2) {
         s.canvas.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
@@ -171,7 +174,6 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
         s.canvas.line_to(d.axis + arm * (d.bore * 0.75));
     }
     s.canvas.stroke({s.at.palette.ink, 1.6 * pen, {}, Cap::butt});
-    draw_disc_letters(s, ink);
 }
 
 void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
@@ -191,112 +193,36 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
     });
 }
 
-void draw_force(const MechanismScene& s) {
-    if (!shows_force(s.pose, s.beam)) return;
-    const Vec2 flat = s.at.px(s.beam.contact->on_disc), foot = s.on(flat),
-               n{s.beam.contact->normal.x, -s.beam.contact->normal.y};
+void draw_force(const MechanismScene& s, const std::optional<Push>& peak) {
+    std::optional<Push> push = peak;
+    if (!push && shows_force(s.pose, s.beam))
+        push = {s.beam.contact->on_disc, s.beam.contact->normal, s.pose.nearest->force};
+    if (!push) return;
+    const Vec2 flat = s.at.px(push->foot), foot = s.on(flat), n{push->normal.x, -push->normal.y};
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
     // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
-    const double length = push_length(s.pose.nearest->force / s.at.facts.arrow_scale, s.at.small, s.at.marks);
+    const double length = push_length(std::min(1.0, push->force / s.at.facts.arrow_scale), s.at.small, s.at.marks);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (!s.at.labelled()) return;
+    if (!s.at.labelled() || !s.at.shows(foot)) return;
     const TextStyle style{.size = 22 * s.at.unit,
                           .color = s.at.palette.contact,
                           .weight = Weight::medium,
                           .align = HAlign::right,
                           .halo = s.at.palette.paper};
-    const std::string label = math("F") + "\u2009=\u2009" + quantity(s.pose.nearest->force, "N");
+    const bool chinese = s.at.facts.setup->view.lang == Lang::zh;
+    const std::string peak_of = s.at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
+    const std::string label =
+        (push->is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + quantity(push->force, "N");
     // Beside the tip and clear of the beam's back, however short the arrow.
     const double clear = push_label(length, s.at.look.depth * s.at.look.camera.scale, s.at.unit);
-    Vec2 at = s.on(flat + n * clear) + Vec2{-14 * s.at.unit, 6 * s.at.unit};
     const double w = s.canvas.measure(label, style).w;
-    at.x = std::max(at.x, s.at.box.x + w);
+    const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
+    Vec2 at = s.on(flat + n * clear) + Vec2{right ? 14 * s.at.unit + w : -14 * s.at.unit, 6 * s.at.unit};
+    at.x = std::max(std::min(at.x, s.at.box.right()), s.at.box.x + w);
     s.canvas.text(at, label, style);
-}
-
-// Words at the contact, on plates beside it: the latest with a line to the contact, earlier ones below or above it.
-namespace {
-struct Caption {
-    std::vector<std::string> lines;
-    Box plate;
-};
-
-Caption caption_of(const MechanismScene& s, const Callout& words, const TextStyle& style, Vec2 at) {
-    Caption out{wrapped(s.canvas, words.text, style, kCaptionLines), {}};
-    double widest = 0;
-    for (const std::string& line : out.lines) widest = std::max(widest, s.canvas.measure(line, style).w);
-    out.plate = {at.x, at.y, widest + 32 * s.at.unit,
-                 (17 + kCaptionLine * static_cast<double>(out.lines.size())) * s.at.unit};
-    return out;
-}
-
-// The cam's speed, which captions keep off.
-std::optional<Box> speed_words(const MechanismScene& s) {
-    if (!s.at.problem().cam || !s.at.labelled()) return {};
-    return s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * s.at.unit, s.view);
-}
-
-void place_caption(const MechanismScene& s, const std::optional<Box>& words, Box& plate) {
-    const auto keep_inside = [&] {
-        plate.x = std::clamp(plate.x, s.at.box.x, std::max(s.at.box.x, s.at.box.right() - plate.w));
-        plate.y = std::clamp(plate.y, s.at.box.y, std::max(s.at.box.y, s.at.box.bottom() - plate.h - 40 * s.at.unit));
-    };
-    keep_inside();
-    if (words && plate.overlaps(*words)) plate.y = words->bottom() + 12 * s.at.unit;  // below them, else above
-    keep_inside();
-    if (words && plate.overlaps(*words)) plate.y = std::max(s.at.box.y, words->y - 12 * s.at.unit - plate.h);
-}
-
-void draw_caption(const MechanismScene& s, const Caption& caption, const TextStyle& style) {
-    const Box& plate = caption.plate;
-    s.canvas.rounded(plate, 8 * s.at.unit);
-    s.canvas.fill_keeping_path(s.at.palette.paper);
-    s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
-    for (std::size_t i = 0; i < caption.lines.size(); ++i)
-        s.canvas.text({plate.x + 16 * s.at.unit, plate.y + (31 + kCaptionLine * static_cast<double>(i)) * s.at.unit},
-                      caption.lines[i], style);
-}
-}  // namespace
-
-void draw_callout(const MechanismScene& s, Vec2 tip) {
-    std::vector<const Callout*> shown;
-    for (const Callout& c : s.at.facts.setup->callouts)
-        if (s.frame >= c.first && s.frame <= c.last) shown.push_back(&c);
-    if (shown.empty()) return;
-    std::ranges::stable_sort(shown, std::ranges::greater(), [](const Callout* c) { return c->first; });
-    const TextStyle style{
-        .size = 22 * s.at.unit, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * s.at.box.w};
-    const Vec2 foot = s.beam.contact ? s.px(s.beam.contact->on_disc) : s.on(tip);
-    // To the right of the cam, below the horizontal: neither the beam nor the force comes there.
-    const auto& cam = s.at.problem().cam;
-    const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
-    const Vec2 from = cam ? s.px(s.pose.cam_centre) : foot;
-    Caption latest = caption_of(s, *shown.front(), style, {from.x + swept + 60 * s.at.unit, from.y + 26 * s.at.unit});
-    const std::optional<Box> words = speed_words(s);
-    place_caption(s, words, latest.plate);
-    // A line to the contact while there is one; without a cam to the tip.
-    if (!cam || (s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length)) {
-        s.canvas.move_to({latest.plate.x + 10 * s.at.unit, latest.plate.y + 10 * s.at.unit});
-        s.canvas.line_to(foot);
-        s.canvas.stroke({s.at.palette.ink, 1.6 * s.at.unit});
-    }
-    draw_caption(s, latest, style);
-    const double gap = 8 * s.at.unit;
-    double below = latest.plate.bottom() + gap, above = latest.plate.y - gap;
-    for (std::size_t i = 1; i < shown.size(); ++i) {
-        Caption other = caption_of(s, *shown[i], style, {latest.plate.x, below});
-        other.plate.x = std::max(s.at.box.x, std::min(other.plate.x, s.at.box.right() - other.plate.w));
-        if (words && other.plate.overlaps(*words)) other.plate.y = words->bottom() + gap;
-        const bool fits = other.plate.bottom() <= s.at.box.bottom() - 40 * s.at.unit;
-        if (!fits) other.plate.y = above - other.plate.h;
-        if (!fits && words && other.plate.overlaps(*words)) other.plate.y = words->y - gap - other.plate.h;
-        if (other.plate.y < s.at.box.y) return;  // no room for more
-        (fits ? below : above) = fits ? other.plate.bottom() + gap : other.plate.y - gap;
-        draw_caption(s, other, style);
-    }
 }
 
 // ---- the motions that it is compared with ------------------------------------------------------

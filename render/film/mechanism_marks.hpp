@@ -1,6 +1,7 @@
 // What is written on a mechanism: angle, speed of the cam, traces, force, words; and the motions it is compared with.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/film/mechanism_view.hpp"
@@ -13,10 +14,17 @@ double drawn_angle(const sim::Pose& pose);
 void draw_angle_arc(const MechanismScene& s, double room);  // of a radius of at most `room` [px]
 void draw_cam_speed(const MechanismScene& s);
 void draw_base_line(const MechanismScene& s);
-void draw_disc_marks(const MechanismScene& s, const Trace& trace);
+void draw_disc_marks(const MechanismScene& s, const Trace& trace);  // of a flat or lit disc
+void draw_disc_letters(const MechanismScene& s);
 void draw_beam_trace(const MechanismScene& s, const Trace& trace);
-void draw_force(const MechanismScene& s);
-void draw_callout(const MechanismScene& s, Vec2 tip);  // `tip`: of the beam, flat [px]
+// An arrow of force.
+struct Push {
+    Vec2 foot, normal;  // [m]
+    double force = 0;   // [N]
+    bool is_peak = false;
+};
+// The force of this instant; in place of none, or of one that does not last, that of a contact just over.
+void draw_force(const MechanismScene& s, const std::optional<Push>& peak);
 // A colour for each place around the disc, none where it was never touched.
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
 

@@ -8,6 +8,8 @@
 #include <ranges>
 
 #include "render/draw/smooth_path.hpp"
+#include "render/film/apart.hpp"
+#include "render/film/captions.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -16,7 +18,6 @@ namespace {
 using sim::Pose;
 
 using std::numbers::pi;
-constexpr double kFlash = 0.4;  // an impact's ring fades within so much of the film [s]
 constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
 constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
 
@@ -38,13 +39,15 @@ struct MechanismPanel::Threads final : Panel::State {
     GrowingLayer path;
     Trace trace;
     LitMechanism lit;
+    Apart seen, exposed;  // what a moving camera sees; one of several exposures
 };
 
 MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot) {
     OccupancyGrid room = still_room();
     note_extent(room);
     place_words(std::move(room));
-    find_flashes();
+    rings_.find(at_);
+    find_shots();
 }
 
 std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
@@ -62,7 +65,7 @@ void MechanismPanel::take_beam(OccupancyGrid& room, const std::vector<Vec2>& fac
 }
 
 // What the motions leave free as far as their survey tells: the same for mechanisms that stand beside each other.
-OccupancyGrid MechanismPanel::still_room() const {
+OccupancyGrid MechanismPanel::still_room() {
     OccupancyGrid room(at_.box, std::max(2.0, 4 * at_.unit));
     const Sight& sight = at_.facts.sight;
     for (const std::vector<Vec2>& strip : sight.strips) {
@@ -71,6 +74,7 @@ OccupancyGrid MechanismPanel::still_room() const {
             face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
         take_beam(room, face, back);
     }
+    place_speed(room);
     for (const sim::Problem* p : sight.problems) {
         const Vec2 o = at_.px({0, 0});
         const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
@@ -97,6 +101,19 @@ OccupancyGrid MechanismPanel::still_room() const {
     return room;
 }
 
+// The cam's speed stands at its lower right, or on the first side that the beams leave it.
+void MechanismPanel::place_speed(const OccupancyGrid& beams) {
+    if (!at_.problem().cam || !at_.labelled()) return;
+    const Vec2 axis = at_.px(at_.problem().cam->centre);
+    double least = std::numeric_limits<double>::infinity(), best = at_.speed_way;
+    for (const double way : {-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi}) {
+        at_.speed_way = way;
+        const double cost = beams.covered(at_.speed_box(axis, 110 * at_.unit, nullptr));
+        if (cost < least) least = cost, best = way;
+    }
+    at_.speed_way = best;
+}
+
 bool MechanismPanel::has_label() const { return at_.facts.members() > 1 && at_.box.w >= 160 * at_.unit; }
 bool MechanismPanel::has_bar() const {
     return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
@@ -116,14 +133,14 @@ void MechanismPanel::place_words(OccupancyGrid room) {
     if (has_label()) {
         double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
         for (int m = 0; m < at_.facts.members(); ++m)
-            widest = std::max(widest, canvas.measure(label_words(canvas, m), label_style()).w);
+            widest = std::max(widest, canvas.measure(at_.facts.labels[static_cast<std::size_t>(m)], label_style()).w);
         const double lines = at_.ghosts ? at_.facts.members() : 1;
         label_ =
             choose({std::min(46 * at_.unit + widest, at_.box.w - 2 * gap), 34 * at_.unit * lines}, Corner::top_left);
     }
     if (!has_bar()) return;
-    const double wide = std::max(scale_length() * at_.look.camera.scale,
-                                 canvas.measure(quantity(scale_length(), "m"), {.size = 17 * at_.unit}).w);
+    const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
+                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = 17 * at_.unit}).w);
     bar_ = choose({wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right);
 }
 
@@ -150,11 +167,15 @@ void MechanismPanel::note_extent(OccupancyGrid& room) {
     Bounds seen;
     Range turned{0, 0};  // [rad]
     for (int k = 0; k < at_.facts.frames(); ++k) {
-        const double angle = drawn_angle(at_.facts.pose(at_.member, k));
+        const Pose pose = at_.facts.pose(at_.member, k);
+        const DrawnBeam drawn = at_.drawn(at_.member, pose);
+        const double angle = drawn_angle(pose);
         turned = {std::min(turned.low, angle), std::max(turned.high, angle)};
-        const MechanismShape shape =
-            mechanism_shape(at_.problem(), at_.facts.pose(at_.member, k), beam(k), at_.look, at_.palette);
+        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        followed_.push_back({at_.look.camera.to_world(tips_.back()),
+                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tips_.back()),
+                             at_.problem().cam ? pose.cam_centre : Vec2{}});
         if (has_label() || has_bar()) take_beam(room, shape.face, shape.back);
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
@@ -198,40 +219,46 @@ void MechanismPanel::note_path() {
     path_ = thinned(times, inside, 0.5);
 }
 
-void MechanismPanel::find_flashes() {
-    std::vector<double> times;
-    for (int k = 0; k < at_.facts.frames(); ++k) times.push_back(at_.facts.at(at_.member, k));
-    for (const sim::Impact& impact : at_.motion().impacts) {
-        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
-        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
-        const int at = static_cast<int>(first - times.begin());
-        const DrawnBeam b = beam(at);
-        if (!b.contact) continue;
-        flashes_.push_back(
-            {at, std::atan2(b.contact->normal.y, b.contact->normal.x) - at_.facts.pose(at_.member, at).cam_angle});
-    }
+void MechanismPanel::find_shots() {
+    const FilmSetup& setup = *at_.facts.setup;
+    const Shot& first = setup.view.shot;
+    if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
+    shots_ = sightings(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
 }
 
 // ---- the ground ------------------------------------------------------------------------------
 
 void MechanismPanel::draw_ground(Canvas& canvas) const {
-    if (at_.facts.setup->view.style == Style::solid) return label(canvas);  // all else is seen from moving places
-    const Vec2 o = at_.px({0, 0});
-    canvas.move_to({at_.box.x, o.y});
-    canvas.line_to({at_.box.right(), o.y});
-    canvas.stroke({at_.palette.faint, 1.5 * at_.unit, {10 * at_.unit, 8 * at_.unit}, Cap::butt});
-    draw_support(canvas, o, hub_radius(at_.problem(), at_.look.camera, at_.unit), at_.marks, at_.palette);
-    scale_bar(canvas);
+    if (!shots_.empty()) return;
+    draw_still(canvas, at_);
+    draw_words(canvas, at_);
+}
+
+void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
+    if (at.facts.setup->view.style == Style::solid) return;  // all is seen from moving places
+    const Vec2 o = at.px({0, 0});
+    canvas.move_to({at.box.x, o.y});
+    canvas.line_to({at.box.right(), o.y});
+    canvas.stroke({at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
+    draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
+}
+
+void MechanismPanel::draw_words(Canvas& canvas, const MechanismView& at) const {
+    scale_bar(canvas, at);
     label(canvas);
 }
 
 // A round length near a seventh of the view [m].
-double MechanismPanel::scale_length() const { return round_down_125(0.17 * at_.box.w / at_.look.camera.scale); }
+double MechanismPanel::scale_length(const MechanismView& at) const {
+    return round_down_125(0.17 * at.box.w / at.look.camera.scale);
+}
 
-void MechanismPanel::scale_bar(Canvas& canvas) const {
+void MechanismPanel::scale_bar(Canvas& canvas, const MechanismView& at) const {
     if (!bar_) return;
-    const double w = scale_length() * at_.look.camera.scale, middle = bar_->x + bar_->w / 2,
-                 y = bar_->bottom() - 4 * at_.unit;
+    const double w = scale_length(at) * at.look.camera.scale;
+    double middle = bar_->x + bar_->w / 2;
+    if (at.moved) middle = std::clamp(middle, at.box.x + w / 2 + 4 * at.unit, at.box.right() - w / 2 - 4 * at.unit);
+    const double y = bar_->bottom() - 4 * at_.unit;
     const double x = middle - w / 2;
     canvas.move_to({x, y - 5 * at_.unit});
     canvas.line_to({x, y});
@@ -239,16 +266,12 @@ void MechanismPanel::scale_bar(Canvas& canvas) const {
     canvas.line_to({x + w, y - 5 * at_.unit});
     canvas.stroke({at_.palette.muted, 1.6 * at_.unit, {}, Cap::butt});
     canvas.text(
-        {middle, y - 9 * at_.unit}, quantity(scale_length(), "m"),
+        {middle, y - 9 * at_.unit}, quantity(scale_length(at), "m"),
         {.size = 17 * at_.unit, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
 }
 
 TextStyle MechanismPanel::label_style() const {
     return {.size = 24 * at_.unit, .color = at_.palette.ink, .weight = Weight::semibold, .halo = at_.palette.paper};
-}
-
-std::string MechanismPanel::label_words(Canvas& canvas, int member) const {
-    return escape(canvas.drawable(at_.facts.motion(member).label));
 }
 
 // Which motion this is, where there are several; with ghosts, all of them.
@@ -263,7 +286,7 @@ void MechanismPanel::label(Canvas& canvas) const {
         canvas.move_to({x, y - 8 * at_.unit});
         canvas.line_to({x + 30 * at_.unit, y - 8 * at_.unit});
         canvas.stroke({at_.facts.member_color(m), 6 * at_.unit, {}, Cap::butt});
-        canvas.text({x + 42 * at_.unit, y}, label_words(canvas, m), style);
+        canvas.text({x + 42 * at_.unit, y}, at_.facts.labels[static_cast<std::size_t>(m)], style);
         y += 34 * at_.unit;
     }
 }
@@ -271,15 +294,18 @@ void MechanismPanel::label(Canvas& canvas) const {
 // ---- what moves ------------------------------------------------------------------------------
 
 // Far enough for a mild perspective, and a little smaller than the flat view, so that what comes nearer stays within.
-Perspective MechanismPanel::view_of(int frame) const {
-    const Orbit& orbit = at_.facts.setup->view.orbit;
-    const double turn = 2 * pi * frame / std::max(1, at_.facts.frames());
-    return Perspective::looking(at_.box.centre(), 2.4 * std::max(at_.box.w, at_.box.h), 0.9,
-                                orbit.yaw + orbit.swing * std::sin(turn), orbit.pitch);
+Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
+    const View& view = at.facts.setup->view;
+    const double turn = 2 * pi * frame / std::max(1, at.facts.frames());
+    double yaw = view.shot.yaw, pitch = view.shot.pitch;
+    if (!shots_.empty())
+        yaw = shots_[static_cast<std::size_t>(frame)].yaw, pitch = shots_[static_cast<std::size_t>(frame)].pitch;
+    return Perspective::looking(at.box.centre(), 2.4 * std::max(at.box.w, at.box.h) * at.zoom(), 0.9,
+                                yaw + view.swing * std::sin(turn), pitch);
 }
 
 bool MechanismPanel::whole_path() const {
-    return at_.facts.setup->view.tip_path && at_.facts.setup->view.style != Style::solid;
+    return at_.facts.setup->view.tip_path && at_.facts.setup->view.style != Style::solid && shots_.empty();
 }
 
 void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const {
@@ -295,70 +321,115 @@ void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool ane
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<Threads*>(state);
-    const Pose& pose = at_.facts.pose(at_.member, frame);
-    const DrawnBeam drawn = beam(frame);
-    const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
+    if (shots_.empty()) return draw_moving(canvas, at_, frame, style, threads);
+    const MechanismView at = at_.seen_by(shots_[static_cast<std::size_t>(frame)]);
+    threads.seen.put(canvas, at.box, [&](Canvas& inside) {
+        draw_still(inside, at);
+        draw_moving(inside, at, frame, style, threads);
+        draw_words(inside, at);
+    });
+}
+
+void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,
+                                 Threads& threads) const {
+    const Pose pose = at.facts.pose(at.member, frame);
+    const DrawnBeam drawn = at.drawn(at.member, pose);
+    const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
-    const Perspective perspective = view_of(frame);
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at_, style == Style::solid ? &perspective : nullptr};
+    const Perspective perspective = view_of(at, frame);
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr};
     trail(s);
-    if (at_.ghosts) draw_ghost_bodies(s);
+    if (at.ghosts) draw_ghost_bodies(s);
+    const bool several = at.motion().exposures > 1, one = !several || view_strobes();
+    const auto bodies = [&] {
+        if (several) draw_exposures(s, style, threads);
+        if (one) draw_bodies(s, style, threads);
+    };
     if (style == Style::solid) {
-        threads.lit.draw_solid(s, rim_colors(at_, threads.trace, pose.t));
+        bodies();
     } else {
-        draw_angle_arc(s, arc_room_);
+        draw_angle_arc(s, at.moved ? std::numeric_limits<double>::infinity() : arc_room_);
         draw_base_line(s);
     }
     draw_cam_speed(s);
-    if (style == Style::lit) threads.lit.draw(canvas, shape, at_, lit_box_);
-    if (style == Style::flat) draw_flat(canvas, shape, at_.look, at_.palette);
-    draw_disc_marks(s, threads.trace);
-    if (!s.view) draw_beam_trace(s, threads.trace);
-    if (at_.ghosts) draw_ghost_outlines(s);
-    flash(s);
-    draw_force(s);
-    if (at_.member == 0) draw_callout(s, tips_[static_cast<std::size_t>(frame)]);
+    if (style != Style::solid) bodies();
+    draw_disc_letters(s);
+    if (!s.view && one) draw_beam_trace(s, threads.trace);
+    if (at.ghosts) draw_ghost_outlines(s);
+    rings_.draw(s);
+    draw_force(s, rings_.peak(s));
+    if (at.member == 0) draw_captions(s);
+}
+
+void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, Threads& threads) const {
+    switch (style) {
+        case Style::solid:
+            return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace, s.pose.t));
+        case Style::lit:
+            threads.lit.draw(s.canvas, s.shape, s.at, s.at.moved || s.at.motion().exposures > 1 ? s.at.box : lit_box_);
+            break;
+        case Style::flat:
+            draw_flat(s.canvas, s.shape, s.at.unit, s.at.palette);
+            break;
+    }
+    if (s.shape.disc) draw_disc_marks(s, threads.trace);
+}
+
+// The mean of all exposures, or those of the strobe one by one: the older, the fainter.
+void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Threads& threads) const {
+    const std::size_t count = s.at.motion().exposures;
+    const auto draw_one = [&](Canvas& canvas, const Pose& pose) {
+        const DrawnBeam drawn = s.at.drawn(s.at.member, pose);
+        MechanismShape shape = mechanism_shape(s.at.problem(), pose, drawn, s.at.look, s.at.palette);
+        if (view_strobes()) shape.disc.reset();
+        draw_bodies({canvas, s.frame, pose, drawn, shape, s.at, s.view}, style, threads);
+    };
+    const auto pose_of = [&](std::size_t which) {
+        return s.at.motion().pose(static_cast<std::size_t>(s.frame), which);
+    };
+    if (!view_strobes())
+        return threads.exposed.put_mean(s.canvas, s.at.box, count,
+                                        [&](Canvas& canvas, std::size_t which) { draw_one(canvas, pose_of(which)); });
+    for (std::size_t k = 1; k < count; ++k) {
+        const Pose pose = pose_of(k);
+        if (pose.t >= s.pose.t) continue;  // there was no flash yet
+        const double age = static_cast<double>(count - k) / static_cast<double>(count);
+        threads.exposed.put(
+            s.canvas, s.at.box, [&](Canvas& canvas) { draw_one(canvas, pose); }, 0.5 - 0.38 * age);
+    }
 }
 
 // The tip's path over the last of the film, fading.
 void MechanismPanel::trail(const MechanismScene& s) const {
     if (whole_path()) return;  // all of it is drawn already
+    const auto on = [&](Vec2 p) { return s.on(s.at.moved ? s.at.px(at_.look.camera.to_world(p)) : p); };
+    if (at_.facts.setup->view.tip_path && s.at.moved && !s.view) {
+        const auto end = std::ranges::upper_bound(path_.times, s.pose.t) - path_.times.begin();
+        std::vector<Vec2> line;
+        for (std::ptrdiff_t i = 0; i < end; ++i)
+            line.push_back(on(path_.points[static_cast<std::size_t>(i)] + Vec2{at_.box.x, at_.box.y}));
+        s.canvas.polyline(line);
+        return s.canvas.stroke({s.at.palette.motion_faint, 1.6 * s.at.unit});
+    }
     const auto now = static_cast<std::size_t>(s.frame);
     for (std::size_t k = now; k-- > 0;) {
         const double age = (moved_[now] - moved_[k]) / (kTrail * at_.facts.setup->fps);
         if (age > 1) break;
         if (moved_[k + 1] == moved_[k]) continue;
         std::vector<Vec2> piece = smooth_piece(tips_, k, kArcStep * at_.unit);
-        for (Vec2& p : piece) p = s.on(p);
+        for (Vec2& p : piece) p = on(p);
         s.canvas.polyline(piece);
         s.canvas.stroke({at_.palette.motion.faded(0.55 * (1 - age)), 2 * at_.unit, {}, Cap::butt});
     }
 }
 
-double MechanismPanel::flash_frames() const { return kFlash * at_.facts.setup->fps; }
-
 // The camera, and the rings of impacts.
 bool MechanismPanel::plays(int frame) const {
     const View& view = at_.facts.setup->view;
-    if (view.style == Style::solid && view.orbit.swing != 0) return true;
-    return std::ranges::any_of(flashes_, [&](const Flash& f) {
-        return frame >= f.frame && frame < f.frame + flash_frames() + 1;  // gone with the last
-    });
-}
-
-// A ring that opens and fades where an impact began, carried along by the disc.
-void MechanismPanel::flash(const MechanismScene& s) const {
-    if (!at_.problem().cam) return;
-    for (const Flash& f : flashes_) {
-        const int age = s.frame - f.frame;
-        if (age < 0 || age >= flash_frames()) continue;
-        const double share = age / flash_frames();
-        const Vec2 at =
-            s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + f.material_angle) * at_.problem().cam->radius);
-        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * at_.marks);
-        s.canvas.stroke(
-            {at_.palette.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(at_.marks, 0.45)});
-    }
+    const auto now = static_cast<std::size_t>(frame);
+    if (view.style == Style::solid && view.swing != 0) return true;
+    if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
+    return rings_.play(frame);
 }
 
 std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {

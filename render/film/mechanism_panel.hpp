@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "render/draw/growing.hpp"
+#include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
-#include "render/film/mechanism_marks.hpp"
 #include "render/plot/placement.hpp"
 
 namespace beamcam::render {
@@ -24,35 +24,37 @@ class MechanismPanel final : public Panel {
 
     // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
     std::vector<Box> words() const;
-    const Camera& camera() const { return at_.look.camera; }
+    const Camera& camera(int frame) const {
+        return shots_.empty() ? at_.look.camera : shots_[static_cast<std::size_t>(frame)].camera;
+    }
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
     struct Threads;  // State
-    struct Flash {
-        int frame = 0;              // the first that shows it
-        double material_angle = 0;  // on the disc, from its mark [rad]
-    };
-    Perspective view_of(int frame) const;
+    Perspective view_of(const MechanismView& at, int frame) const;
+    void find_shots();
+    void draw_still(Canvas& canvas, const MechanismView& at) const;
+    void draw_words(Canvas& canvas, const MechanismView& at) const;
+    void draw_bodies(const MechanismScene& s, Style style, Threads& threads) const;
+    void draw_exposures(const MechanismScene& s, Style style, Threads& threads) const;
+    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads) const;
 
-    OccupancyGrid still_room() const;
+    OccupancyGrid still_room();
+    void place_speed(const OccupancyGrid& beams);
     void take_beam(OccupancyGrid& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
     void note_extent(OccupancyGrid& room);
     bool has_label() const;
     bool has_bar() const;
     void place_words(OccupancyGrid room);
     void note_path();
-    void find_flashes();
-    void scale_bar(Canvas& canvas) const;
+    void scale_bar(Canvas& canvas, const MechanismView& at) const;
     void label(Canvas& canvas) const;
-    double scale_length() const;
+    double scale_length(const MechanismView& at) const;
     TextStyle label_style() const;
-    std::string label_words(Canvas& canvas, int member) const;
 
-    bool whole_path() const;  // of the tip, instead of a trail
+    bool view_strobes() const { return at_.facts.setup->view.strobe; }
+    bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
     void trail(const MechanismScene& s) const;
-    double flash_frames() const;
-    void flash(const MechanismScene& s) const;
 
     MechanismView at_;
     std::optional<Box> label_, bar_;  // where they stand
@@ -61,7 +63,9 @@ class MechanismPanel final : public Panel {
     std::vector<Vec2> tips_;          // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box
-    std::vector<Flash> flashes_;
+    ImpactRings rings_;
+    std::vector<Followed> followed_;  // of every frame
+    std::vector<Sighting> shots_;     // of every frame; empty: always all of it
 };
 
 }  // namespace beamcam::render

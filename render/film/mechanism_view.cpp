@@ -39,6 +39,15 @@ void MechanismView::place_camera() {
     marks = mark_unit(problem(), look.camera, unit);
 }
 
+MechanismView MechanismView::seen_by(const Sighting& sighting) const {
+    MechanismView out = *this;
+    out.look.camera = sighting.camera;
+    out.look.unit = unit * sighting.zoom;
+    out.wide = wide * sighting.zoom;
+    out.moved = true;
+    return out;
+}
+
 Vec2 MechanismView::seen(Vec2 flat, const Perspective* view) const {
     if (!view) return flat;
     const Vec2 middle = box.centre();
@@ -54,8 +63,10 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
 Box MechanismView::speed_box(Vec2 axis, double w, const Perspective* view) const {
     const sim::Cam& cam = *problem().cam;
     const double radius = (cam.radius + cam.eccentricity) * look.camera.scale + 20 * unit;
-    Vec2 at = seen(axis + down(-0.26 * pi) * (radius + 16 * unit), view) + Vec2{8 * unit, 12 * unit};
-    if (at.x + w > box.right())
+    const bool right = std::cos(speed_way) > 0;
+    Vec2 at = seen(axis + down(speed_way + (right ? 0.04 : -0.04) * pi) * (radius + 16 * unit), view) +
+              Vec2{(right ? 8 : -8) * unit - (right ? 0 : w), 12 * unit};
+    if (at.x + w > box.right() || at.x < box.x)
         at = {box.right() - w, seen(axis + down(-0.5 * pi) * (radius + 26 * unit), view).y + 8 * unit};
     at.y = std::min(at.y, box.bottom() - 34 * unit);
     return {at.x, at.y - 22 * unit, w, 22 * unit};

@@ -1,6 +1,8 @@
 // Where and how large a mechanism is drawn in a film, and one frame of it as it is being drawn.
 #pragma once
 
+#include <numbers>
+
 #include "render/film/panel.hpp"
 #include "render/gl/solid.hpp"
 #include "render/mechanism/mechanism.hpp"
@@ -21,6 +23,16 @@ struct MechanismView {
     bool labelled() const { return !small && facts.setup->view.show.labels; }
     MechanismLook look;
     double wide;  // of the beam across the plane of motion, in the solid view [px]
+
+    // The same with the camera elsewhere: what is drawn grows with the zoom, lines and letters do not.
+    MechanismView seen_by(const Sighting& sighting) const;
+    double zoom() const { return look.unit / unit; }
+    bool shows(Vec2 px) const {
+        return !moved || (px.x > box.x && px.x < box.right() && px.y > box.y && px.y < box.bottom());
+    }
+    double hub() const { return hub_radius(problem(), look.camera, look.unit); }
+    double speed_way = -0.30 * std::numbers::pi;  // from the cam's axis to its arrow [rad]
+    bool moved = false;                           // the camera does not show all
 
     const Motion& motion() const { return facts.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }

@@ -13,6 +13,7 @@
 #include "render/film/panel.hpp"
 #include "render/film/player.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/plot/words.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -56,7 +57,7 @@ bool tells(const Instant& a, const Instant& b, const Instant& between, double le
 }
 
 // The longest steps that tell all between them, one after the other.
-std::vector<Instant> thinned(std::vector<Instant> all, double length) {
+std::vector<Instant> telling(std::vector<Instant> all, double length) {
     constexpr std::size_t kLongest = 200;
     std::vector<Instant> out{all.front()};
     for (std::size_t from = 0; from + 1 < all.size();) {
@@ -79,16 +80,6 @@ std::string base64(const std::vector<Number>& numbers) {
     const std::string out = text;
     g_free(text);
     return out;
-}
-
-// JSON in a script element, which "</script>" would end.
-std::string quoted(const std::string& plain) {
-    std::string out = "\"";
-    for (const char c : plain)
-        out += static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\' || c == '<'
-                   ? fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)))
-                   : std::string(1, c);
-    return out + "\"";
 }
 
 std::string css(const Color& c) {
@@ -157,6 +148,16 @@ std::string numbers_json(const std::vector<Instant>& kept) {
 
 }  // namespace
 
+// "</script>" would end a script element.
+std::string json_text(std::string_view plain) {
+    std::string out = "\"";
+    for (const char c : plain)
+        out += static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\' || c == '<'
+                   ? fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)))
+                   : std::string(1, c);
+    return out + "\"";
+}
+
 std::string html_page(const FilmSetup& setup) {
     const FilmFacts facts(std::make_shared<const FilmSetup>(setup));
     const sim::Problem& problem = facts.motion(0).problem;
@@ -172,18 +173,18 @@ std::string html_page(const FilmSetup& setup) {
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
-        quoted(setup.title), facts.factor, kPageTolerance * length, length, thickness, problem.hub.radius,
-        facts.arrow_scale, setup.units.degrees, colors, cam_json(facts), impacts_json(facts),
-        numbers_json(thinned(std::move(all), length)));
+        json_text(plain_words(setup.title)), facts.factor, kPageTolerance * length, length, thickness,
+        problem.hub.radius, facts.arrow_scale, setup.units.degrees, colors, cam_json(facts), impacts_json(facts),
+        numbers_json(telling(std::move(all), length)));
     std::string page(player_html());
-    for (const auto& [mark, text] :
-         {std::pair<std::string, std::string>{"@TITLE@", setup.title.empty() ? "beamcam" : escape(setup.title)},
-          {"@PAPER@", css(p.paper).substr(1, 7)},
-          {"@INK@", css(p.ink).substr(1, 7)},
-          {"@MUTED@", css(p.muted).substr(1, 7)},
-          {"@MOTION@", css(p.motion).substr(1, 7)},
-          {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
-          {"@DATA@", data}})
+    for (const auto& [mark, text] : {std::pair<std::string, std::string>{
+                                         "@TITLE@", setup.title.empty() ? "beamcam" : escape(plain_words(setup.title))},
+                                     {"@PAPER@", css(p.paper).substr(1, 7)},
+                                     {"@INK@", css(p.ink).substr(1, 7)},
+                                     {"@MUTED@", css(p.muted).substr(1, 7)},
+                                     {"@MOTION@", css(p.motion).substr(1, 7)},
+                                     {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
+                                     {"@DATA@", data}})
         for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos; at += text.size())
             page.replace(at, mark.size(), text);
     return page;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "render/film/film.hpp"
 
@@ -13,5 +14,7 @@ namespace beamcam::render {
 // the same bytes.
 constexpr double kPageTolerance = 1e-3;
 std::string html_page(const FilmSetup& setup);
+
+std::string json_text(std::string_view text);  // as JSON, which may stand in HTML
 
 }  // namespace beamcam::render

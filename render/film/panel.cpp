@@ -11,6 +11,7 @@
 #include "render/base/error.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
+#include "render/plot/words.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -74,10 +75,11 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
     colors = render::palette(setup->view.theme);
     if (setup->view.paper) colors.paper = rgb(*setup->view.paper);
+    if (setup->view.transparent) colors = colors.without_paper();
     palette = &colors;
     Shown shown = setup->view.show;
     shown.title = shown.title && !setup->title.empty();
-    cjk = needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
+    cjk = setup->view.lang == Lang::zh || needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
     for (const Callout& c : setup->callouts) cjk = cjk || needs_cjk(c.text);
     for (int m = 0; m < members(); ++m) {
         cjk = cjk || needs_cjk(motion(m).label);
@@ -85,6 +87,9 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     }
     fonts = std::make_unique<const Fonts>(cjk);
     ++counts->font_sets;
+    Image scratch(1, 1);
+    const Canvas canvas(scratch, *fonts);
+    for (int m = 0; m < members(); ++m) labels.push_back(words(canvas, motion(m).label));
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
@@ -189,8 +194,8 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
     return values[i] * (1 - share) + values[i + 1] * share;
 }
 
-std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member) {
-    return facts.members() > 1 ? ", " + escape(canvas.drawable(facts.motion(member).label)) : std::string();
+std::string of_motion(const FilmFacts& facts, int member) {
+    return facts.members() > 1 ? ", " + facts.labels[static_cast<std::size_t>(member)] : std::string();
 }
 
 void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup) {

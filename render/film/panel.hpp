@@ -38,8 +38,10 @@ struct FilmFacts {
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
+    std::vector<std::string> labels;     // of the motions, as markup
     std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
 
+    std::string say(std::string english) const { return in(setup->view.lang, std::move(english)); }
     int frames() const { return static_cast<int>(setup->frames()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }
     const Motion& motion(int member) const {
@@ -98,7 +100,7 @@ const std::vector<double>* column(const sim::Table& table, sim::Channel channel)
 // Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
 // Of a panel of one motion among several: ", " and its label, as markup.
-std::string of_motion(Canvas& canvas, const FilmFacts& facts, int member);
+std::string of_motion(const FilmFacts& facts, int member);
 void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup);
 // Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
 void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,

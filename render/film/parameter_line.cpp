@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "render/draw/wrap.hpp"
 #include "render/plot/labels.hpp"
+#include "render/plot/words.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -40,7 +40,7 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
     constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55};  // of the full size
     FittedTitle out;
     out.style = title_style(u, color);
-    const std::string whole = escape(canvas.drawable(title));
+    const std::string whole = words(canvas, title);
     const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
     const auto set = [&](double share) {
         out.style.size = share * full;
@@ -99,7 +99,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
             rows.insert(rows.begin(), above);
         } else {
             rows.push_back(above);
-            rows.back().x += canvas.measure(escape(canvas.drawable(title)), title_style(u)).w + 40 * u;
+            rows.back().x += canvas.measure(words(canvas, title), title_style(u)).w + 40 * u;
         }
         choose(rows);
     }

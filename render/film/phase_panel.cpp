@@ -8,6 +8,7 @@
 #include "render/draw/growing.hpp"
 #include "render/draw/smooth_path.hpp"
 #include "render/film/panel.hpp"
+#include "render/plot/channel_label.hpp"
 #include "render/plot/chart.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -64,7 +65,7 @@ class PhasePanel final : public Panel {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
         const std::string symbol = y_.name("d" + math("θ") + "/d" + math("t"));
-        const std::string named = fmt::format("Hub speed {}", symbol);
+        const std::string named = label_of(ChannelKind::theta_dot).heading(facts_.setup->view.lang) + symbol;
         const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
         draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
         TextStyle label{.size = 17 * u, .color = p.muted, .align = HAlign::centre};
@@ -87,7 +88,7 @@ class PhasePanel final : public Panel {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
             canvas.polyline(points);
-            canvas.stroke({mix(p.paper, color(m), 0.22), 1.0 * u});
+            canvas.stroke({p.tint(color(m), 0.22), 1.0 * u});
         }
     }
 

@@ -83,7 +83,7 @@ Sight sight_of(const FilmFacts& facts, double least_depth) {
                 sight.pushes.push_back({beam.contact->on_disc, beam.contact->normal,
                                         std::min(1.0, pose.nearest->force / facts.arrow_scale), depth});
         };
-        if (still) show(facts.pose(m, 0), false);
+        for (std::size_t k = 0; k < (still || one.exposures > 1 ? one.exposures : 0); ++k) show(one.pose(0, k), false);
         for (std::size_t k = 0; k < one.surveyed(); ++k) {
             if (still && !setup.view.tip_path) break;
             if (const sim::Pose pose = one.surveyed(k); !still || pose.t <= facts.at(m, 0)) show(pose, still);

@@ -134,10 +134,10 @@ void add_places(const FilmFacts& facts, ChartContent& c) {
             if (s.t < c.time.low || s.t > c.time.high) continue;
             const Palette& p = *facts.palette;
             if (facts.members() > 1)
-                c.dots.push_back({s.t, s.x, facts.member_color(m), mix(p.paper, facts.member_color(m), 0.25)});
+                c.dots.push_back({s.t, s.x, facts.member_color(m), p.tint(facts.member_color(m), 0.25)});
             else
-                c.dots.push_back({s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)),
-                                  mix(p.paper, p.contact_faint, 0.9)});
+                c.dots.push_back(
+                    {s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)), p.tint(p.contact_faint, 0.9)});
         }
     const double length = facts.setup->problem.beam.length;
     if (!(low <= high)) {
@@ -153,7 +153,7 @@ void add_places(const FilmFacts& facts, ChartContent& c) {
 std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
     switch (kind) {
         case ChannelKind::energy_potential:
-            return mix(p.paper, p.motion, 0.45);
+            return p.tint(p.motion, 0.45);
         case ChannelKind::energy_kinetic:
             return p.motion;
         case ChannelKind::energy_elastic:
@@ -163,7 +163,7 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
         case ChannelKind::loss_structural:
         case ChannelKind::loss_contact:
         case ChannelKind::loss_friction:
-            return mix(p.paper, p.muted, 0.55);
+            return p.tint(p.muted, 0.55);
         default:
             return {};
     }
@@ -210,7 +210,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     ChartContent c = blank_content(facts, spec, facts.members() > 1 ? -1 : 0);
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
-    c.words = single ? fmt::format("{} ", label_of(first.kind).words) : "";
+    c.words = single ? label_of(first.kind).heading(facts.setup->view.lang) : "";
     c.unit = facts.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);
@@ -222,9 +222,9 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
             const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
             const bool alone = single && facts.members() == 1;
             curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
-            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : mix(p.paper, curve.color, 0.25);
+            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(curve.color, 0.25);
             if (facts.members() > 1)
-                curve.label = escape(facts.motion(m).label) + ":";  // "ω = 0: 12"
+                curve.label = facts.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
             else if (!single)
                 curve.label = symbol_of(spec.channels[i]);
             // Colour alone does not tell curves apart for everybody.

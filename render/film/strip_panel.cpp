@@ -130,7 +130,7 @@ class CollisionPanel final : public Panel {
                 c.time = {first - kLongest - span.low, first - span.low};
             else if (facts_.span.low > shown_until && span.high > facts_.span.low)
                 c.time = {facts_.span.low - span.low, std::min(span.high, facts_.span.high) - span.low};
-            c.words = fmt::format("Collision {}, ", which + 1);
+            c.words = facts_.say(fmt::format("Collision {}, ", which + 1));
         }
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;

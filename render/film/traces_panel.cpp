@@ -36,18 +36,18 @@ class TracesPanel final : public Panel {
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
         const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, box_, "Contact trace on disc and beam" + of_motion(canvas, facts_, member_));
+        draw_heading(canvas, facts_, box_, facts_.say("Contact trace on disc and beam") + of_motion(facts_, member_));
         canvas.circle(centre_, radius_);
-        canvas.fill_keeping_path(mix(p.paper, p.steel, 0.5));
+        canvas.fill_keeping_path(p.tint(p.steel, 0.5));
         canvas.stroke({p.steel_edge, 1.6 * u});
         // The mark of the disc, where the arc starts.
         canvas.circle(centre_ + Vec2{radius_ - 14 * u, 0}, 4 * u);
         canvas.fill(p.steel_edge);
         canvas.rounded(beam_, 3 * u);
-        canvas.fill(mix(p.paper, p.motion, 0.35));
+        canvas.fill(p.tint(p.motion, 0.35));
         const TextStyle end{.size = 16 * u, .color = p.muted};
-        canvas.text({beam_.x, beam_.bottom() + 20 * u}, "root", end);
-        canvas.text({beam_.right(), beam_.bottom() + 20 * u}, "tip",
+        canvas.text({beam_.x, beam_.bottom() + 20 * u}, facts_.say("root"), end);
+        canvas.text({beam_.right(), beam_.bottom() + 20 * u}, facts_.say("tip"),
                     {.size = 16 * u, .color = p.muted, .align = HAlign::right});
     }
 

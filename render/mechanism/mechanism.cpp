@@ -146,8 +146,9 @@ double support_reach(double hub, double marks) { return hub + 44 * marks; }
 double support_half_width(double hub, double marks) { return 0.6 * (hub + 24 * marks) + 18 * marks; }
 
 // Its lines do not become finer than what can be seen.
-void draw_support(Canvas& canvas, Vec2 o, double hub, double u, const Palette& p) {
-    const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u, pen = std::max(u, 0.45), apart = std::max(11 * u, 4.0);
+void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, const Palette& p) {
+    const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u, pen = std::max(line, 0.45),
+                 apart = std::max(11 * u, 4.0);
     canvas.move_to(o);
     canvas.line_to({o.x - half, o.y + foot});
     canvas.line_to({o.x + half, o.y + foot});
@@ -209,10 +210,10 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     return s;
 }
 
-void draw_flat(Canvas& canvas, const MechanismShape& shape, const MechanismLook& look, const Palette& p) {
-    if (shape.disc) draw_disc(canvas, *shape.disc, look.unit, p);
-    draw_beam(canvas, shape, look.unit, p);
-    draw_hub(canvas, shape, look.unit, p);
+void draw_flat(Canvas& canvas, const MechanismShape& shape, double line, const Palette& p) {
+    if (shape.disc) draw_disc(canvas, *shape.disc, line, p);
+    draw_beam(canvas, shape, line, p);
+    draw_hub(canvas, shape, line, p);
 }
 
 }  // namespace beamcam::render

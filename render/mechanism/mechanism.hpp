@@ -35,7 +35,7 @@ struct MechanismShape {
 // What stays the same over a film.
 struct MechanismLook {
     Camera camera;
-    double unit = 1;          // [px]
+    double unit = 1;          // of hub, bore and chamfers, which the camera magnifies with the rest [px]
     double factor = 1;        // of exaggeration
     double depth = 0;         // of the beam as drawn [m]
     double moment_scale = 0;  // colour scale ±[N m]; 0: no colouring
@@ -53,8 +53,9 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
 // The bearing that O stands on; does not move. `reach`: how far it extends below O [px]. `marks`: mark_unit.
 double support_reach(double hub_radius, double marks);
 double support_half_width(double hub_radius, double marks);
-void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double marks, const Palette& palette);
+// `line`: the unit of its lines [px].
+void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double marks, double line, const Palette& palette);
 
-void draw_flat(Canvas& canvas, const MechanismShape& shape, const MechanismLook& look, const Palette& palette);
+void draw_flat(Canvas& canvas, const MechanismShape& shape, double line, const Palette& palette);
 
 }  // namespace beamcam::render

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "render/draw/formula.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -41,6 +43,10 @@ constexpr Row kLabels[] = {
 };
 
 }  // namespace
+
+std::string ChannelLabel::heading(Lang lang) const {
+    return lang == Lang::zh ? std::string(chinese) + " " + apart() : std::string(words) + " ";
+}
 
 std::string ChannelLabel::below(sim::Channel channel) const {
     return channel.kind == ChannelKind::q ? std::to_string(channel.index) : subscript;

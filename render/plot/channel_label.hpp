@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "render/plot/lang.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::render {
@@ -11,6 +12,7 @@ struct ChannelLabel {
     const char *words, *chinese;  // "Hub angle"
     const char *symbol, *subscript = "";
     bool rate = false;                              // the symbol's rate by time
+    std::string heading(Lang lang) const;           // the words, in front of the symbol, as markup
     std::string below(sim::Channel channel) const;  // the subscript; of a modal coordinate its number
 };
 const ChannelLabel& label_of(sim::ChannelKind kind);

@@ -21,6 +21,8 @@ namespace {
 
 // Sub- and superscripts: size, and shift of the baseline, by the size of the text they belong to.
 constexpr double kScriptSize = 0.72, kRaise = 0.36, kLower = 0.17;
+// Fractions and roots, by the same: height of their line, what is left free beside lines, width of the sign, the line.
+constexpr double kAxis = 0.26, kGap = 0.12, kRoot = 0.55, kRule = 0.055;
 // Liberation Serif looks smaller than Liberation Sans; this brings the x-heights together.
 constexpr double kSymbolSize = 1.12;
 constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistake, and 1 GB
@@ -68,6 +70,7 @@ struct Sheet::Set {
         double x = 0, y = 0, size = 0, advance = 0;  // of the baseline's start
     };
     std::vector<Piece> pieces;
+    std::vector<std::vector<Vec2>> rules;  // of fractions and roots
     double width = 0, ascent = 0, descent = 0, smallest = 1e9;
 };
 
@@ -207,14 +210,64 @@ double lay(PangoLayout* layout, const Run& run, double size, bool bold) {
 
 }  // namespace
 
-Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) {
+// Takes over a part that stands with its baseline's start at (x, y).
+void Sheet::join(Set& label, Set part, double x, double y) {
+    for (Set::Piece& piece : part.pieces) {
+        piece.x += x, piece.y += y;
+        label.pieces.push_back(std::move(piece));
+    }
+    for (std::vector<Vec2>& rule : part.rules) {
+        for (Vec2& p : rule) p += {x, y};
+        label.rules.push_back(std::move(rule));
+    }
+    label.smallest = std::min(label.smallest, part.smallest);
+    label.ascent = std::max(label.ascent, part.ascent - y);
+    label.descent = std::max(label.descent, part.descent + y);
+}
+
+// A fraction about the axis of signs, or a root.
+void Sheet::set_parts(Set& label, const Run& run, const Lettering& l) {
+    const double gap = kGap * l.size, axis = -kAxis * l.size, x = label.width;
+    if (run.under.empty()) {
+        Set inside = set(run.over, l);
+        const double top = -inside.ascent - gap, wide = inside.width, sign = kRoot * l.size;
+        label.rules.push_back({{x, -0.3 * l.size},
+                               {x + 0.3 * sign, -0.36 * l.size},
+                               {x + 0.6 * sign, inside.descent},
+                               {x + sign, top},
+                               {x + sign + wide, top}});
+        join(label, std::move(inside), x + sign, 0);
+        label.ascent = std::max(label.ascent, -top + gap);
+        label.width = x + sign + wide + gap;
+        return;
+    }
+    Lettering small = l;
+    small.size = std::max(kSmallestLetter, kScriptSize * l.size);
+    Set above = set(run.over, small), below = set(run.under, small);
+    const double wide = std::max(above.width, below.width) + 2 * gap;
+    label.rules.push_back({{x + gap / 2, axis}, {x + wide - gap / 2, axis}});
+    const double up = axis - gap - above.descent, down = axis + gap + below.ascent;
+    const double left = x + (wide - above.width) / 2, right = x + (wide - below.width) / 2;
+    join(label, std::move(above), left, up);
+    join(label, std::move(below), right, down);
+    label.width = x + wide;
+}
+
+Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) { return set(parse_markup(markup), l); }
+
+Sheet::Set Sheet::set(const std::vector<Run>& runs, const Lettering& l) {
     Set label;
     PangoLayout* layout = fonts_.handles().layout;
     label.ascent = cap_height(l.size);
     const Run* before = nullptr;
     double base_end = 0;  // where the scripts of the last base begin
-    std::vector<Run> runs = parse_markup(markup);
     for (const Run& run : runs) {
+        if (!run.over.empty()) {
+            set_parts(label, run, l);
+            base_end = label.width;
+            before = nullptr;
+            continue;
+        }
         Set::Piece piece;
         piece.run = run;
         piece.size = run.script ? std::max(kSmallestLetter, kScriptSize * l.size) : l.size;
@@ -239,10 +292,16 @@ Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) {
     return label;
 }
 
-void Sheet::show(const Set& label) {
+void Sheet::show(const Set& label, const Lettering& l) {
     PangoLayout* layout = fonts_.handles().layout;
     double x0 = 0, y0 = 0;
     cairo_get_current_point(cr_, &x0, &y0);
+    for (std::vector<Vec2> rule : label.rules) {
+        cairo_new_path(cr_);
+        for (Vec2& p : rule) p += {x0, y0};
+        polyline(rule);
+        stroke({l.color, kRule * l.size});
+    }
     for (const Set::Piece& piece : label.pieces) {
         lay(layout, piece.run, piece.size, false);
         const double baseline = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
@@ -278,7 +337,7 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     cairo_rotate(cr_, -l.turned);
     use(l.color);
     cairo_move_to(cr_, dx, dy);
-    show(label);
+    show(label, l);
     cairo_restore(cr_);
 
     // The corners turned, and the box around them.

@@ -22,6 +22,7 @@ namespace beamcam::render::figure {
 inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
 inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
 
+struct Run;  // text.hpp
 enum class Medium { png, pdf, svg };
 
 // What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
@@ -95,7 +96,10 @@ class Sheet : public Brush {
     struct Handles;
     struct Set;  // a label in its runs
     Set set(std::string_view markup, const Lettering& lettering);
-    void show(const Set& label);
+    Set set(const std::vector<Run>& runs, const Lettering& lettering);
+    static void join(Set& label, Set part, double x, double y);
+    void set_parts(Set& label, const Run& run, const Lettering& lettering);
+    void show(const Set& label, const Lettering& lettering);
 
     Medium medium_;
     SheetSize size_;

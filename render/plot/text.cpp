@@ -83,6 +83,7 @@ class Parser {
     void put(std::string_view c, Run style) {
         if (math_ && !upright_ && is_letter(c)) style.symbol = true;
         if (math_ && c == "-") c = "−";
+        if (math_ && c == "'") c = "′";
         if (!runs_.empty() && style.dots == 0 && runs_.back().dots == 0) {
             Run last = runs_.back();
             last.text.clear();
@@ -106,7 +107,8 @@ class Parser {
 
     void group(const Run& style) {
         if (take("{")) return sequence(style, true);
-        if (at_ >= text_.size()) fail("nothing follows a sub- or superscript");
+        if (at_ >= text_.size()) fail("something is missing at its end");
+        if (text_[at_] == '\\') return item(style);
         one(style);
     }
 
@@ -114,6 +116,43 @@ class Parser {
         const std::string_view c = next_character(text_, at_);
         at_ += c.size();
         put(c, style);
+    }
+
+    std::vector<Run> inside() {
+        std::vector<Run> before = std::exchange(runs_, {});
+        group({});
+        return std::exchange(runs_, std::move(before));
+    }
+
+    // After the backslash of a command of LaTeX; false: it is none.
+    bool command(const Run& style) {
+        std::size_t end = at_;
+        while (end < text_.size() && std::isalpha(static_cast<unsigned char>(text_[end]))) ++end;
+        if (!math_ || end == at_) return false;
+        const std::string_view name = text_.substr(at_, end - at_);
+        at_ = end;
+        // The space that ends a command, but for one in front of a sign.
+        const std::size_t next = std::min(text_.find_first_not_of(' ', at_), text_.size());
+        const auto sign = [](char c) { return std::string_view("=<>+-").find(c) != std::string_view::npos || c < 0; };
+        if (next == text_.size() || !sign(text_[next])) at_ = next;
+        Run changed = style;
+        if (name == "frac" || name == "sqrt") {
+            changed.over = inside();
+            if (name == "frac") changed.under = inside();
+            runs_.push_back(std::move(changed));
+            return true;
+        }
+        if (name == "dot" || name == "ddot") {
+            changed.dots = name == "dot" ? 1 : 2;
+            item(changed);
+            return true;
+        }
+        for (const Pair& known : kLatexMath)
+            if (known.second.starts_with('\\') && known.second.substr(1, known.second.find(' ') - 1) == name) {
+                put(known.first, style);
+                return true;
+            }
+        fail(fmt::format("\\{} is not among the commands that can be drawn", name).c_str());
     }
 
     void item(const Run& style) {
@@ -141,7 +180,11 @@ class Parser {
             changed.bold = true;
             sequence(changed, true);
         } else {
-            if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+            if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
+                ++at_;
+                if (command(style)) return;
+                if (math_ && take(",")) return put("\u2009", style);
+            }
             one(style);
         }
     }
@@ -190,7 +233,18 @@ std::string latex_text(std::string_view text) {
     return out;
 }
 
+std::string latex_of(const std::vector<Run>& runs);
+
+// Within a formula.
+std::string latex_part(const std::vector<Run>& runs) {
+    std::string out = latex_of(runs);
+    std::erase(out, '$');
+    return out;
+}
+
 std::string latex_run(const Run& run) {
+    if (!run.under.empty()) return fmt::format("$\\frac{{{}}}{{{}}}$", latex_part(run.over), latex_part(run.under));
+    if (!run.over.empty()) return fmt::format("$\\sqrt{{{}}}$", latex_part(run.over));
     std::string body = run.symbol ? latex_math(run.text) : latex_text(run.text);
     if (run.script == 0) {
         if (!run.symbol) return run.bold ? fmt::format("\\textbf{{{}}}", body) : body;
@@ -199,6 +253,21 @@ std::string latex_run(const Run& run) {
     }
     if (!run.symbol) body = fmt::format("\\mathrm{{{}}}", latex_math(run.text));
     return fmt::format("${}{{{}}}$", run.script < 0 ? "_" : "^", body);
+}
+
+std::string latex_of(const std::vector<Run>& runs) {
+    std::string out;
+    for (const Run& run : runs) {
+        const std::string piece = latex_run(run);
+        // One formula, not two: "$x$$_{c}$" would open a display.
+        if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
+            out.pop_back();
+            out += piece.substr(1);
+        } else {
+            out += piece;
+        }
+    }
+    return out;
 }
 
 std::string superscript(std::string_view text) {
@@ -224,25 +293,19 @@ std::string power_of_ten(int exponent) {
 
 std::vector<Run> parse_markup(std::string_view markup) { return Parser(markup).all(); }
 
-std::string to_latex(std::string_view markup) {
-    std::string out;
-    for (const Run& run : parse_markup(markup)) {
-        const std::string piece = latex_run(run);
-        // One formula, not two: "$x$$_{c}$" would open a display.
-        if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
-            out.pop_back();
-            out += piece.substr(1);
-        } else {
-            out += piece;
-        }
-    }
-    return out;
-}
+std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }
 
-std::string to_plain(std::string_view markup) {
+static std::string plain_of(const std::vector<Run>& runs) {
+    const auto part = [](const std::vector<Run>& some) {
+        const std::string text = plain_of(some);
+        const bool one = !text.empty() && sequence_length(text[0]) == text.size();
+        return one ? text : fmt::format("({})", text);
+    };
     std::string out;
-    for (const Run& run : parse_markup(markup)) {
-        if (run.script > 0)
+    for (const Run& run : runs) {
+        if (!run.over.empty())
+            out += run.under.empty() ? "√" + part(run.over) : part(run.over) + "/" + part(run.under);
+        else if (run.script > 0)
             out += superscript(run.text);
         else if (run.script < 0)
             out += "_" + run.text;
@@ -253,5 +316,7 @@ std::string to_plain(std::string_view markup) {
     }
     return out;
 }
+
+std::string to_plain(std::string_view markup) { return plain_of(parse_markup(markup)); }
 
 }  // namespace beamcam::render::figure

@@ -3,9 +3,10 @@
 //   $θ$ / rad          letters between dollars are italic symbols, digits and signs stay upright
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
 //   $\dot{θ}$          a dot above, \ddot two
+//   $\frac{a}{b}$      above each other, \sqrt{a} under a root; $\omega$ and other names of LaTeX for Greek and signs
 //   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ stand for themselves.
 //
-// Unbalanced markup throws std::invalid_argument: labels are written by programmers.
+// Markup that cannot be read throws std::invalid_argument.
 #pragma once
 
 #include <string>
@@ -18,8 +19,9 @@ struct Run {
     std::string text;
     bool symbol = false;  // italic
     bool bold = false;
-    int script = 0;  // −1 below, +1 above
-    int dots = 0;    // above the run
+    int script = 0;                          // −1 below, +1 above
+    int dots = 0;                            // above the run
+    std::vector<Run> over = {}, under = {};  // in place of the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };
 

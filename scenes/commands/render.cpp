@@ -156,7 +156,11 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
             throw UsageError(
                 fmt::format("--background {}: write paper, transparent or a colour such as #f4f1ea", *args.background));
     }
-    if (args.show) film.view.show = *shown_preset(*args.show);
+    if (args.show) {
+        const double size = film.view.show.size;
+        film.view.show = *shown_preset(*args.show);
+        film.view.show.size = size;
+    }
     if (args.style)
         film.view.style = *args.style == "flat"    ? render::Style::flat
                           : *args.style == "solid" ? render::Style::solid
@@ -170,7 +174,7 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
 Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
-    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".html"});
+    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".html", ".glb"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.poster && ending == ".png")
         throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
@@ -181,11 +185,12 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
             throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
         return StillOutput{film, args.file, instant_argument("--at", *args.at)};
     }
-    if (ending == ".html") {
+    if (ending == ".html" || ending == ".glb") {  // they play the motion itself
+        film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
+        film.compare.clear();
+        if (ending == ".glb") return ModelOutput{film, args.file, film.span};
         PageOutput page{film, args.file, film.span};
-        page.span.fps = args.fps ? film.span.fps : PageOutput().span.fps;
-        page.span.speed = {}, page.span.duration.reset(), page.span.events.clear(), page.span.hold = 0;
-        page.compare.clear();
+        if (!args.fps) page.span.fps = PageOutput().span.fps;
         return page;
     }
     if (ending == ".png") {
@@ -268,9 +273,10 @@ int act(const RenderArguments& args) {
 
 void add_render(Grammar& grammar) {
     auto args = std::make_shared<RenderArguments>();
-    Command& app = grammar.command("render",
-                                   "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
-                                   "(name-####.png), still (--at, .png) or page that plays the motion (.html)");
+    Command& app = grammar.command(
+        "render",
+        "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
+        "(name-####.png), still (--at, .png), page that plays the motion (.html) or moving model (.glb)");
     add_scene(app, args->scene, args->common);
     app.positional("OTHERS", &args->others, "More scenes, to be compared with the first in one picture");
     app.option("-o,--output", &args->file, "FILE", "File to make").required();

@@ -9,6 +9,7 @@
 #include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
 #include "render/plot/text.hpp"
+#include "render/plot/words.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"
@@ -59,6 +60,12 @@ void judge_physics(ObjectReader& r, const sim::Problem& problem) {
     }
 }
 
+void judge_words(ObjectReader& r, const char* key, const std::string& text) {
+    if (const std::string problem = render::problem_with_words(text); !problem.empty())
+        r.findings().warning(r.place(key).place,
+                             fmt::format("{}: {}; it is shown as it is written", r.path(key), problem));
+}
+
 // ---- pictures ----------------------------------------------------------------------------------
 
 void take_written_units(ObjectReader& r, render::Units& units) {
@@ -73,11 +80,24 @@ void take_written_units(ObjectReader& r, render::Units& units) {
     units.rpm = ends_in("cam", "speed", {"rpm"});
 }
 
-void warn_of_unused_camera(ObjectReader& r, const render::View& view) {
-    if (r.has("camera") && view.style != render::Style::solid)
-        r.findings().warning(
-            r.place("camera").place,
-            fmt::format("{} moves in the solid view alone; \"style\": \"solid\" shows that", r.path("camera")));
+void judge_camera(ObjectReader& r, const View& view) {
+    for (const char* key : {"yaw", "pitch", "swing"})
+        if (r.has(key) && view.style != render::Style::solid)
+            r.findings().warning(
+                r.place(key).place,
+                fmt::format("{} turns the solid view alone; \"style\": \"solid\" shows that", r.path(key)));
+    const auto needs_cam = [](const render::Anchor& follow) {
+        return follow.kind == render::Anchor::Kind::contact || follow.kind == render::Anchor::Kind::cam;
+    };
+    const auto judge = [&](const render::Anchor& follow, const std::string& key, const Node& place) {
+        if (needs_cam(follow) && !r.context().scene.problem.cam)
+            r.fail(place, key,
+                   fmt::format("{}: there is no cam to follow; follow the tip, the hub or a place", r.path(key)));
+    };
+    judge(view.shot.follow, "follow", r.place("follow"));
+    for (std::size_t i = 0; i < view.keyframes.size(); ++i)
+        if (view.keyframes[i].follow)
+            judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i), r.place("keyframes"));
 }
 
 void judge_picture(ObjectReader& r, Picture& picture) {

@@ -15,10 +15,12 @@ inline constexpr std::size_t kMostCompared = 8;
 
 Form layout_form(std::optional<render::LayoutNode>& layout);
 
+// Of words on pictures: a formula that cannot be read.
+void judge_words(ObjectReader& r, const char* key, const std::string& text);
 void judge_physics(ObjectReader& r, const sim::Problem& problem);
 // The units in which the scene writes its angle and its speed are those of its pictures.
 void take_written_units(ObjectReader& r, render::Units& units);
-void warn_of_unused_camera(ObjectReader& r, const render::View& view);
+void judge_camera(ObjectReader& r, const View& view);  // `r`: of the camera
 void judge_picture(ObjectReader& r, Picture& picture);
 void judge_layout(ObjectReader& r, const Picture& picture);
 void judge_span(ObjectReader& r, const FrameSpan& span);

@@ -62,6 +62,7 @@ void visit(SceneVisitor& v, Compared& motion) {
     std::optional<Node> base;  // of a reader: what `set` changes
     bool readable = true;
     v.text("label", motion.label, "Its name in the picture; its number when left out.");
+    v.check([&motion](ObjectReader& r) { judge_words(r, "label", motion.label); });
     v.check([&](ObjectReader& r) { base = mechanics_of(r.context().root); });
     const auto read_other = [&](ObjectReader& r, const Node& node, const std::string& key) {
         const auto other = other_scene(r, node, key);

@@ -242,17 +242,72 @@ Form bound_form(std::optional<double>& time, std::optional<Instant>& event) {
 Form speed_form(Speed& speed) {
     const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind == Node::Kind::string && node.text == "impacts")
-            speed.around = SlowMotion{};
+            speed.around = SlowMotion{}, speed.intervals.clear();
         else
             r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange, speed.factor);
     };
     const auto write = [&speed]() -> std::optional<Node> {
-        return speed.around ? std::nullopt : std::optional(number_node(speed.factor));
+        return speed.around || !speed.intervals.empty() ? std::nullopt : std::optional(number_node(speed.factor));
     };
     return {
         "factor, \"impacts\" or object",
         R"({"anyOf": [{"const": "impacts"}, {"type": "number", "minimum": 1e-06, "maximum": 1000}, {"$ref": "#/$defs/percentage"}]})",
         read, write};
+}
+
+// ---- places of the mechanism -------------------------------------------------------------------
+
+namespace {
+
+constexpr std::pair<render::Anchor::Kind, const char*> kAnchors[] = {{render::Anchor::Kind::all, "all"},
+                                                                     {render::Anchor::Kind::tip, "tip"},
+                                                                     {render::Anchor::Kind::contact, "contact"},
+                                                                     {render::Anchor::Kind::cam, "cam"},
+                                                                     {render::Anchor::Kind::hub, "hub"}};
+
+void read_anchor(ObjectReader& r, const Node& node, const std::string& key, std::optional<render::Anchor>& out) {
+    if (node.kind == Node::Kind::array && node.items.size() == 2) {
+        sim::Vec2 at;
+        if (r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
+            r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y))
+            out = {render::Anchor::Kind::place, at};
+        return;
+    }
+    std::vector<std::string> names;
+    for (const auto& [kind, name] : kAnchors) {
+        if (node.kind == Node::Kind::string && node.text == name) return void(out = {kind, {}});
+        names.emplace_back(name);
+    }
+    r.fail(node, key,
+           fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key), shown(node),
+                       suggestion_or_list(node.text, names)));
+}
+
+std::optional<Node> written(const std::optional<render::Anchor>& anchor) {
+    if (!anchor) return std::nullopt;
+    for (const auto& [kind, name] : kAnchors)
+        if (anchor->kind == kind) return text_node(name);
+    return array_node({number_node(anchor->place.x), number_node(anchor->place.y)});
+}
+
+constexpr const char* kAnchorType = "\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]";
+constexpr const char* kAnchorSchema = R"({"$ref": "#/$defs/anchor"})";
+
+}  // namespace
+
+Form anchor_form(render::Anchor& anchor) {
+    const auto read = [&anchor](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<render::Anchor> some = anchor;
+        read_anchor(r, node, key, some);
+        anchor = *some;
+    };
+    return {kAnchorType, kAnchorSchema, read, [&anchor] { return written(std::optional(anchor)); }};
+}
+
+Form anchor_form(std::optional<render::Anchor>& anchor) {
+    return {kAnchorType, kAnchorSchema,
+            [&anchor](ObjectReader& r, const Node& node, const std::string& key) { read_anchor(r, node, key, anchor); },
+            [&anchor] { return written(anchor); }};
 }
 
 // ---- plates ------------------------------------------------------------------------------------
@@ -293,11 +348,16 @@ std::optional<render::Shown> shown_preset(std::string_view name) {
     return std::nullopt;
 }
 
+static render::Shown sized(render::Shown show, double size) {
+    show.size = size;
+    return show;
+}
+
 Form show_form(render::Shown& show) {
     const auto read = [&show](ObjectReader& r, const Node& node, const std::string& key) {
         const auto preset = node.kind == Node::Kind::string ? shown_preset(node.text) : std::nullopt;
         if (preset)
-            show = *preset;
+            show = sized(*preset, show.size);
         else
             r.fail(node, key,
                    fmt::format("{} = {} is no preset{}", r.path(key), shown(node),
@@ -305,7 +365,7 @@ Form show_form(render::Shown& show) {
     };
     const auto write = [&show]() -> std::optional<Node> {
         for (const char* name : kPresets)
-            if (show == *shown_preset(name)) return text_node(name);
+            if (show == sized(*shown_preset(name), show.size)) return text_node(name);
         return std::nullopt;
     };
     return {"preset or object", fmt::format(R"({{"enum": ["{}"]}})", fmt::join(kPresets, "\", \"")), read, write};

@@ -22,6 +22,8 @@ Form bound_form(double& time, std::optional<Instant>& event);
 Form bound_form(std::optional<double>& time, std::optional<Instant>& event);
 void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event);
 Form speed_form(Speed& speed);
+Form anchor_form(render::Anchor& anchor);
+Form anchor_form(std::optional<render::Anchor>& anchor);
 Form background_form(render::View& view);
 Form show_form(render::Shown& show);
 bool take_background(std::string_view text, render::View& view);  // false: it is none

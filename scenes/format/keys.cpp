@@ -33,7 +33,9 @@ void visit_outputs(SceneVisitor& v, Scene& scene) {
 void visit(SceneVisitor& v, Scene& scene) {
     std::string schema;
     v.text(sim::written_if(false, "$schema"), schema, "Where an editor finds the schema.");
-    v.text(sim::written_if(!scene.title.empty(), "title"), scene.title, "Shown on pictures.");
+    v.text(sim::written_if(!scene.title.empty(), "title"), scene.title,
+           "Shown on pictures; mathematics stands between dollars: $\\omega_1 = \\frac{a}{b}$, $\\dot\\theta$.");
+    v.check([&scene](ObjectReader& r) { judge_words(r, "title", scene.title); });
     v.problem(scene.problem);
     // A step of a millisecond is 16 digits less than the latest end.
     const auto time = [&scene](sim::Visitor& inside) {

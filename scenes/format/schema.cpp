@@ -29,6 +29,13 @@ constexpr const char* kDefinitions = R"({
             {"$ref": "#/$defs/withUnit"},
             {"type": "string", "pattern": "^((impact|collision|apex|touch|release):[1-9][0-9]{0,8}|touch|release|last)$"}
         ]
+    },
+    "anchor": {
+        "description": "A part of the mechanism, or a place [x, y] of its plane.",
+        "anyOf": [
+            {"enum": ["all", "tip", "contact", "cam", "hub"]},
+            {"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [{"type": "number"}, {"$ref": "#/$defs/withUnit"}]}}
+        ]
     }
 })";
 

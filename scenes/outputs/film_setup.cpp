@@ -51,6 +51,7 @@ void add_compared(const Pictures& p, std::vector<sim::Result>& results, const st
         motion.label = each.label;
         motion.stored = poses[i].frames;
         motion.survey = poses[i].survey;
+        motion.exposures = p.picture.view.poses();
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
@@ -83,6 +84,8 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.speeds = p.speeds;
     setup.slow_motion = is_slow_motion(p);
     setup.callouts = p.callouts;
+    setup.moves = p.moves;
+    setup.view.strobe = p.picture.view.strobe_every.has_value();
     if (!p.compared.empty()) {
         add_compared(p, results.compared[picture], results.compared_poses[picture], setup);
         return setup;
@@ -92,6 +95,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
         setup.survey = stored(results.run.poses[p.survey], plan.simulation->request.poses[p.survey]);
     else
         setup.stored = results.poses[picture].frames, setup.survey = results.poses[picture].survey;
+    setup.exposures = p.picture.view.poses();
     setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p));
     setup.impacts = results.seen_by(p).impacts;
     return setup;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/plot/ticks.hpp"
+#include "render/plot/words.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -72,7 +73,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});
     }
     for (const render::Callout& c : film.callouts)
-        out.subtitles.push_back({c.first / film.fps, (c.last + 1) / film.fps, c.text});
+        out.subtitles.push_back({c.first / film.fps, (c.last + 1) / film.fps, render::plain_words(c.text)});
     std::erase_if(out.subtitles, [](const Cue& cue) { return !(cue.to > cue.from); });
     std::ranges::stable_sort(out.subtitles, {}, &Cue::from);
     return out;

@@ -1,6 +1,7 @@
 // Outputs "video", "frames" and "still": pictures of the mechanism and its charts.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
@@ -14,16 +15,42 @@ using sim::between, sim::kNotNegative, sim::kPositive, sim::Named, sim::Range, s
 
 // ---- how pictures look -------------------------------------------------------------------------
 
-static void visit(SceneVisitor& v, render::Orbit& orbit) {
-    // Further round, beam and cam hide each other.
-    constexpr Range kVisible = between(-1.2, 1.2, "is outside −1.2 … 1.2 rad, from where the mechanism can be seen");
-    v.number("yaw", orbit.yaw, dim::kAngle, kVisible, "Angle to the right of the plane of motion.");
-    v.number("pitch", orbit.pitch, dim::kAngle, kVisible, "Angle above the horizontal.");
-    v.number("swing", orbit.swing, dim::kAngle, kVisible,
-             "Amplitude of the yaw: over a film the camera swings once to either side and back.");
+// Further round, beam and cam hide each other.
+static constexpr Range kVisible = between(-1.2, 1.2, "is outside −1.2 … 1.2 rad, from where the mechanism can be seen");
+static constexpr Range kZooms = between(0.1, 100, "is outside 0.1 … 100; 1 shows all");
+
+static void visit(SceneVisitor& v, Keyframe& key) {
+    using render::Ease;
+    v.form(required("at", "\"impact:1\""), instant_form(key.at), "The instant at which the camera has arrived.");
+    v.number("zoom", key.zoom, dim::kNone, kZooms, "Magnification; as before when left out, like all of these.");
+    v.form("follow", anchor_form(key.follow), "What stands in the middle.");
+    v.number("yaw", key.yaw, dim::kAngle, kVisible, "Of the solid view.");
+    v.number("pitch", key.pitch, dim::kAngle, kVisible, "Of the solid view.");
+    v.number("over", key.over, dim::kTime, kNotNegative,
+             "The camera moves for so long, in the film's time; since the keyframe before when left out. 0 is a cut.");
+    v.choice("ease", key.ease,
+             {{Ease::smooth, "smooth"}, {Ease::linear, "linear"}, {Ease::in, "in"}, {Ease::out, "out"}},
+             "smooth: it starts and stops gently; in: it starts so; out: it stops so.");
 }
 
-static void visit(SceneVisitor& v, render::View& view) {
+static void visit_camera(SceneVisitor& v, View& view) {
+    v.number("zoom", view.shot.zoom, dim::kNone, kZooms, "Magnification of the mechanism; 1 shows all of its motion.");
+    v.form(
+        "follow", anchor_form(view.shot.follow),
+        "What stands in the middle: all that the film shows, the tip, the contact (where beam and cam are nearest), "
+        "the cam's axis, the hub's, or a place [x, y]. What vibrates is followed by its mean over a third of a second "
+        "of the film.");
+    v.number("yaw", view.shot.yaw, dim::kAngle, kVisible,
+             "Of the solid view: angle to the right of the plane of motion.");
+    v.number("pitch", view.shot.pitch, dim::kAngle, kVisible, "Of the solid view: angle above the horizontal.");
+    v.number("swing", view.swing, dim::kAngle, kVisible,
+             "Of the solid view: amplitude of the yaw; over a film the camera swings once to either side and back.");
+    v.list("keyframes", SceneVisitor::items_of(view.keyframes),
+           "Where the camera moves to, in a film; a still shows where it is then.");
+    v.check([&view](ObjectReader& r) { judge_camera(r, view); });
+}
+
+static void visit(SceneVisitor& v, View& view) {
     using render::Style, render::TraceColor;
     v.choice("style", view.style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
              "lit: shaded metal from the front, by OpenGL; flat: a clean drawing; solid: bodies in perspective with "
@@ -33,8 +60,21 @@ static void visit(SceneVisitor& v, render::View& view) {
     v.choice("tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
              "recent: the tip's path over the last frames of a film; whole: all of it since the film's first instant, "
              "in a still since the motion's start.");
-    v.object(written_if(view.style == Style::solid, "camera"), view.orbit, "Camera of the solid view.");
-    v.check([&view](ObjectReader& r) { warn_of_unused_camera(r, view); });
+    const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
+    v.object(
+        written_if(moved || view.style == Style::solid, "camera"),
+        [&view](sim::Visitor& inside) { visit_camera(static_cast<SceneVisitor&>(inside), view); },
+        "Where the mechanism is seen from.", nullptr);
+    v.number(
+        "shutter", view.shutter, dim::kAngle,
+        {0, 2 * std::numbers::pi + 1e-9, true, false, "is no angle up to 360 deg"},
+        "Motion blur: the shutter is open for this angle of a turn, which is the time from frame to frame; 180 deg is "
+        "a camera's.");
+    v.number("strobe", view.strobe_every, dim::kTime, kPositive,
+             "Multiple exposure: the beam is also seen where it was at the multiples of this time of the motion.");
+    v.exclude("shutter", "strobe");
+    v.whole(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
+            "How many exact instants the shutter sees, or how many of the latest flashes are shown.");
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"),
              "Factor on the deflection, stated on the picture; 1 is the true shape. auto picks a round one by the "
@@ -53,7 +93,7 @@ static void visit(SceneVisitor& v, render::Shown& show) {
 }
 
 static void visit_picture(SceneVisitor& v, Picture& picture) {
-    using render::Theme, render::Comparison;
+    using render::Theme, render::Comparison, render::LayerOf;
     v.object("view", picture.view, "How the mechanism is seen.");
     v.choice("theme", picture.view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
              "Colours.");
@@ -65,6 +105,15 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
         "What stands around the panels: all, a preset (talk: no parameters, no accuracy; paper: labels, legend and "
         "clock, "
         "since the caption tells the rest; clean: nothing), or an object that leaves parts out.");
+    v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
+             {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
+             "What is drawn of the picture, at its place: the mechanism alone, or all but it; with a transparent "
+             "background the two lie over each other as if they were one.");
+    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
+             "Language of the picture's own words, of subtitles and of chapters.");
+    v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
+             between(0.5, 4, "is outside 0.5 … 4"),
+             "Size of words, lines and marks; at 1.3 the numbers of axes are 2 % of the picture's height.");
     v.form("size", size_form(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
     v.either(
         "layout", layout_form(picture.layout),
@@ -88,25 +137,50 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
 
 // ---- how time runs in films --------------------------------------------------------------------
 
+static void visit(SceneVisitor& v, SpeedInterval& interval) {
+    v.form(required("from", "\"impact:1\""), instant_form(interval.from), "Its first instant.");
+    v.form(required("to", "\"0.4 s\""), instant_form(interval.to), "Its last.");
+    v.number("factor", interval.factor, dim::kNone, kSpeedRange, "Speed there.");
+}
+
 static void visit(SceneVisitor& v, Speed& speed) {
-    if (!speed.around) speed.around.emplace();
-    SlowMotion& slow = *speed.around;
+    const bool by_intervals = !speed.intervals.empty();
+    const auto intervals = [&](sim::Visitor& inside) {
+        speed.around.reset();
+        static_cast<SceneVisitor&>(inside).list("intervals", SceneVisitor::items_of(speed.intervals),
+                                                "Which, in their order; they do not overlap.");
+        inside.number("otherwise", speed.factor, dim::kNone, kSpeedRange, "Speed elsewhere.");
+        inside.number(
+            "ease", speed.ease, dim::kTime, kNotNegative,
+            "Time of the motion in which one speed becomes the other, at most half of what lies between two.");
+    };
     const auto fields = [&](sim::Visitor& inside) {
+        if (!speed.around) speed.around.emplace();
+        SlowMotion& slow = *speed.around;
         inside.number("factor", slow.factor, dim::kNone, kSpeedRange, "Speed there.");
         inside.number("otherwise", speed.factor, dim::kNone, kSpeedRange, "Speed elsewhere.");
         inside.number("before", slow.before, dim::kTime, kNotNegative, "Slow from so long before the first touch.");
         inside.number("after", slow.after, dim::kTime, kNotNegative, "Slow until so long after the release.");
         inside.number("ease", slow.ease, dim::kTime, kNotNegative,
                       "Time of the motion in which one speed becomes the other.");
+        inside.numbers("collisions", slow.collisions, sim::kPlainNumber, between(1, 1e6), {},
+                       "Around the impacts of these collisions alone, counted from 1; all when left out.");
     };
-    v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", true, fields}});
+    v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", !by_intervals, fields},
+                    {{{"around", "intervals"}}, "Speeds of intervals of time.", by_intervals, intervals}});
 }
 
 static void visit(SceneVisitor& v, FilmEvent& event) {
     v.form(required("at", "\"impact:1\""), instant_form(event.at), "When.");
     v.number("freeze", event.freeze, dim::kTime, kNotNegative,
              "The picture stands still for so long, in the film's time.");
-    v.text("text", event.text, "Words beside the contact.");
+    v.text("text", event.text, "Words beside the contact; mathematics as in the title.");
+    v.form(
+        "anchor", anchor_form(event.anchor),
+        "What the words stand beside, with a line to it, in place of the contact; all: they stand at the lower edge.");
+    v.number(written_if(event.fade > 0, "fade"), event.fade, dim::kTime, kNotNegative,
+             "The words come and go in so long, in the film's time.");
+    v.check([&event](ObjectReader& r) { judge_words(r, "text", event.text); });
     v.number(
         "show", event.show, dim::kTime, kNotNegative,
         "How long the words are shown, in the film's time; at least as long as the picture stands still. When left "
@@ -157,8 +231,6 @@ void VideoOutput::visit(SceneVisitor& v) {
              {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
              "A file beside the film that tells of its impacts and captions: fall.vtt beside fall.mp4.");
     v.truth(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
-    v.choice(written_if(lang != Lang::en, "lang"), lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
-             "Language of subtitles and chapters.");
     v.choice(sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
              "Codec; by the ending when left out: .mp4 h264 (or av1), .webm vp9 (av1), .mov prores (h264), .mkv ffv1 "
              "(h264, vp9, av1).");
@@ -212,6 +284,19 @@ void PageOutput::visit(SceneVisitor& v) {
     });
 }
 
+void ModelOutput::visit(SceneVisitor& v) {
+    v.form("file", file_form(file, {".glb"}), "Name of the model; the scene's name with .glb when left out.");
+    v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
+             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
+    v.form("fps", frame_rate_form(span.fps), "Poses a second, between which players interpolate.");
+    v.form("from", bound_form(span.from, span.from_event), "First instant.");
+    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, ".glb");
+        judge_span(r, span);
+    });
+}
+
 namespace {
 
 template <class Output>
@@ -231,7 +316,7 @@ void VideoOutput::plan(Planner& planner, std::size_t output) const {
     p.span = span;
     p.encoding = encoding;
     if (span.poster) p.poster_file = poster_file(*this);
-    p.subtitles = subtitles, p.chapters = chapters, p.lang = lang;
+    p.subtitles = subtitles, p.chapters = chapters;
     p.subtitles_file = subtitles_file(*this);
     planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
 }
@@ -252,6 +337,13 @@ void PageOutput::plan(Planner& planner, std::size_t output) const {
                  rate = kFewestPoses / std::max(end - span.from, 1e-9);
     if (rate > span.fps.value()) p.span.fps = {static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1};
     planner.add(std::move(p), end);
+}
+
+void ModelOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p = pictures(Pictures::Kind::model, *this, output);
+    p.picture.view.style = render::Style::flat;
+    p.span = span;
+    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
 }
 
 void StillOutput::plan(Planner& planner, std::size_t output) const {

@@ -10,7 +10,9 @@
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
+#include "render/film/model.hpp"
 #include "render/film/page.hpp"
+#include "render/plot/words.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
@@ -140,9 +142,10 @@ void SceneRun::write_pictures(std::size_t picture) {
     warn_of_missing(p);
     const auto start = Clock::now();
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
-    if (p.kind == Pictures::Kind::page) return write_page(p, setup);
+    if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
+    if (p.kind == Pictures::Kind::model) return write_document(p, render::glb_model(setup));
     const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
-                       film_track(setup, p.lang)};
+                       film_track(setup, p.picture.view.lang)};
     render::Film film(std::move(setup));
     if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields())
         context_.say(
@@ -155,11 +158,10 @@ void SceneRun::write_pictures(std::size_t picture) {
                      files_.files_of(p));
 }
 
-void SceneRun::write_page(const Pictures& p, const render::FilmSetup& setup) {
-    const std::string page = render::html_page(setup);
+void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
     const fs::path file = files_.path_of(p.file);
-    output::write_file(files_.target(file, p.output), page);
-    files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(page.size()) / 1000));
+    output::write_file(files_.target(file, p.output), bytes);
+    files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(bytes.size()) / 1000));
 }
 
 // What was asked for and the picture does not show.
@@ -174,6 +176,12 @@ void SceneRun::warn_of_missing(const Pictures& p) const {
                      p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
     if (!p.unshown.empty())
         context_.say("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
+    if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // they draw no letters
+    std::string written = scene_.title;
+    for (const render::Callout& words : p.callouts) written += words.text;
+    for (const Compared& motion : p.picture.compare) written += motion.label;
+    if (const std::string lost = render::characters_without_font(written); !lost.empty())
+        context_.say("warning: {} leaves out {}: no font has them\n", p.file, lost);
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = unwritten(p, scene_); !what.empty())
         context_.say("warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));

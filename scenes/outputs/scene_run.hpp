@@ -35,7 +35,7 @@ class SceneRun {
     void write_data(const DataFile& data);
     void write_figure(std::size_t figure);
     void write_pictures(std::size_t picture);
-    void write_page(const Pictures& p, const render::FilmSetup& setup);
+    void write_document(const Pictures& p, const std::string& bytes);
     void warn_of_missing(const Pictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);
     void refuse(std::size_t output, const std::string& why);

@@ -5,6 +5,7 @@
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
 #include "output/image/png.hpp"
+#include "render/plot/words.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -18,13 +19,13 @@ std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFi
                                               {"beamcam-version", std::string(kVersion)},
                                               {"beamcam-accuracy", to.accuracy}};
     if (!p.part.empty()) all["beamcam-frames"] = p.part;
-    if (!to.scene.title.empty()) all["title"] = to.scene.title;
+    if (!to.scene.title.empty()) all["title"] = render::plain_words(to.scene.title);
     return all;
 }
 
 // A GIF's colours are those of a few of its frames.
 std::vector<std::uint32_t> palette_of(render::Film& film) {
-    constexpr int kSamples = 9;
+    constexpr int kSamples = 16;
     output::PaletteMaker maker;
     render::Image image;
     const int last = film.frames() - 1, samples = std::min(kSamples, film.frames());

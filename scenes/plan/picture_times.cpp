@@ -22,7 +22,14 @@ sim::Request events_until(double end, bool apexes) {
 bool looks_at_apexes(const Pictures& p) {
     std::vector<Instant> named = p.span.instants();
     named.push_back(p.at);
+    for (const Keyframe& key : p.picture.view.keyframes) named.push_back(key.at);
     return std::ranges::any_of(named, [](const Instant& at) { return at.kind == Instant::Kind::apex; });
+}
+
+FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& motion) {
+    if (!times.frames.empty()) add_moves(times, p.picture.view, p.span.fps.value(), motion, p.span.to.has_value());
+    add_exposures(times, p.picture.view, p.span.fps.value(), p.end_time);
+    return times;
 }
 
 // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
@@ -34,15 +41,19 @@ FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
         all.insert(all.end(), other.impacts.begin(), other.impacts.end());
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
-    return p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
-                                           : film_times(p.span, p.end_time, first, all);
+    return with_moves(p,
+                      p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
+                                                      : film_times(p.span, p.end_time, first, all),
+                      first);
 }
 
 }  // namespace
 
 FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
-    return p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p), p.collisions)
-                                           : film_times(p.span, p.end_time, motion, p.collisions);
+    return with_moves(p,
+                      p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p), p.collisions)
+                                                      : film_times(p.span, p.end_time, motion, p.collisions),
+                      motion);
 }
 
 void choose_frames(Pictures& p, const FilmTimes& times) {
@@ -68,16 +79,18 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     choose_frames(p, times);
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
+    p.moves = std::move(times.moves);
     p.unshown = std::move(times.unshown);
     p.poster = times.poster;
+    std::vector<double>& poses = times.exposures.empty() ? times.frames : times.exposures;
     for (ComparedMotion& other : p.compared) {
-        other.request.poses.front().times = times.frames;
+        other.request.poses.front().times = poses;
         other.request.poses.back().times = times.survey;
         other.request.tables.front().times = times.chart;
         if (other.problem.cam) other.request.tables[1].times = times.trace;
     }
     if (!p.compared.empty()) return;
-    request.poses[p.poses].times = std::move(times.frames);
+    request.poses[p.poses].times = std::move(poses);
     request.poses[p.survey].times = std::move(times.survey);
     request.tables[p.chart].times = std::move(times.chart);
     if (p.trace) request.tables[*p.trace].times = std::move(times.trace);

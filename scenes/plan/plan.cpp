@@ -49,9 +49,12 @@ std::size_t Plan::frames() const {
     return count;
 }
 
-const std::vector<double>& Plan::times(const Pictures& p) const {
-    return p.compared.empty() ? simulation->request.poses[p.poses].times
-                              : p.compared.front().request.poses.front().times;
+std::vector<double> Plan::times(const Pictures& p) const {
+    const std::vector<double>& all =
+        p.compared.empty() ? simulation->request.poses[p.poses].times : p.compared.front().request.poses.front().times;
+    std::vector<double> out;
+    for (std::size_t i = 0; i < all.size(); i += p.picture.view.poses()) out.push_back(all[i]);
+    return out;
 }
 
 std::vector<sim::Request> requests_of(const Plan& plan) {

@@ -74,7 +74,7 @@ struct ComparedMotion {
 
 // A film, a sequence or a still: the same pictures, put away differently.
 struct Pictures {
-    enum class Kind { video, frames, still, page };
+    enum class Kind { video, frames, still, page, model };
     Kind kind = Kind::video;
     std::size_t output = 0;  // index into the scene's outputs
     std::string file;
@@ -97,9 +97,9 @@ struct Pictures {
     Subtitles subtitles = Subtitles::none;
     std::string subtitles_file;  // empty: none
     bool chapters = false;
-    Lang lang = Lang::en;
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
+    std::vector<render::CameraMove> moves;
     std::vector<std::string> unshown;  // events of a film that it does not reach: "impact 3"
     std::string too_small;             // names of the wanted panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
@@ -157,11 +157,11 @@ struct Plan {
     std::vector<DataFile> data;
     std::vector<Skipped> skipped;
 
-    bool needs_gl() const;                                             // a lit view
-    bool needs_encoder() const;                                        // a video
-    std::optional<Cost> cost() const;                                  // of all whose cost is known; amount: bytes
-    std::size_t frames() const;                                        // drawn altogether
-    const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty before it is settled
+    bool needs_gl() const;                                      // a lit view
+    bool needs_encoder() const;                                 // a video
+    std::optional<Cost> cost() const;                           // of all whose cost is known; amount: bytes
+    std::size_t frames() const;                                 // drawn altogether
+    std::vector<double> times(const Pictures& pictures) const;  // of its frames; empty before it is settled
 };
 
 Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});

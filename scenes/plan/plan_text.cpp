@@ -29,6 +29,8 @@ const char* kind_name(Pictures::Kind kind) {
             return "frames";
         case Pictures::Kind::page:
             return "page";
+        case Pictures::Kind::model:
+            return "model";
         case Pictures::Kind::still:
             return "still";
     }
@@ -115,6 +117,7 @@ std::string span_words(const Pictures& p, const std::vector<double>& times) {
 }
 
 std::string pace_words(const Speed& speed) {
+    if (!speed.intervals.empty()) return fmt::format(", other speeds in {} of its intervals", speed.intervals.size());
     if (!speed.around) return speed.factor == 1 ? "" : fmt::format(", {:g} times real speed", speed.factor);
     return fmt::format(", {:g} times real speed around impacts", speed.around->factor);
 }

@@ -136,7 +136,8 @@ void Planner::add(Pictures p, double ends) {
     if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
-    p.settled = !p.collisions && (still ? !p.at.is_event() : !p.span.looks_at_impacts());
+    const bool moves_by_events = std::ranges::any_of(p.picture.view.keyframes, &Instant::is_event, &Keyframe::at);
+    p.settled = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.looks_at_impacts());
     p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
     p.too_small = too_small(p.picture);
     if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));

@@ -229,8 +229,8 @@ class Reader {
                 entry, node,
                 fmt::format("{}: films are guarded before they are encoded; write \"type\": \"frames\"", path));
         }
-        if (std::holds_alternative<PageOutput>(entry.output()))
-            return refuse(entry, node, fmt::format("{}: a page has no pictures; write \"type\": \"frames\"", path));
+        if (std::holds_alternative<PageOutput>(entry.output()) || std::holds_alternative<ModelOutput>(entry.output()))
+            return refuse(entry, node, fmt::format("{}: it has no pictures; write \"type\": \"frames\"", path));
         if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) {
             const double last = frames->span.to.value_or(entry.scene.end_time);
             if ((last - frames->span.from) * frames->span.fps.value() > kMostPictures) {

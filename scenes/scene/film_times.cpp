@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/base/error.hpp"
 #include "scenes/scene/time_map.hpp"
@@ -80,8 +81,10 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
         for (std::size_t j = 0; j < i; ++j)
             if (shown[j].t == t) from += shown[j].event->freeze;
         const double length = std::max(event->show.value_or(kUsual), event->freeze);
-        out.push_back({static_cast<int>(std::ceil(from * fps - 1e-6)),
-                       static_cast<int>(std::floor((from + length) * fps + 1e-6)), event->text});
+        const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
+                  last = static_cast<int>(std::floor((from + length) * fps + 1e-6));
+        const int fade = std::min(static_cast<int>(std::lround(event->fade * fps)), (last - first) / 2);
+        out.push_back({first, last, event->text, event->anchor, std::max(fade, 0)});
         events.push_back(event);
     }
     for (std::size_t i = 0; i < out.size(); ++i)
@@ -92,7 +95,21 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
 
 // A wanted duration leaves the motion what freezes and the end do not take.
 Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
-    if (!span.duration) return span.speed;
+    if (!span.duration) {
+        Speed speed = span.speed;
+        for (SpeedInterval& each : speed.intervals)
+            for (Instant* end : {&each.from, &each.to})
+                *end = {.kind = Instant::Kind::time, .t = reached(*end, span, to, motion).value_or(to)};
+        for (std::size_t i = 0; i < speed.intervals.size(); ++i) {
+            const SpeedInterval& each = speed.intervals[i];
+            if (!(each.from.t < each.to.t) || (i > 0 && each.from.t < speed.intervals[i - 1].to.t))
+                throw render::PictureError(
+                    fmt::format("the speed's interval from {:g} s to {:g} s {}", each.from.t, each.to.t,
+                                each.from.t < each.to.t ? "overlaps the one before it, or stands in front of it"
+                                                        : "ends before it begins"));
+        }
+        return speed;
+    }
     double left = *span.duration - span.hold;
     for (const FilmEvent& event : span.events)
         if (const auto t = reached(event.at, span, to, motion); t && *t >= span.from && *t <= to) left -= event.freeze;
@@ -242,6 +259,58 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     if (collisions) merge(out.chart, rows_of_collisions(motion, 0, std::max(t, ahead)));
     out.survey = surveyed(0, std::max(t, until));
     return out;
+}
+
+// Where an instant is among the frames; before and after them as at real time.
+static double frame_at(const std::vector<double>& frames, double t, double fps) {
+    const auto last = static_cast<double>(frames.size() - 1);
+    if (t < frames.front()) return (t - frames.front()) * fps;
+    if (t > frames.back()) return last + (t - frames.back()) * fps;
+    return first_at(frames, t);
+}
+
+void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened) {
+    std::vector<std::pair<double, const Keyframe*>> keys;  // and their frames
+    for (const Keyframe& key : view.keyframes) {
+        const auto t = shortened ? find_instant(key.at, motion) : instant_of(key.at, motion);
+        if (t)
+            keys.emplace_back(frame_at(times.frames, *t, fps), &key);
+        else
+            times.unshown.push_back("the camera at " + name_of(key.at));
+    }
+    std::ranges::stable_sort(keys, {}, [](const auto& key) { return key.first; });
+    render::Shot shot = view.shot;
+    double before = 0;
+    for (const auto& [frame, key] : keys) {
+        shot = {key->zoom.value_or(shot.zoom), key->follow.value_or(shot.follow), key->yaw.value_or(shot.yaw),
+                key->pitch.value_or(shot.pitch)};
+        const double since = std::max(0.0, frame - before);
+        times.moves.push_back({frame, key->over ? *key->over * fps : since, key->ease, shot});
+        before = frame;
+    }
+}
+
+void add_exposures(FilmTimes& times, const View& view, double fps, double end) {
+    if (view.poses() == 1) return;
+    const std::vector<double>& frames = times.frames;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        const double t = frames[k];
+        if (view.shutter) {
+            const double before = k > 0 ? t - frames[k - 1] : 1 / fps;  // the last goes on as it came
+            double whole = k + 1 < frames.size() ? frames[k + 1] - t : before;
+            if (frames.size() == 1) whole = -whole;  // a still looks back: the motion may end with it
+            for (int i = 0; i < view.exposures; ++i)
+                times.exposures.push_back(
+                    std::clamp(t + whole * *view.shutter / (2 * std::numbers::pi) * i / view.exposures, 0.0, end));
+            continue;
+        }
+        times.exposures.push_back(t);
+        const double flash = std::ceil(t / *view.strobe_every) - 1;  // the latest before now
+        for (int i = view.exposures - 1; i >= 0; --i) {
+            const double at = (flash - i) * *view.strobe_every;
+            times.exposures.push_back(at < 0 ? t : at);
+        }
+    }
 }
 
 }  // namespace beamcam::scenes

@@ -13,10 +13,12 @@
 namespace beamcam::scenes {
 
 struct FilmTimes {
-    std::vector<double> frames;  // [s] of the motion, not decreasing
-    long first = 0;              // number of the first frame
-    std::vector<double> speeds;  // of each frame; empty in real time
+    std::vector<double> frames;     // [s] of the motion, not decreasing
+    std::vector<double> exposures;  // of each frame in turn, its own instant first; empty: that alone
+    long first = 0;                 // number of the first frame
+    std::vector<double> speeds;     // of each frame; empty in real time
     std::vector<render::Callout> callouts;
+    std::vector<render::CameraMove> moves;
     std::vector<std::string> unshown;  // events that the film does not reach or begins after: "impact 3"
     std::optional<int> poster;         // index into frames
     std::vector<double> chart, trace;  // rows [s], increasing
@@ -33,6 +35,13 @@ FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result&
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
 // `until`: how far the motion goes that gives the still its scales [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
+
+// The moves to a view's keyframes. Throws render::PictureError for an impact that the whole motion does not have;
+// `shortened`: one that it does not have is left out.
+void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened);
+
+// The instants of a view's shutter or strobe; none is before 0 or after `end`.
+void add_exposures(FilmTimes& times, const View& view, double fps, double end);
 
 // k / rate from `from`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);

@@ -61,6 +61,7 @@ std::string name_of(const Instant& at) {
 std::vector<Instant> FrameSpan::instants() const {
     std::vector<Instant> all;
     for (const FilmEvent& event : events) all.push_back(event.at);
+    for (const SpeedInterval& each : speed.intervals) all.push_back(each.from), all.push_back(each.to);
     for (const auto& each : {from_event, to_event, poster})
         if (each) all.push_back(*each);
     return all;

@@ -68,23 +68,33 @@ struct SlowMotion {
     double factor = 0.02;  // of real time, around impacts
     // All in seconds of the motion: slow from so long before the first touch of an impact …
     double before = 2e-3;
-    double after = 10e-3;  // … until so long after its release …
-    double ease = 20e-3;   // … and on the way from one speed to the other for so long
+    double after = 10e-3;                 // … until so long after its release …
+    double ease = 20e-3;                  // … and on the way from one speed to the other for so long
+    std::vector<double> collisions = {};  // whose impacts are meant, counted from 1; none: all
     bool operator==(const SlowMotion&) const = default;
 };
+struct SpeedInterval {
+    Instant from, to;
+    double factor = 0.1;  // of real time
+    bool operator==(const SpeedInterval&) const = default;
+};
 struct Speed {
-    double factor = 1;  // of real time, away from impacts
+    double factor = 1;  // of real time, away from impacts and intervals
     std::optional<SlowMotion> around = {};
-    bool real_time() const { return factor == 1 && !around; }
+    std::vector<SpeedInterval> intervals = {};  // in place of `around`
+    double ease = 20e-3;                        // at their ends [s of the motion]
+    bool real_time() const { return factor == 1 && !around && intervals.empty(); }
     bool operator==(const Speed&) const = default;
 };
 
 // What the film does at an instant: stands still, says something.
 struct FilmEvent {
     Instant at;
-    double freeze = 0;                // [s] of the film
-    std::string text;                 // plain, beside the contact
-    std::optional<double> show = {};  // [s] of the film; absent: 1.5 s, or until the next words come
+    double freeze = 0;                          // [s] of the film
+    std::string text;                           // plain, with formulas between dollars
+    std::optional<double> show = {};            // [s] of the film; absent: 1.5 s, or until the next words come
+    std::optional<render::Anchor> anchor = {};  // of the words
+    double fade = 0;                            // they come and go in so long [s] of the film
 };
 
 // Another motion in the same picture: this scene with some of its mechanics changed.
@@ -93,10 +103,31 @@ struct Compared {
     sim::Problem problem;
 };
 
+// What the camera has come to at an instant. What is absent stays as the keyframe before left it.
+struct Keyframe {
+    Instant at;
+    std::optional<double> zoom = {};
+    std::optional<render::Anchor> follow = {};
+    std::optional<double> yaw = {}, pitch = {};  // [rad]
+    std::optional<double> over = {};             // it moves for so long [s of the film]; absent: since the one before
+    render::Ease ease = render::Ease::smooth;
+};
+struct View : render::View {
+    std::vector<Keyframe> keyframes = {};
+    std::optional<double> shutter = {};       // open over so much of a frame, 2π: all of it [rad]
+    std::optional<double> strobe_every = {};  // flashes at the multiples of it [s of the motion]; excludes the shutter
+    int exposures = 8;                        // within the shutter's opening, or the latest flashes
+
+    // Poses that a frame shows.
+    std::size_t poses() const {
+        return static_cast<std::size_t>(shutter ? exposures : strobe_every ? exposures + 1 : 1);
+    }
+};
+
 // What every picture has.
 struct Picture {
     Size size;
-    render::View view;
+    View view;
     std::optional<render::LayoutNode> layout;  // absent: the standard arrangement
     // Absent: this motion alone. The first is the main one; the scene itself is one of them only if listed.
     std::vector<Compared> compare;
@@ -121,7 +152,7 @@ struct FrameSpan {
     bool looks_at_impacts() const;          // events have to be known before the frames' instants are
 };
 
-enum class Lang { en, zh };
+using render::Lang;
 enum class Subtitles { none, vtt, srt };
 
 class Planner;       // plan/planner.hpp
@@ -141,7 +172,6 @@ struct VideoOutput : Picture {
     Encoding encoding;
     Subtitles subtitles = Subtitles::none;  // a file beside it
     bool chapters = false;                  // in it, at impacts
-    Lang lang = Lang::en;                   // of both
 
     Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
     void visit(SceneVisitor& v);
@@ -173,6 +203,18 @@ struct PageOutput : Picture {
     static constexpr bool kIsData = false;
     std::string file;  // .html
     FrameSpan span{.fps = {1000, 1}};
+
+    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+struct ModelOutput : Picture {
+    static constexpr const char *kType = "model",
+                                *kMeaning =
+                                    "The moving mechanism as a three-dimensional model, for Blender and slides.";
+    static constexpr bool kIsData = false;
+    std::string file;  // .glb
+    FrameSpan span;
 
     Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
     void visit(SceneVisitor& v);
@@ -243,8 +285,8 @@ struct FigureOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, FigureOutput, TrajectoryOutput,
-                            ImpactsOutput, SummaryOutput>;
+using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
+                            TrajectoryOutput, ImpactsOutput, SummaryOutput>;
 
 // About what a thread needs to draw it [bytes], and from where on people are told.
 double memory_of(const Picture& picture);

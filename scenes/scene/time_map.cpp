@@ -23,28 +23,37 @@ double smoothstep(double x) {
 }  // namespace
 
 TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<sim::Impact>& impacts)
-    : from_(from), to_(to), base_(speed.factor), factor_(speed.factor), ease_(0) {
+    : from_(from), to_(to), base_(speed.factor) {
     if (speed.around) {
-        factor_ = speed.around->factor;
-        ease_ = speed.around->ease;
+        const SlowMotion& slow = *speed.around;
         for (const sim::Impact& impact : impacts) {
-            const Span span{impact.t_start - speed.around->before,
-                            impact.t_end.value_or(std::max(to, impact.t_start)) + speed.around->after};
-            if (span.to + ease_ < from || span.from - ease_ > to) continue;
+            if (!slow.collisions.empty() &&
+                std::ranges::find(slow.collisions, impact.collision + 1) == slow.collisions.end())
+                continue;
+            const Span span{impact.t_start - slow.before,
+                            impact.t_end.value_or(std::max(to, impact.t_start)) + slow.after, slow.factor, slow.ease,
+                            slow.ease};
+            if (span.to + slow.ease < from || span.from - slow.ease > to) continue;
             // Spans whose eases would meet are one: speeding up for an instant tells nobody anything.
-            if (!slow_.empty() && span.from - slow_.back().to < 2 * ease_)
-                slow_.back().to = std::max(slow_.back().to, span.to);
+            if (!spans_.empty() && span.from - spans_.back().to < 2 * slow.ease)
+                spans_.back().to = std::max(spans_.back().to, span.to);
             else
-                slow_.push_back(span);
+                spans_.push_back(span);
         }
+    }
+    for (const SpeedInterval& each : speed.intervals) {
+        Span span{each.from.t, each.to.t, each.factor, speed.ease, speed.ease};
+        if (!spans_.empty())
+            spans_.back().after = span.before = std::min(speed.ease, (span.from - spans_.back().to) / 2);
+        spans_.push_back(span);
     }
     std::vector<std::pair<double, bool>> cuts;  // where pieces begin, and whether the speed stays constant in them
     cuts.emplace_back(from, true);
-    for (const Span& s : slow_) {
+    for (const Span& s : spans_) {
         for (int side = 0; side < 2; ++side) {
-            const double begin = side == 0 ? s.from - ease_ : s.to;
-            for (int i = 0; i < kEasePieces; ++i) cuts.emplace_back(begin + ease_ * i / kEasePieces, ease_ == 0);
-            cuts.emplace_back(begin + ease_, true);
+            const double ease = side == 0 ? s.before : s.after, begin = side == 0 ? s.from - ease : s.to;
+            for (int i = 0; i < kEasePieces; ++i) cuts.emplace_back(begin + ease * i / kEasePieces, ease == 0);
+            cuts.emplace_back(begin + ease, true);
         }
     }
     double tau = 0;
@@ -60,15 +69,17 @@ TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<s
 }
 
 double TimeMap::speed_at(double t) const {
-    double weight = 0;
-    for (const Span& s : slow_) {
-        if (t >= s.from && t <= s.to) weight = 1;
-        if (ease_ > 0 && t < s.from) weight = std::max(weight, smoothstep(1 - (s.from - t) / ease_));
-        if (ease_ > 0 && t > s.to) weight = std::max(weight, smoothstep(1 - (t - s.to) / ease_));
+    double weight = 0, factor = base_;
+    for (const Span& s : spans_) {
+        double here = 0;
+        if (t >= s.from && t <= s.to) here = 1;
+        if (s.before > 0 && t < s.from) here = std::max(here, smoothstep(1 - (s.from - t) / s.before));
+        if (s.after > 0 && t > s.to) here = std::max(here, smoothstep(1 - (t - s.to) / s.after));
+        if (here > weight) weight = here, factor = s.factor;
     }
     if (weight == 0) return base_;
-    if (weight == 1) return factor_;
-    return base_ * std::pow(factor_ / base_, weight);
+    if (weight == 1) return factor;
+    return base_ * std::pow(factor / base_, weight);
 }
 
 // Gauss and Legendre's five points; within a piece the integrand is smooth.

@@ -1,6 +1,6 @@
 // From a film's time to the motion's: real time, any constant speed, slow motion around impacts, freezes.
 //
-// The speed s(t) is a function of the motion's time t: 1 away from the slow spans, `factor` within them, and on the
+// The speed s(t) is a function of the motion's time t: 1 away from certain spans, `factor` within them, and on the
 // way between the two log s follows a smoothstep over `ease` seconds of the motion, so that both the speed and its
 // rate are continuous. Film time is τ(t) = ∫ dt / s(t) plus the freezes before t; t(τ) is found by Newton's method to
 // rounding, monotone by construction.
@@ -16,7 +16,8 @@ namespace beamcam::scenes {
 
 class TimeMap {
   public:
-    // A film from t = `from` to `to`. `impacts` matter only to slow motion around them.
+    // A film from t = `from` to `to`. `impacts` matter only to slow motion around them; intervals of other speeds have
+    // times, increasing, and do not overlap.
     TimeMap(double from, double to, const Speed& speed, const std::vector<sim::Impact>& impacts);
 
     // Holds the picture of the instant t for so long.
@@ -30,7 +31,9 @@ class TimeMap {
 
   private:
     struct Span {
-        double from, to;  // fully slow between them [s]
+        double from, to;       // the speed is `factor` between them [s]
+        double factor;         // of real time
+        double before, after;  // how long it becomes so, and no longer is [s]
     };
     struct Piece {
         double t0, t1;  // of the motion
@@ -43,8 +46,8 @@ class TimeMap {
     double elapsed(const Piece& piece, double t) const;  // ∫ dt/s from the piece's start
     double unfrozen(double film, bool& frozen) const;
 
-    double from_, to_, base_, factor_, ease_;
-    std::vector<Span> slow_;
+    double from_, to_, base_;
+    std::vector<Span> spans_;
     std::vector<Piece> pieces_;
     std::vector<Freeze> freezes_;
     double length_ = 0;  // freezes apart [s]

@@ -118,6 +118,73 @@ TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
     stands_still(compared(Comparison::ghosts));
 }
 
+// ---- layers, captions, peaks --------------------------------------------------------------------
+
+TEST(Layers, LieOverEachOtherAsIfTheyWereOne) {
+    FilmSetup setup = everything();
+    setup.view.transparent = true;
+    const auto layer = [&](LayerOf which) {
+        setup.view.layer = which;
+        Film film(setup);
+        return drawn(film, 30);
+    };
+    const Image all = layer(LayerOf::all), mechanism = layer(LayerOf::mechanism), charts = layer(LayerOf::charts);
+    long of_one = 0, of_other = 0;
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) {
+        ASSERT_TRUE(mechanism.pixels[i] == 0 || charts.pixels[i] == 0) << i;
+        ASSERT_EQ(all.pixels[i], mechanism.pixels[i] | charts.pixels[i]) << i;
+        of_one += mechanism.pixels[i] != 0, of_other += charts.pixels[i] != 0;
+    }
+    EXPECT_GT(of_one, 1000);
+    EXPECT_GT(of_other, 1000);
+}
+
+// A contact that lasts less than two frames: its largest force is seen as long as its ring, 0.4 s.
+TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
+    FilmSetup setup = test::synthetic_film({.duration = 1.2});
+    setup.width = 640, setup.height = 360;
+    setup.view.style = Style::flat;
+    sim::Impact impact;
+    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
+    setup.impacts = {impact};
+    FilmSetup lasting = setup;
+    lasting.impacts[0].t_end = 0.34;  // three frames show it
+    Film brief(setup), longer(lasting);
+    const int touch = 18, gone = touch + 24;  // at 60 frames a second
+    EXPECT_EQ(drawn(brief, touch - 1), drawn(longer, touch - 1));
+    for (int k : {touch + 4, touch + 10, gone - 1}) EXPECT_NE(drawn(brief, k), drawn(longer, k)) << k;
+    EXPECT_EQ(drawn(brief, gone + 1), drawn(longer, gone + 1));
+}
+
+TEST(Captions, FadeAndKeepInsideWhereverTheyAreAnchored) {
+    const Callout fading{10, 29, "", {}, 4};
+    EXPECT_EQ(fading.opacity(9), 0);
+    EXPECT_EQ(fading.opacity(10), 0.2);
+    EXPECT_EQ(fading.opacity(14), 1);
+    EXPECT_EQ(fading.opacity(29), 0.2);
+    EXPECT_EQ(fading.opacity(30), 0);
+    FilmSetup setup = everything();
+    Film plain(setup);
+    const Box box = plain.geometry(20).layout.first(PanelKind::mechanism)->box;
+    const std::vector<Box> before = plain.geometry(20).texts;
+    for (const Anchor::Kind kind : {Anchor::Kind::all, Anchor::Kind::tip, Anchor::Kind::hub, Anchor::Kind::cam,
+                                    Anchor::Kind::contact, Anchor::Kind::place}) {
+        setup.callouts = {{0, 40, "touching", Anchor{kind, {5, 5}}, 0}};
+        Film film(setup);
+        std::vector<Box> texts = film.geometry(20).texts;
+        std::erase_if(texts, [&](const Box& text) { return std::ranges::find(before, text) != before.end(); });
+        ASSERT_EQ(texts.size(), 1U) << static_cast<int>(kind);
+        EXPECT_TRUE(box.contains(texts.front())) << static_cast<int>(kind);
+    }
+}
+
+TEST(Films, InChineseHaveNoLetterBoxes) {
+    FilmSetup setup = everything();
+    setup.view.lang = Lang::zh;
+    Film film(setup);
+    EXPECT_FALSE(film.geometry(20).texts.empty());
+}
+
 // ---- only what moved is drawn ------------------------------------------------------------------
 
 long pixels_in(const Tiles& tiles) {

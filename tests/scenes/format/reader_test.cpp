@@ -144,7 +144,7 @@ TEST(Reader, EveryOutputTypeIsRead) {
 TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
     const auto view = [](const std::string& keys) {
         const Reading reading = read(R"({"outputs": [{"type": "still", "at": 0, )" + keys + "}]}");
-        return std::pair{reading.scene ? std::get<StillOutput>(reading.scene->outputs[0]).view : render::View{},
+        return std::pair{reading.scene ? std::get<StillOutput>(reading.scene->outputs[0]).view : View{},
                          reading.report()};
     };
     EXPECT_EQ(view(R"("show": {"clock": false})").first.show, (render::Shown{.clock = false}));

@@ -498,7 +498,15 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
     const auto flat = told(R"({"type": "still", "at": 0.1, "view": {"style": "flat", "camera": {"yaw": 0.5}}})");
     EXPECT_TRUE(flat.first);
-    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera moves in the solid view alone"));
+    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera.yaw turns the solid view alone"));
+    const auto followed =
+        told(R"({"type": "still", "at": 0.1, "view": {"camera": {"keyframes": [{"at": 0.1, "follow": "contact"}]}}})",
+             R"("cam": null, )");
+    EXPECT_FALSE(followed.first);
+    EXPECT_THAT(followed.second, HasSubstr("there is no cam to follow"));
+    const auto formula = told(R"({"type": "video", "events": [{"at": 0.5, "text": "$\\nonsense$"}]})");
+    EXPECT_TRUE(formula.first);
+    EXPECT_THAT(formula.second, HasSubstr("\\nonsense is not among the commands"));
     const std::string two = R"("compare": [{"label": "a"}, {"label": "b", "set": {"cam": null}}])";
     const auto collisions =
         told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
@@ -545,6 +553,44 @@ TEST(Films, AStillHasThePathOfTheTip) {
               0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png c.png").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff b.png d.png").code, 0);
+}
+
+// ---- colours of a GIF --------------------------------------------------------------------------
+
+// Against palettegen's colours without dither, the best that ffmpeg makes of the same frames.
+TEST(Films, GifsAreAsTrueAsThoseOfPalettegenAndNoLarger) {
+    SKIP_UNDER_SANITIZERS();
+    const Folder folder;
+    folder.write("s.json", R"({"title": "Fall", "time": {"end": 1}, "outputs": [
+        {"type": "video", "file": "a.gif", "size": [480, 270], "fps": 20, "view": {"style": "flat"}},
+        {"type": "frames", "file": "f-##.png", "size": [480, 270], "fps": 20, "view": {"style": "flat"}}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    ASSERT_EQ(shell(folder,
+                    "ffmpeg -v error -framerate 20 -i f-%02d.png -vf "
+                    "'split[x][y];[x]palettegen[p];[y][p]paletteuse=dither=none' b.gif")
+                  .code,
+              0);
+    const auto decibels = [&](const std::string& gif) {
+        const Finished told = shell(folder, "ffmpeg -i " + gif +
+                                                " -framerate 20 -i f-%02d.png -lavfi "
+                                                "'[0]format=rgb24[m];[1]format=rgb24[n];[m][n]psnr' -f null - 2>&1");
+        const std::size_t at = told.out.find("average:");
+        EXPECT_NE(at, std::string::npos) << told.out;
+        return at == std::string::npos ? 0 : std::stod(told.out.substr(at + 8));
+    };
+    EXPECT_GT(decibels("a.gif"), decibels("b.gif") - 0.5);
+    EXPECT_LE(std::filesystem::file_size(folder.path() / "a.gif"), std::filesystem::file_size(folder.path() / "b.gif"));
+}
+
+TEST(Films, CharactersThatNoFontHasAreTold) {
+    SKIP_UNDER_SANITIZERS();
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"title": "Fall 🙂", "time": {"end": 0.4}, "outputs": [{"type": "frames", "file": "a-##.png",
+        "size": [64, 48], "fps": 10, "view": {"style": "flat", "shutter": 3, "camera": {"keyframes": [{"at": "impact:1", "zoom": 4}]}}}]})");
+    const Finished run = shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("leaves out 🙂: no font has them"));
 }
 
 // ---- what finds no room ------------------------------------------------------------------------

@@ -10,7 +10,7 @@
 
 #include "render/film/film.hpp"
 #include "render/mechanism/exaggeration.hpp"
-#include "sim/run/simulate.hpp"
+#include "tests/scenes/outputs/filmed.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -20,14 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 render::FilmSetup setup_until(double end, double rate) {
-    render::FilmSetup setup;
-    sim::Request request;
-    request.end_time = end;
-    request.poses.emplace_back();
-    for (int k = 0; k <= std::lround(end * rate); ++k) request.poses[0].times.push_back(k / rate);
-    sim::Result result = sim::simulate(setup.problem, request);
-    setup.poses = std::move(result.poses[0]);
-    setup.impacts = std::move(result.impacts);
+    render::FilmSetup setup = testing::filmed_until(end, rate);
     setup.title = "a </script> & \"b\"";
     return setup;
 }

@@ -210,7 +210,7 @@ TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
     for (const char* part : {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
                              "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
                              "b.json:6:30: unknown key \"lenght\"", "films are guarded before they are encoded",
-                             "a page has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
+                             "it has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
         EXPECT_THAT(finished.err, HasSubstr(part));
     for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
                              "nonsense", "\xff\xfe"}) {

@@ -48,6 +48,86 @@ TEST(TimeMap, RunsAtTheFactorFromBeforeTheTouchUntilAfterTheRelease) {
     }
 }
 
+TEST(TimeMap, ChosenCollisionsAloneAreSlow) {
+    std::vector<sim::Impact> impacts = kImpacts;
+    impacts[2].collision = 1;
+    Speed speed = kSlow;
+    speed.around->collisions = {2};
+    const TimeMap map(0, 1, speed, impacts);
+    EXPECT_EQ(map.speed_at(0.301), 1);
+    EXPECT_EQ(map.speed_at(0.801), 0.02);
+}
+
+Instant at(double t) { return {.kind = Instant::Kind::time, .t = t}; }
+
+// Without eases the film lasts as long as its pieces do; intervals that adjoin change speed at once.
+TEST(TimeMap, IntervalsHaveTheirOwnSpeeds) {
+    Speed speed{.factor = 2, .intervals = {{at(0.2), at(0.4), 0.1}, {at(0.4), at(0.5), 0.5}}, .ease = 0};
+    const TimeMap map(0, 1, speed, {});
+    EXPECT_NEAR(map.duration(), 0.2 / 2 + 0.2 / 0.1 + 0.1 / 0.5 + 0.5 / 2, 1e-12);
+    EXPECT_EQ(map.speed_at(0.3), 0.1);
+    EXPECT_EQ(map.speed_at(0.45), 0.5);
+    EXPECT_EQ(map.speed_at(0.7), 2);
+    speed.ease = 0.05;
+    const TimeMap eased(0, 1, speed, {});
+    EXPECT_EQ(eased.speed_at(0.14), 2);
+    EXPECT_LT(eased.speed_at(0.19), 0.2);
+    EXPECT_EQ(eased.speed_at(0.39), 0.1);
+    for (int k = 1; k < 200; ++k) {
+        const double film = eased.duration() * k / 200, h = 1e-6;
+        if (std::abs(eased.instant(film) - 0.4) < 1e-4) continue;
+        EXPECT_NEAR((eased.instant(film + h) - eased.instant(film - h)) / (2 * h) / eased.speed(film), 1, 1e-3) << film;
+    }
+}
+
+TEST(FilmTimes, IntervalsThatOverlapAreRefused) {
+    FrameSpan span;
+    span.speed = {.factor = 1, .intervals = {{at(0.2), at(0.4), 0.1}, {at(0.3), at(0.5), 0.5}}};
+    EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
+    span.speed.intervals = {{at(0.4), at(0.2), 0.1}};
+    EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
+}
+
+// Of a shutter of half a turn, eight instants over the first half of the way to the next frame.
+TEST(FilmTimes, ExposuresAreExactInstantsBetweenFrames) {
+    FilmTimes times;
+    times.frames = {0, 0.1, 0.3};
+    View view;
+    add_exposures(times, view, 10, 1);
+    EXPECT_TRUE(times.exposures.empty());
+    view.shutter = std::acos(-1), view.exposures = 2;
+    add_exposures(times, view, 10, 0.35);
+    EXPECT_EQ(times.exposures.size(), 6U);
+    const double wanted[] = {0, 0.025, 0.1, 0.15, 0.3, 0.35};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(times.exposures[i], wanted[i], 1e-12) << i;
+}
+TEST(FilmTimes, TheStrobeFlashesAtMultiplesOfItsTime) {
+    FilmTimes times;
+    times.frames = {0, 0.1, 0.25};
+    View view;
+    view.strobe_every = 0.1, view.exposures = 2;
+    add_exposures(times, view, 10, 1);
+    const double wanted[] = {0, 0, 0, 0.1, 0.1, 0, 0.25, 0.1, 0.2};  // a flash before the start is none
+    ASSERT_EQ(times.exposures.size(), 9U);
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(times.exposures[i], wanted[i], 1e-12) << i;
+}
+TEST(FilmTimes, TheCameraArrivesAtTheFrameOfItsInstant) {
+    FilmTimes times;
+    for (int k = 0; k < 60; ++k) times.frames.push_back(k / 30.0);
+    View view;
+    view.keyframes = {{.at = at(1), .zoom = 4.0, .over = 0.5}, {.at = at(5), .pitch = 0.1}};
+    add_moves(times, view, 30, {}, false);
+    ASSERT_EQ(times.moves.size(), 2U);
+    EXPECT_EQ(times.moves[0].arrives, 30);
+    EXPECT_EQ(times.moves[0].lasts, 15);
+    EXPECT_EQ(times.moves[1].shot.zoom, 4);  // as it was
+    EXPECT_NEAR(times.moves[1].arrives, 150, 1e-9);
+    view.keyframes = {{.at = {.kind = Instant::Kind::impact, .number = 3}}};
+    EXPECT_THROW(add_moves(times, view, 30, {}, false), render::PictureError);
+    add_moves(times, view, 30, {}, true);
+    EXPECT_EQ(times.unshown.back(), "the camera at impact 3");
+}
+
 // dτ = dt/s: the film's rate is the speed, by central differences of the instants.
 TEST(TimeMap, SpeedIsTheRateOfTheInstants) {
     const TimeMap map(0, 1, kSlow, kImpacts);

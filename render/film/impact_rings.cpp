@@ -1,0 +1,66 @@
+#include "render/film/impact_rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kRing = 0.4;             // an impact's ring fades within so much of the film [s]
+constexpr std::ptrdiff_t kMostRings = 6;  // more at once would be a heap
+
+}  // namespace
+
+void ImpactRings::find(const MechanismView& at) {
+    frames_ = kRing * at.facts.setup->fps;
+    std::vector<double> times;
+    for (int k = 0; k < at.facts.frames(); ++k) times.push_back(at.facts.at(at.member, k));
+    for (const sim::Impact& impact : at.motion().impacts) {
+        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
+        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
+        const int frame = static_cast<int>(first - times.begin());
+        const sim::Pose pose = at.facts.pose(at.member, frame);
+        const DrawnBeam b = at.drawn(at.member, pose);
+        if (!b.contact) continue;
+        const Vec2 n = b.contact->normal;
+        const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
+        const bool brief = times.size() > 1 && after - first < 2;
+        rings_.push_back({frame,
+                          std::atan2(n.y, n.x) - pose.cam_angle,
+                          {b.contact->on_disc, n, brief ? impact.force_peak.value_or(0) : 0, true}});
+    }
+}
+
+bool ImpactRings::play(int frame) const {
+    return std::ranges::any_of(rings_, [&](const Ring& r) {
+        return frame >= r.frame && frame < r.frame + frames_ + 1;  // gone with the last
+    });
+}
+
+// Carried along by the disc.
+void ImpactRings::draw(const MechanismScene& s) const {
+    if (!s.at.problem().cam) return;
+    const auto later = std::ranges::upper_bound(rings_, s.frame, {}, &Ring::frame);
+    for (const Ring& r : std::ranges::subrange(later - std::min(kMostRings, later - rings_.begin()), later)) {
+        const double share = (s.frame - r.frame) / frames_;
+        if (share >= 1) continue;
+        const Vec2 at =
+            s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + r.material_angle) * s.at.problem().cam->radius);
+        s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * s.at.marks);
+        s.canvas.stroke(
+            {s.at.palette.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(s.at.marks, 0.45)});
+    }
+}
+
+std::optional<Push> ImpactRings::peak(const MechanismScene& s) const {
+    if (!s.at.labelled()) return std::nullopt;  // nothing would say that it is one
+    const Ring* latest = nullptr;
+    for (const Ring& r : rings_) {
+        if (s.frame < r.frame || s.frame >= r.frame + frames_) continue;
+        if (!latest || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
+    }
+    return latest && latest->peak.force > 0 ? std::optional(latest->peak) : std::nullopt;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,170 @@
+// Where the camera looks, in closed form, and that what it leaves out does not show.
+#include "render/film/camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/render/drawing.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+const Camera kWhole{100, {300, 200}};
+const Box kBox{0, 0, 640, 480};
+
+std::vector<Sighting> seen(const Shot& first, const std::vector<CameraMove>& moves,
+                           const std::vector<Followed>& followed, double fps = 60) {
+    return sightings(first, moves, kWhole, kBox, followed, fps);
+}
+
+TEST(Camera, WithoutMovesItIsTheOneThatShowsAll) {
+    const Sighting all = seen({}, {}, {{}}).front();
+    EXPECT_EQ(all.camera.scale, kWhole.scale);
+    EXPECT_EQ(all.camera.origin, kWhole.origin);
+}
+
+TEST(Camera, WhatItFollowsStandsInTheMiddle) {
+    const std::vector<Followed> one{{{0.4, 0.3}, {0.2, 0.1}, {0.25, 0}}};
+    for (const auto& [kind, at] : {std::pair{Anchor::Kind::tip, Vec2{0.4, 0.3}},
+                                   {Anchor::Kind::contact, Vec2{0.2, 0.1}},
+                                   {Anchor::Kind::cam, Vec2{0.25, 0}},
+                                   {Anchor::Kind::hub, Vec2{0, 0}},
+                                   {Anchor::Kind::place, Vec2{-1, 2}}}) {
+        const Sighting s = seen({.zoom = 5, .follow = {kind, {-1, 2}}}, {}, one).front();
+        EXPECT_EQ(s.camera.scale, 500);
+        EXPECT_NEAR(norm(s.camera.to_pixels(at) - kBox.centre()), 0, 1e-9);
+    }
+}
+
+// A symmetric mean leaves a steady motion where it is, and takes out what vibrates within a third of a second.
+TEST(Camera, FollowsTheMeanOfWhatVibrates) {
+    std::vector<Followed> all;
+    for (int k = 0; k < 120; ++k) all.push_back({{0.01 * k, k % 2 == 0 ? 0.1 : -0.1}, {}, {}});
+    const std::vector<Sighting> path = seen({.zoom = 2, .follow = {Anchor::Kind::tip, {}}}, {}, all);
+    for (std::size_t k = 20; k < 100; ++k) {
+        const Vec2 middle = path[k].camera.to_world(kBox.centre());
+        EXPECT_NEAR(middle.x, 0.01 * static_cast<double>(k), 1e-9);
+        EXPECT_NEAR(middle.y, 0, 2e-3);
+    }
+}
+
+TEST(Camera, MovesArriveWhenTheyAreToAndKeepTheirFixedPoint) {
+    const std::vector<Followed> still(61);
+    const Shot near{.zoom = 4, .follow = {Anchor::Kind::place, {1, 0.5}}};
+    const std::vector<Sighting> path =
+        seen({}, {{.arrives = 50, .lasts = 40, .ease = Ease::linear, .shot = near}}, still);
+    EXPECT_EQ(path[10].zoom, 1);
+    EXPECT_NEAR(path[30].zoom, 2, 1e-12);  // the geometric mean, half way
+    EXPECT_EQ(path[50].zoom, 4);
+    EXPECT_EQ(path[60].zoom, 4);
+    EXPECT_NEAR(norm(path[50].camera.to_pixels({1, 0.5}) - kBox.centre()), 0, 1e-9);
+    // The point that both views show at the same pixel stays there: p = c1 + s (c2 − c1) with s = z2/(z2 − z1).
+    const Vec2 c1 = kWhole.to_world(kBox.centre()), c2{1, 0.5}, fixed = c1 + (c2 - c1) * (4.0 / 3);
+    const Vec2 px = kWhole.to_pixels(fixed);
+    for (int k = 0; k <= 60; ++k) EXPECT_NEAR(norm(path[std::size_t(k)].camera.to_pixels(fixed) - px), 0, 1e-6) << k;
+}
+
+TEST(Camera, EasesAreMonotoneAndACutIsOne) {
+    const std::vector<Followed> still(21);
+    for (const Ease ease : {Ease::smooth, Ease::linear, Ease::in, Ease::out}) {
+        const auto path = seen({}, {{.arrives = 20, .lasts = 20, .ease = ease, .shot = {.zoom = 9}}}, still);
+        for (std::size_t k = 1; k < path.size(); ++k) EXPECT_GT(path[k].zoom, path[k - 1].zoom);
+    }
+    const auto cut = seen({}, {{.arrives = 10, .lasts = 0, .shot = {.zoom = 9}}}, still);
+    EXPECT_EQ(cut[9].zoom, 1);
+    EXPECT_EQ(cut[10].zoom, 9);
+}
+
+FilmSetup film_of(Style style) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.5});
+    setup.width = 640, setup.height = 360;
+    setup.view.style = style;
+    return setup;
+}
+
+// Beside the mechanism's panel nothing changes, and nothing of the panel is drawn beyond it.
+void keeps_to_its_panel(Style style) {
+    FilmSetup near = film_of(style);
+    near.view.shot = {.zoom = 6, .follow = {Anchor::Kind::contact, {}}};
+    Film whole(film_of(style)), film(near);
+    const Box box = film.geometry(12).layout.first(PanelKind::mechanism)->box;
+    const Image a = drawn(whole, 12), b = drawn(film, 12);
+    long inside = 0, outside = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const auto at =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x);
+            if (a.pixels[at] == b.pixels[at]) continue;
+            ++(x >= box.x && x < box.right() && y >= box.y && y < box.bottom() ? inside : outside);
+        }
+    EXPECT_GT(inside, 10'000);
+    EXPECT_EQ(outside, 0);
+    Film fresh = film.another();
+    EXPECT_EQ(drawn(fresh, 12), b);
+}
+TEST(Camera, KeepsToItsPanel) { keeps_to_its_panel(Style::flat); }
+TEST(LitFilm, CameraKeepsToItsPanel) {
+    SKIP_WITHOUT_GL();
+    keeps_to_its_panel(Style::lit);
+}
+TEST(SolidFilm, CameraKeepsToItsPanel) {
+    SKIP_WITHOUT_GL();
+    keeps_to_its_panel(Style::solid);
+}
+
+TEST(SolidFilm, TheMountDoesNotSlideByItself) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = film_of(Style::solid);
+    for (sim::Pose& pose : setup.poses) pose = setup.poses.front();
+    Film film(setup);
+    EXPECT_EQ(drawn(film, 3), drawn(film, 20));
+    EXPECT_TRUE(film.repeats(20));
+}
+
+TEST(Camera, AFilmWhoseCameraMovesDoesNotStandStill) {
+    FilmSetup setup = film_of(Style::flat);
+    for (sim::Pose& pose : setup.poses) pose = setup.poses.front();
+    setup.moves = {{.arrives = 20, .lasts = 10, .shot = {.zoom = 2}}};
+    const Film film(setup);
+    EXPECT_TRUE(film.repeats(5));
+    EXPECT_FALSE(film.repeats(15));
+    EXPECT_TRUE(film.repeats(25));
+}
+
+// ---- several exposures in one picture ----------------------------------------------------------
+
+// Equal exposures are one; the mean of different ones lies between them, and words are not blurred.
+TEST(Exposures, TheMeanOfEqualOnesIsTheSharpPicture) {
+    FilmSetup sharp = film_of(Style::flat), blurred = sharp;
+    blurred.poses.clear();
+    for (const sim::Pose& pose : sharp.poses) blurred.poses.insert(blurred.poses.end(), 4, pose);
+    blurred.exposures = 4;
+    for (Motion* m : {static_cast<Motion*>(&sharp), static_cast<Motion*>(&blurred)}) m->trace = {}, m->impacts.clear();
+    Film a(sharp), b(blurred);
+    ASSERT_EQ(a.frames(), b.frames());
+    const Image one = drawn(a, 5), mean = drawn(b, 5);
+    int worst = 0;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i)
+        for (int shift = 0; shift < 32; shift += 8)
+            worst = std::max(worst, std::abs(int(one.pixels[i] >> shift & 255) - int(mean.pixels[i] >> shift & 255)));
+    EXPECT_LE(worst, 2);  // blended over the paper at once instead of layer by layer
+}
+
+TEST(Exposures, TheStrobeShowsWhereTheBeamWas) {
+    FilmSetup setup = film_of(Style::flat);
+    const std::vector<sim::Pose> poses = setup.poses;
+    setup.poses.clear();
+    for (const sim::Pose& pose : poses) setup.poses.insert(setup.poses.end(), {pose, poses.front()});
+    setup.exposures = 2;
+    setup.view.strobe = true;
+    Film film(setup);
+    FilmSetup plain = film_of(Style::flat);
+    Film without(plain);
+    EXPECT_EQ(drawn(film, 0), drawn(without, 0));  // no flash before the first
+    EXPECT_NE(drawn(film, 14), drawn(without, 14));
+}
+
+}  // namespace
+}  // namespace beamcam::render

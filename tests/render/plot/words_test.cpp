@@ -1,0 +1,90 @@
+// Words and formulas of pictures.
+#include "render/plot/words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/draw/formula.hpp"
+#include "render/plot/lang.hpp"
+#include "render/plot/text.hpp"
+#include "tests/render/drawing.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Words : public ::testing::Test {
+  protected:
+    Image image_{400, 100};
+    const std::unique_ptr<Canvas> owned_ = std::make_unique<Canvas>(image_, fonts());
+    Canvas& canvas_ = *owned_;
+    const TextStyle style_{.size = 40};
+    double width(const std::string& markup) { return canvas_.measure(markup, style_).w; }
+};
+
+TEST_F(Words, WithoutDollarsAreWhatTheyAre) {
+    for (const char* text : {"a & b <b>", "5 $ a day", "\\omega", "x_{1}^2", "costs $"})
+        EXPECT_EQ(words(canvas_, text), escape(text)) << text;
+    EXPECT_EQ(words(canvas_, "\\$5 and \\$6"), "$5 and $6");
+    EXPECT_EQ(words(canvas_, "$\\nonsense$"), "$\\nonsense$");
+    EXPECT_THAT(problem_with_words("a $\\nonsense$"), HasSubstr("\\nonsense is not among the commands"));
+    EXPECT_EQ(problem_with_words("$\\dot\\theta_1^2$ and 5 $"), "");
+}
+
+TEST_F(Words, FormulasAreSetAsMathematics) {
+    EXPECT_EQ(words(canvas_, "$\\omega$"), math("ω"));
+    EXPECT_EQ(words(canvas_, "at $x_c$"), "at " + math("x") + scripts(math("c"), ""));
+    EXPECT_EQ(words(canvas_, "$\\dot\\theta$"), dotted(math("θ"), 1));
+    EXPECT_EQ(words(canvas_, "$\\ddot{x}$"), dotted(math("x"), 2));
+    EXPECT_EQ(words(canvas_, "$\\frac{a}{2}$"), fraction(math("a"), "2"));
+    EXPECT_EQ(words(canvas_, "$\\sqrt{a}$"), root(math("a")));
+    EXPECT_EQ(words(canvas_, "$\\lambda_1^2$"), math("λ") + scripts("1", "2"));
+}
+
+// A fraction is as wide as the wider of its parts and a gap; its line lies between them.
+TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
+    const TextStyle small{.size = 40 * 0.64};
+    const double parts = std::max(canvas_.measure("1", small).w, canvas_.measure("1000", small).w);
+    EXPECT_NEAR(width(fraction("1", "1000")), parts + 2 * 0.09 * 40, 1e-9);
+    const Box box = canvas_.measure(fraction("1", "2"), style_), digit = canvas_.measure("1", style_);
+    EXPECT_LT(box.y, digit.y);
+    EXPECT_GT(box.bottom(), digit.bottom());
+    EXPECT_NEAR(width("a" + scripts("1", "2") + "b"),
+                width("a") + width("b") +
+                    std::max(canvas_.measure("1", {.size = 28.8}).w, 2.4 + canvas_.measure("2", {.size = 28.8}).w),
+                1e-9);
+    EXPECT_GT(width(root(fraction("1", "2"))), width(fraction("1", "2")));
+    EXPECT_EQ(canvas_.text({200, 50}, fraction("1", "2"), {.size = 40, .align = HAlign::right}).right(), 200);
+}
+
+TEST_F(Words, LinesBreakBetweenWordsAndNeverInAFormula) {
+    TextStyle narrow = style_;
+    narrow.max_width = 150;
+    const auto lines = wrapped(canvas_, "speed $a = b + c + d$ of it", narrow, 5);
+    EXPECT_EQ(lines.front(), "speed");
+    EXPECT_EQ(lines[1], words(canvas_, "$a = b + c + d$"));
+    EXPECT_EQ(lines.back(), "of it");
+}
+
+TEST(PlainWords, AreForOtherPrograms) {
+    EXPECT_EQ(plain_words("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^3/2, ω_1 $");
+    EXPECT_EQ(plain_words("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "(λ_1)/L√(EI)");
+    EXPECT_EQ(figure::to_latex("$\\frac{λ_1}{L}$"), "$\\frac{\\lambda_{\\mathrm{1}}}{L}$");
+}
+
+TEST_F(Words, CharactersThatNoFontHasAreFound) {
+    EXPECT_EQ(characters_without_font("plain text"), "");
+    EXPECT_EQ(characters_without_font("ω₁ → 30° é"), "");
+    EXPECT_EQ(characters_without_font("fall 🙂 and 🙂"), "🙂");
+}
+
+TEST(Lang, TellsThePicturesOwnWordsInChinese) {
+    EXPECT_EQ(in(Lang::en, "bending moment"), "bending moment");
+    EXPECT_EQ(in(Lang::zh, "bending moment"), "弯矩");
+    EXPECT_EQ(in(Lang::zh, "1/50 speed"), "1/50 倍速");
+    EXPECT_EQ(in(Lang::zh, "first-order, 2 modes"), "一阶模型, 2 阶模态");
+}
+
+}  // namespace
+}  // namespace beamcam::render
