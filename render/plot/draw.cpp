@@ -128,9 +128,9 @@ class Layout {
         const Box c = cell(i);
         const Margins& row = margins_[i / grid_.columns];
         const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
-        // Three numbers beside the least axis, and two below it.
-        const double least = 4 * page_.style.letters;
-        if (p.w < least || p.h < least)
+        // Numbers need room beside each other.
+        const double letters = page_.style.letters;
+        if (p.w < 4 * letters || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
             throw PictureError(
                 fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
                             "its labels; make it wider",

@@ -96,6 +96,14 @@ void share_ordinates(Figure& figure) {
     }
 }
 
+template <class Touch>
+std::vector<double> begins(const std::vector<Touch>& touches, double from, double to) {
+    std::vector<double> out;
+    for (const Touch& touch : touches)
+        if (touch.t_start >= from && touch.t_start <= to) out.push_back(touch.t_start);
+    return out;
+}
+
 class SeriesFigure {
   public:
     SeriesFigure(const Scene& scene, SeriesKeys keys, SeriesWords words, Lang lang, Studies& studies)
@@ -108,7 +116,7 @@ class SeriesFigure {
             motion.study = studies.of(motion.problem, end_, words_.name);
             studies.horizon(motion.study);
         }
-        // Data are of the scene's own motion.
+        // Data are of the scene's own motion; where that is not among those shown, they are held against the first.
         for (std::size_t k = motions_.size(); k-- > 0;)
             if (Studies::key(motions_[k].problem) == Studies::key(scene.problem)) measured_motion_ = k;
         std::vector<Channel> all;
@@ -190,12 +198,24 @@ class SeriesFigure {
         return x;
     }
 
+    // Of the same panel of every motion: all have one unit. `table`: the first of one of them.
+    double most_of_all(const std::vector<Channel>& channels, std::size_t table, const Results& results) const {
+        const std::size_t each = tables_.size() / motions_.size();
+        double most = 0;
+        for (std::size_t motion = 0; motion < motions_.size(); ++motion)
+            for (std::size_t k = 0; k < channels.size(); ++k) {
+                const sim::Table rows = curve(results, motion, motion * each + table % each + k);
+                most = std::max(most, largest(above_zero(rows.values.back(), channels[k])));
+            }
+        return most;
+    }
+
     // One side of a panel. `look` counts the curves of both.
     void add_side(const SeriesPanel& keys, const std::vector<std::size_t>& shown, bool right, int& look,
                   std::size_t& table, const Results& results, Panel& out, Panel& differences) const {
         const std::vector<Channel>& channels = right ? keys.right : keys.channels;
         Axis& axis = right ? *out.right : out.y;
-        double most = 0;
+        double most = keys_.apart ? most_of_all(channels, table, results) : 0;
         std::vector<sim::Table> all;
         for (std::size_t i = 0; i < channels.size() * shown.size(); ++i) {
             all.push_back(curve(results, shown[i % shown.size()], table++));
@@ -285,18 +305,14 @@ class SeriesFigure {
         return out;
     }
 
-    // Of impacts or, where they are too many to be told apart, of collisions.
-    template <class Touch>
-    std::vector<double> begins(const std::vector<Touch>& touches) const {
-        std::vector<double> out;
-        for (const Touch& touch : touches)
-            if (touch.t_start >= keys_.from && touch.t_start <= end_) out.push_back(touch.t_start);
-        return out;
+    // Impacts are too many to be told apart: collisions stand for them.
+    bool marks_collisions(const sim::Result& result) const {
+        return begins(result.impacts, keys_.from, end_).size() > kMostRules;
     }
-    bool marks_collisions(const sim::Result& result) const { return begins(result.impacts).size() > kMostRules; }
 
     std::vector<double> impacts_of(const sim::Result& result) const {
-        std::vector<double> times = marks_collisions(result) ? begins(result.collisions) : begins(result.impacts);
+        std::vector<double> times = marks_collisions(result) ? begins(result.collisions, keys_.from, end_)
+                                                             : begins(result.impacts, keys_.from, end_);
         return times.size() > kMostRules ? std::vector<double>{} : times;
     }
     std::vector<double> ends_of(const std::vector<Lost>& intervals) const {

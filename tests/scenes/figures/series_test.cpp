@@ -135,6 +135,12 @@ TEST(Series, ShowsMotionsApartOnOneScale) {
         EXPECT_EQ(panel.y.to, figure.panels.front().y.to);
     }
     EXPECT_EQ(figure.panels[1].title, "fast");
+    // One unit, however much smaller the values of one motion are.
+    const Figure forces = figure_of(R"("channels": ["contact_force"], "comparison": "panels",
+           "compare": [{"label": "flexible"}, {"label": "rigid", "set": {"beam.model": "rigid"}}])");
+    EXPECT_EQ(forces.panels[0].y.label, "$F$ / kN");
+    EXPECT_EQ(forces.panels[1].y.label, "$F$ / kN");
+    EXPECT_LT(largest(forces.panels[0].series[0].y), 0.5);
     EXPECT_THAT(figure.caption, HasSubstr("(a) slow, 1 impact; (b) fast, 1 impact."));
     EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "channels": ["theta"],
                                  "comparison": "panels"}]})")
