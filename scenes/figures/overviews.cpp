@@ -159,7 +159,8 @@ Panel map_panel(std::string x_label, std::string y_label) {
     panel.x.label = std::move(x_label), panel.y.label = std::move(y_label);
     panel.x.tight = false;
     panel.x.from = panel.y.from = 0;
-    panel.series.push_back({.line = false, .every_point = true});
+    Series& points = panel.series.emplace_back();
+    points.line = false, points.every_point = true;
     return panel;
 }
 void add(Panel& panel, double x, double y) { panel.series.front().x.push_back(x), panel.series.front().y.push_back(y); }

@@ -234,16 +234,16 @@ struct SeriesPanel {
 };
 // What the figure "series" shows; other figures have content of their own.
 struct SeriesKeys {
-    std::vector<SeriesPanel> panels;
-    std::string against = "t";            // "t", "turns" of the cam, "frequency", or a channel
-    std::optional<double> x_low, x_high;  // of its axis; SI units or turns
-    double from = 0;                      // [s]
-    std::optional<double> to;             // [s]; absent: the end of the scene
-    std::vector<Compared> compare;        // absent: this motion alone
-    bool apart = false;                   // each of these in panels of its own
-    bool impacts = false;                 // lines where impacts begin
-    bool residuals = false;               // below each panel with data, what the data differ by
-    std::optional<double> height;         // [m]; absent: what suits the panels
+    std::vector<SeriesPanel> panels = {};
+    std::string against = "t";                      // "t", "turns" of the cam, "frequency", or a channel
+    std::optional<double> x_low = {}, x_high = {};  // of its axis; SI units or turns
+    double from = 0;                                // [s]
+    std::optional<double> to = {};                  // [s]; absent: the end of the scene
+    std::vector<Compared> compare = {};             // absent: this motion alone
+    bool apart = false;                             // each of these in panels of its own
+    bool impacts = false;                           // lines where impacts begin
+    bool residuals = false;                         // below each panel with data, what the data differ by
+    std::optional<double> height = {};              // [m]; absent: what suits the panels
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {

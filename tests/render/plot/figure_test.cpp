@@ -428,7 +428,8 @@ std::string bytes_of(const Figure& figure, Medium medium, const Document& docume
 }
 
 TEST(Figure, EpsHasItsSizeAndNoClock) {
-    const Document document{.title = "θ(t)\n%%EOF", .creator = "test", .created = 1000000000};
+    Document document;
+    document.title = "θ(t)\n%%EOF", document.creator = "test", document.created = 1000000000;
     const std::string eps = bytes_of(plot({0, 1}, {0, 1}), Medium::eps, document);
     EXPECT_THAT(eps, ::testing::StartsWith("%!PS-Adobe-3.0 EPSF-3.0"));
     EXPECT_THAT(eps, HasSubstr("%%CreationDate: 2001-09-09T01:46:40Z\n"));
