@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 
 #include "sim/base/numerics.hpp"
 #include "sim/base/ode.hpp"
@@ -14,27 +15,18 @@ namespace {
 
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
 
-// What both share: columns ∂r/∂ξ and the acceleration at ξ̈ = 0, node by node, and their projection.
+// What both share: columns c = ∂r/∂ξ and the acceleration at ξ̈ = 0, node by node, each times √(ρAw), and their
+// projection.
 //   M = ρA Σ w cᵀc + I_h hᵀh,   f = −ρA Σ w cᵀ(r̈|ξ̈=0 + g) − Kq − C_d q̇           (S16)
 class QuadratureModel : public Model {
   public:
     bool assemble(double* f) override {
         columns();
-        const Eigen::Index nodes = rule_.x.size();
-        for (Eigen::Index k = 0; k < nodes; ++k) {
-            const double root_weight = std::sqrt(line_density_ * rule_.w[k]);
-            cx_.row(k) *= root_weight;
-            cy_.row(k) *= root_weight;
-            bias_x_[k] *= root_weight;
-            bias_y_[k] *= root_weight;
-        }
-        inertia_.noalias() = cx_.transpose() * cx_;
-        inertia_.noalias() += cy_.transpose() * cy_;
+        inertia_.triangularView<Eigen::Lower>() = columns_.transpose() * columns_;
         Eigen::Map<Eigen::VectorXd> force(f, size_);
-        force.noalias() = -(cx_.transpose() * bias_x_);
-        force.noalias() -= cy_.transpose() * bias_y_;
+        force.noalias() = -(columns_.transpose() * bias_);
         for (int j = 0; j < size_; ++j)
-            for (int i = 0; i < size_; ++i) inertia_(i, j) += hub_inertia_ * hub_row_[i] * hub_row_[j];
+            for (int i = j; i < size_; ++i) inertia_(i, j) += hub_inertia_ * hub_row_[i] * hub_row_[j];
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_);
         Eigen::Map<Eigen::VectorXd>(f + 1, modes_).noalias() -= bending_ * q;
         add_damping(f);
@@ -53,7 +45,7 @@ class QuadratureModel : public Model {
         force -= hub * inertia_.col(0).tail(modes_);
         Eigen::LDLT<Small> inner_factor(inner);
         inner_factor.solveInPlace(force);
-        const double torque = inertia_(0, 0) * hub + inertia_.row(0).tail(modes_).dot(force.transpose()) - f[0];
+        const double torque = inertia_(0, 0) * hub + inertia_.col(0).tail(modes_).dot(force) - f[0];
         f[0] = hub;
         return torque;
     }
@@ -69,7 +61,7 @@ class QuadratureModel : public Model {
         model.set(xi, rate);
         if (!model.assemble(f)) throw InertiaLost();
         Eigen::Map<Eigen::MatrixXd> mm(mass, size_, size_), kk(stiffness, size_, size_), cc(centrifugal, size_, size_);
-        mm = model.inertia_;
+        mm = model.inertia_.selfadjointView<Eigen::Lower>();
         kk.setZero();
         kk.bottomRightCorner(modes_, modes_) = bending_;
         model.bending_.setZero();
@@ -118,10 +110,10 @@ class QuadratureModel : public Model {
         rule_ = gauss_legendre(nodes, length_);
         integral_ = SpectralIntegral(rule_, length_);
         primitive_ = integral_.matrix(rule_);
-        cx_.resize(nodes, size_);
-        cy_.resize(nodes, size_);
-        for (Eigen::VectorXd* v : {&bias_x_, &bias_y_, &y_, &vx_, &vy_, &scratch_}) v->resize(nodes);
-        weights_.resize(nodes);
+        root_weight_ = (line_density_ * rule_.w).cwiseSqrt();
+        columns_ = Eigen::MatrixXd::Zero(2 * nodes, size_);
+        bias_.resize(2 * nodes);
+        for (Eigen::VectorXd* v : {&y_, &vx_, &vy_, &scratch_, &weights_}) v->resize(nodes);
         inertia_.resize(size_, size_);
     }
     QuadratureModel(const QuadratureModel&) = default;
@@ -133,26 +125,36 @@ class QuadratureModel : public Model {
         if (!assemble(f)) throw InertiaLost();
         // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
         // little.
-        const Eigenmodes modes = eigenmodes(bending_, inertia_.bottomRightCorner(modes_, modes_));
+        const Eigen::MatrixXd inertia = inertia_.selfadjointView<Eigen::Lower>();
+        const Eigenmodes modes = eigenmodes(bending_, inertia.bottomRightCorner(modes_, modes_));
         frequencies_.resize(static_cast<std::size_t>(modes_));
         for (int i = 0; i < modes_; ++i)
             frequencies_[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, modes.omega_squared[i]));
         build_damping(problem);
     }
 
-    // cx_, cy_ ← ∂r/∂ξ; bias_x_, bias_y_ ← r̈|ξ̈=0 plus gravity, all at the nodes, in one frame.
+    // columns_ ← ∂r/∂ξ; bias_ ← r̈|ξ̈=0 plus gravity, at the nodes in one frame, times √(ρAw): first all of x, then of y.
     virtual void columns() = 0;
     // y_ ← height; vx_, vy_ ← velocity, at the nodes.
     virtual void node_kinematics() const = 0;
 
+    // weights_ ← of ∫₀ˣ over nodal values.
+    void weigh(double x) const {
+        if (x == weighed_) return;
+        weighed_ = x;
+        integral_.weights(x, weights_.data());
+    }
+
     Quadrature rule_;
     SpectralIntegral integral_;
-    Eigen::MatrixXd primitive_;  // ∫₀ to each node
-    Eigen::MatrixXd bending_;    // EI∫ of curvature products
-    bool angular_ = false;       // coordinates are angles
-    Eigen::MatrixXd cx_, cy_;
-    Eigen::VectorXd bias_x_, bias_y_;
+    Eigen::MatrixXd primitive_;    // ∫₀ to each node
+    Eigen::MatrixXd bending_;      // EI∫ of curvature products
+    bool angular_ = false;         // coordinates are angles
+    Eigen::VectorXd root_weight_;  // √(ρAw)
+    Eigen::MatrixXd columns_;
+    Eigen::VectorXd bias_;
     mutable Eigen::VectorXd y_, vx_, vy_, scratch_, weights_;
+    mutable double weighed_ = -1;  // where weights_ end
     Small inertia_;
     Eigen::LDLT<Small> factor_;
     std::vector<double> frequencies_;  // [rad/s], ascending
@@ -179,7 +181,12 @@ class SecondOrderModel final : public QuadratureModel {
             for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = y1[i];
         }
         for (Eigen::VectorXd* v : {&v_, &v1_, &dv_, &dv1_, &u_, &du_}) v->resize(nodes);
-        slopes_.resize(nodes, modes_);
+        shortening_.resize(nodes * modes_, modes_);
+        for (int i = 0; i < modes_; ++i)
+            shortening_.middleRows(i * nodes, nodes).noalias() =
+                primitive_ * (phi1_.array().colwise() * phi1_.col(i).array()).matrix();
+        shortened_.resize(nodes, modes_);
+        columns_.bottomRightCorner(nodes, modes_) = root_weight_.asDiagonal() * phi_;
         finish(problem);
     }
     std::unique_ptr<Model> clone() const override { return std::make_unique<SecondOrderModel>(*this); }
@@ -195,7 +202,7 @@ class SecondOrderModel final : public QuadratureModel {
             dv += y[i] * rate_[1 + i];
             dv1 += y1[i] * rate_[1 + i];
         }
-        integral_.weights(x, weights_.data());
+        weigh(x);
         const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
         const double du = -weights_.dot(v1_.cwiseProduct(dv1_)) - radius_ * turn_ * turn_rate_;
         const double u1 = -0.5 * v1 * v1, rx = radius_ + x + u, spin = rate_[0];
@@ -215,7 +222,7 @@ class SecondOrderModel final : public QuadratureModel {
             v += y[i] * xi_[1 + i];
             v1 += y1[i] * xi_[1 + i];
         }
-        integral_.weights(x, weights_.data());
+        weigh(x);
         const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
         const double rx = radius_ + x + u, t1 = 1 - 0.5 * v1 * v1, speed2 = t1 * t1 + v1 * v1;
         jx[0] = -rx * sin_ - v * cos_;
@@ -255,40 +262,50 @@ class SecondOrderModel final : public QuadratureModel {
         v1_.noalias() = phi1_ * q;
         dv_.noalias() = phi_ * dq;
         dv1_.noalias() = phi1_ * dq;
-        scratch_ = v1_.cwiseAbs2();
-        u_.noalias() = -0.5 * (primitive_ * scratch_);
-        scratch_ = v1_.cwiseProduct(dv1_);
-        du_.noalias() = -(primitive_ * scratch_);
+        shortening_known_ = false;
         turn_ = turn_rate_ = 0;
         for (int i = 1; i < size_; ++i) {
             turn_ += hub_row_[i] * xi_[i];
             turn_rate_ += hub_row_[i] * rate_[i];
         }
+    }
+
+    // ∂u/∂q, u and u̇ at the nodes.
+    void shorten() const {
+        if (std::exchange(shortening_known_, true)) return;
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
+        shortened_.reshaped().noalias() = -(shortening_ * q);
+        u_.noalias() = 0.5 * (shortened_ * q);
+        du_.noalias() = shortened_ * dq;
         u_.array() -= 0.5 * radius_ * turn_ * turn_;
         du_.array() -= radius_ * turn_ * turn_rate_;
     }
 
     void columns() override {
+        shorten();
         const double spin = rate_[0];
-        cx_.col(0) = -v_;
-        cy_.col(0) = rule_.x + u_;
-        cy_.col(0).array() += radius_;
-        slopes_ = phi1_;
-        for (int i = 0; i < modes_; ++i) slopes_.col(i).array() *= v1_.array();
-        cx_.rightCols(modes_).noalias() = -(primitive_ * slopes_);
-        for (int i = 0; i < modes_; ++i) cx_.col(1 + i).array() -= radius_ * turn_ * hub_row_[1 + i];
-        cy_.rightCols(modes_) = phi_;
+        const Eigen::Index nodes = rule_.x.size();
+        auto x = columns_.topRows(nodes);
+        scratch_ = rule_.x + u_;
+        scratch_.array() += radius_;
+        x.col(0) = -root_weight_.cwiseProduct(v_);
+        columns_.col(0).tail(nodes) = root_weight_.cwiseProduct(scratch_);
+        for (int i = 0; i < modes_; ++i)
+            x.col(1 + i) = root_weight_.array() * (shortened_.col(i).array() - radius_ * turn_ * hub_row_[1 + i]);
         // r̈ at ξ̈ = 0, in the frame: −Θ̇²r + 2Θ̇ k×(u̇, v̇) + (ü, 0), ü = −∫v̇′² − aα̇²      (S17)
+        auto bias_x = bias_.head(nodes), bias_y = bias_.tail(nodes);
+        bias_x = -spin * spin * scratch_ - 2 * spin * dv_;
         scratch_ = dv1_.cwiseAbs2();
-        bias_x_.noalias() = -(primitive_ * scratch_);
-        bias_x_.array() -= radius_ * turn_rate_ * turn_rate_;
-        bias_x_ -= spin * spin * cy_.col(0) + 2 * spin * dv_;
-        bias_y_ = -spin * spin * v_ + 2 * spin * du_;
-        bias_x_.array() += gravity_ * sin_;
-        bias_y_.array() += gravity_ * cos_;
+        bias_x.noalias() -= primitive_ * scratch_;
+        bias_x.array() += gravity_ * sin_ - radius_ * turn_rate_ * turn_rate_;
+        bias_y = -spin * spin * v_ + 2 * spin * du_;
+        bias_y.array() += gravity_ * cos_;
+        bias_x.array() *= root_weight_.array();
+        bias_y.array() *= root_weight_.array();
     }
 
     void node_kinematics() const override {
+        shorten();
         const double spin = rate_[0];
         for (Eigen::Index k = 0; k < rule_.x.size(); ++k) {
             const double rx = radius_ + rule_.x[k] + u_[k];
@@ -299,8 +316,12 @@ class SecondOrderModel final : public QuadratureModel {
     }
 
     Shapes shapes_;
-    Eigen::MatrixXd phi_, phi1_, slopes_;
-    Eigen::VectorXd v_, v1_, dv_, dv1_, u_, du_;
+    Eigen::MatrixXd phi_, phi1_;
+    Eigen::MatrixXd shortening_;  // ∫₀ˣφ_i′φ_j′: rows by i, then node
+    mutable Eigen::MatrixXd shortened_;
+    mutable bool shortening_known_ = false;  // of the set state
+    Eigen::VectorXd v_, v1_, dv_, dv1_;
+    mutable Eigen::VectorXd u_, du_;
     double sin_ = 0, cos_ = 1, turn_ = 0, turn_rate_ = 0;
 };
 
@@ -322,7 +343,9 @@ class ExactModel final : public QuadratureModel {
             }
         }
         for (Eigen::VectorXd* v : {&cos_, &sin_, &spin_}) v->resize(nodes);
-        turned_.resize(nodes, size_);
+        turned_.resize(nodes, 2 * (size_ + 1));
+        integrated_.resize(nodes, 2 * (size_ + 1));
+        weighted_primitive_ = root_weight_.asDiagonal() * primitive_;
         finish(problem);
     }
     std::unique_ptr<Model> clone() const override { return std::make_unique<ExactModel>(*this); }
@@ -336,7 +359,7 @@ class ExactModel final : public QuadratureModel {
             psi_rate += value[i] * rate_[1 + i];
             curvature += slope[i] * xi_[1 + i];
         }
-        integral_.weights(x, weights_.data());
+        weigh(x);
         const Vec2 e = unit(psi), root = unit(xi_[0]);
         p.r = radius_ * root + Vec2{weights_.dot(cos_), weights_.dot(sin_)};
         p.r1 = e;
@@ -349,7 +372,7 @@ class ExactModel final : public QuadratureModel {
     void jacobian(double x, double* jx, double* jy, double* jchi) const override {
         double value[kMaxModes], slope[kMaxModes];
         shape(x, value, slope);
-        integral_.weights(x, weights_.data());
+        weigh(x);
         const Vec2 root = perp(unit(xi_[0]));
         jx[0] = radius_ * root.x - weights_.dot(sin_);
         jy[0] = radius_ * root.y + weights_.dot(cos_);
@@ -367,7 +390,7 @@ class ExactModel final : public QuadratureModel {
     }
 
     Vec2 convective(double x) const override {
-        integral_.weights(x, weights_.data());
+        weigh(x);
         const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())),
                          weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
         return -radius_ * rate_[0] * rate_[0] * unit(xi_[0]) - inner;  // (S19)
@@ -410,22 +433,25 @@ class ExactModel final : public QuadratureModel {
 
     void columns() override {
         const Vec2 root = unit(xi_[0]);
-        turned_.col(0) = sin_;
-        for (int i = 0; i < modes_; ++i) turned_.col(1 + i) = sin_.cwiseProduct(eta_.col(i));
-        cx_.noalias() = -(primitive_ * turned_);
-        turned_.col(0) = cos_;
-        for (int i = 0; i < modes_; ++i) turned_.col(1 + i) = cos_.cwiseProduct(eta_.col(i));
-        cy_.noalias() = primitive_ * turned_;
-        cx_.col(0).array() -= radius_ * root.y;
-        cy_.col(0).array() += radius_ * root.x;
+        const Eigen::Index nodes = rule_.x.size(), half = size_ + 1;
         // r̈ at ξ̈ = 0: −aθ̇² e(θ) − ∫ψ̇² e(ψ)                                               (S19)
+        scratch_ = spin_.cwiseAbs2();
+        turned_.col(0) = -sin_;
+        turned_.col(half) = cos_;
+        turned_.col(half - 1) = -scratch_.cwiseProduct(cos_);
+        turned_.col(2 * half - 1) = -scratch_.cwiseProduct(sin_);
+        for (int i = 0; i < modes_; ++i) {
+            turned_.col(1 + i) = -sin_.cwiseProduct(eta_.col(i));
+            turned_.col(half + 1 + i) = cos_.cwiseProduct(eta_.col(i));
+        }
+        integrated_.noalias() = weighted_primitive_ * turned_;
+        columns_.topRows(nodes) = integrated_.leftCols(size_);
+        columns_.bottomRows(nodes) = integrated_.middleCols(half, size_);
+        columns_.col(0).head(nodes) -= radius_ * root.y * root_weight_;
+        columns_.col(0).tail(nodes) += radius_ * root.x * root_weight_;
         const double pull = radius_ * rate_[0] * rate_[0];
-        scratch_ = spin_.array().square() * cos_.array();
-        bias_x_.noalias() = -(primitive_ * scratch_);
-        scratch_ = spin_.array().square() * sin_.array();
-        bias_y_.noalias() = -(primitive_ * scratch_);
-        bias_x_.array() -= pull * root.x;
-        bias_y_.array() += gravity_ - pull * root.y;
+        bias_.head(nodes) = integrated_.col(half - 1) - pull * root.x * root_weight_;
+        bias_.tail(nodes) = integrated_.col(2 * half - 1) + (gravity_ - pull * root.y) * root_weight_;
     }
 
     void node_kinematics() const override {
@@ -440,7 +466,8 @@ class ExactModel final : public QuadratureModel {
         vy_.array() += radius_ * rate_[0] * root.x;
     }
 
-    Eigen::MatrixXd eta_, turned_;
+    Eigen::MatrixXd eta_;
+    Eigen::MatrixXd weighted_primitive_, turned_, integrated_;  // columns and bias of x, then of y
     Eigen::VectorXd cos_, sin_, spin_;
 };
 

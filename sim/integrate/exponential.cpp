@@ -16,7 +16,7 @@ bool sharp_friction(System& system) {
     const Problem& p = system.problem();
     const auto* friction = std::get_if<CoulombFriction>(&p.contact.friction);
     return system.has_cam() && friction && friction->coefficient > 0 && friction->slip_speed < kSharpSlip &&
-           p.contact.model == ContactModel::compliant && exponential_applies(system);
+           p.contact.model == ContactModel::compliant && exponential_in_contact(system);
 }
 
 Method fallback_method(System& system) {
@@ -38,11 +38,14 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     step.segment.changed();
     step.place_hub(table.h);
     step.propagate_unforced(table);
+    const bool by_arrays = step.form->by_arrays();
+    if (!by_arrays) step.hold_forcing(table.h);
     FixedPoint iteration(kFlightRounding, kStalled, 0);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
-        status = iteration.add(step.update_forcing(table, nullptr));
+        if (!by_arrays) step.propagate_rates(table);
+        status = iteration.add(by_arrays ? step.update_forcing(table, nullptr) : step.update_from_rhs(table.h));
     }
     if (status != FixedPoint::Status::settled) return kNoSolution;
     step.propagate(table);
@@ -82,7 +85,7 @@ class StepTables {
 struct ModalMethod {
     ModalMethod(System& system, std::shared_ptr<const ModalForm> form, double rtol, double atol, long& evaluations)
         : step(system, std::move(form), rtol, atol, evaluations), tables(*step.form) {
-        if (!system.has_cam()) return;
+        if (!system.has_cam() || !step.form->by_arrays()) return;
         contact.emplace(step);
         contact_end.emplace(step, *contact);
     }
@@ -105,27 +108,36 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_ && method_->contact_end && !(touching_ && t == t_)) method_->contact_end->reset_side();
         touching_ = phase.touching;
-        falling_back_ = !method_ || phase.held || (touching_ && system_.has_bristle());
+        falling_back_ = !method_ || phase.held || (touching_ && (system_.has_bristle() || !method_->contact));
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
         }
         first_step_ = limited(std::numeric_limits<double>::infinity());
+        steps_to_retry_ = -1;
+        retry_after_ = kFirstRetry;
         if (falling_back_) return hand_over(t, y, first_step_);
         t_ = t;
         std::copy_n(y, segment().end.size(), segment().end.begin());
     }
 
     const Segment& step() override {
+        if (falling_back_ && steps_to_retry_ == 0) {
+            last_->value(last_->t1, segment().end.data());
+            t_ = last_->t1;
+            falling_back_ = false;
+        }
         if (falling_back_) {
+            if (steps_to_retry_ > 0) --steps_to_retry_;
             fallback_->stop_at(stop_);
             return counted(fallback_->step());
         }
-        if (!touching_) {
-            flight();
-        } else if (!touch_step()) {
-            // The contact has left what this method covers: the rest of the phase goes to the other.
-            ++counters.handed_over;
+        if (!(touching_ ? touch_step() : flight())) {
+            // The motion has left what this method covers: the rest of the contact, or some of the flight, goes to the
+            // other.
+            if (touching_) ++counters.handed_over;
+            if (!touching_) steps_to_retry_ = std::exchange(retry_after_, 2 * retry_after_);
+            flight_level_ = kFirstFlightLevel;
             hand_over(t_, segment().end.data(), first_step_);
             return counted(fallback_->step());
         }
@@ -160,6 +172,7 @@ class Exponential final : public Integrator {
 
     const Segment& counted(const Segment& segment) {
         count();
+        last_ = &segment;
         return segment;
     }
     void count() {
@@ -180,11 +193,20 @@ class Exponential final : public Integrator {
         return h < level ? method_->tables.length(h) : method_->tables.level(flight_level_);
     }
 
-    void flight() {
+    // Where the modes are coupled so strongly that this method has to resolve their vibration, the other one is
+    // cheaper.
+    bool too_short(double h) const {
+        const ModalForm& form = *method_->step.form;
+        return !form.by_arrays() && h * form.oscillators.back().omega < kLeastTurns;
+    }
+
+    // One step; false when it would be too short for this method (the state is then that of the start).
+    bool flight() {
         ExponentialSegment& s = segment();
         s.touching = false;
         method_->step.begin(t_);
         for (bool rejected = false;; rejected = true) {
+            if (too_short(step_length(flight_level_))) return false;
             bool last = false;
             const StepTable& table = flight_table(last);
             const double error = solve_flight(method_->step, table);
@@ -204,6 +226,7 @@ class Exponential final : public Integrator {
         ++counters.steps;
         method_->step.finish(nullptr);
         t_ = s.t1;
+        return true;
     }
 
     bool begin_touch(double t, const double* y) {
@@ -293,6 +316,9 @@ class Exponential final : public Integrator {
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;
     // [s] The next step of flight, and in contact one of the other method, is at most this long.
     double first_step_ = std::numeric_limits<double>::infinity();
+    const Segment* last_ = nullptr;  // of the other method
+    long steps_to_retry_ = -1;       // of the other method, before this one is tried again; -1: never
+    long retry_after_ = 0;
     long crawls_ = 0;   // steps of this touch shorter than…
     double crawl_ = 0;  // [s]
     std::vector<double> scratch_;
@@ -300,7 +326,10 @@ class Exponential final : public Integrator {
 
 }  // namespace
 
-bool exponential_applies(System& system) { return ModalForm::of(system) != nullptr; }
+bool exponential_in_contact(System& system) {
+    const auto form = ModalForm::of(system);
+    return form && form->by_arrays();
+}
 
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol) {
     return std::make_unique<Exponential>(system, rtol, atol);

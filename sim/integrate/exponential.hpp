@@ -1,5 +1,5 @@
-// Exponential Gauss collocation for modal models: the oscillators of the beam are propagated exactly for a forcing
-// that is the interpolation polynomial through eight nodal values, so a step spans many periods of vibration.
+// Exponential Gauss collocation: the oscillators of the beam are propagated exactly for a forcing that is the
+// interpolation polynomial through eight nodal values, so a step spans many periods of vibration.
 // MODEL.md §12. Phases and systems that it does not cover go to the Runge–Kutta method of rk8.cpp.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace beamcam::sim {
 
-// True if flight, at least, has the form that the method needs.
-bool exponential_applies(System& system);
+// True if it covers compliant contact, too.
+bool exponential_in_contact(System& system);
 // `system` is what is integrated; its phase is read at every `start`.
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
 

@@ -12,6 +12,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kBetweenNodes = 1.5;  // of what a polynomial may exceed its values at the nodes by
+constexpr double kRounding = 1e-11;    // of the speed of the beam's points: vibrations that do not matter
 constexpr double kToNode = 0.1;        // of the step: no instant is farther from the nearest node
 
 }  // namespace
@@ -200,6 +201,7 @@ void ExponentialSegment::value(double t, double* y) const {
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
     if (ledger_changes) ledger_at(t, s, weights, y);
+    form_->to_coordinates(y);
 }
 
 // Bound of √(q² + (q̇/ω)²).
@@ -234,6 +236,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     Bounded deflection, stretch;  // stretch: √∫v′²
     double slope = 0, slope_rate = 0, curvature = 0, hub_second = 0;
     double inertia = 0, inertia_rate = 0;  // √|qᵀBq| and what q̇ᵀBq is below it times
+    double speeds[kMaxModes];
     for (std::size_t i = 0; i < n_; ++i) {
         const double w = form_->oscillators[i].omega;
         const double force = kBetweenNodes * largest(f[i]), amplitude = largest_amplitude(i, force);
@@ -246,6 +249,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
         turn_rate += std::fabs(form_->h[i]) * speed;
         const Bounded mode{amplitude, speed, acceleration};
         deflection.add(form_->shape[i], mode);
+        speeds[i] = form_->shape[i] * speed;
         if (form_->shortening) stretch.add(form_->slope_norm[i], mode);
         const double steep = form_->shape[i] * form_->beta[i];
         slope += steep * amplitude;
@@ -280,6 +284,10 @@ const MotionBounds* ExponentialSegment::bounds() const {
     const double axial = stretch.value * stretch.rate + a * turn * turn_rate;
     const double axial_acceleration =
         stretch.rate * stretch.rate + stretch.value * stretch.second + a * (turn_rate * turn_rate + turn * hub_second);
+    const double whole = b.spin * (std::fabs(form_->radius) + form_->length) + deflection.rate;
+    double faster = 0;
+    for (std::size_t i = n_; i-- > 0 && b.fastest == 0;)
+        if ((faster += speeds[i]) > kRounding * whole) b.fastest = form_->oscillators[i].omega;
     b.slope = slope;
     b.curvature = curvature * (1 + slope);
     b.deflection_speed = std::max(b.deflection_speed, deflection.rate + axial + b.spin * beyond);
@@ -348,6 +356,7 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i) const {
 }
 
 const ModalBounds* ExponentialSegment::modal_bounds() const {
+    if (!form_->by_arrays()) return nullptr;
     if (modal_bounds_known_) return &modal_bounds_;
     modal_bounds_known_ = true;
     ModalBounds& b = modal_bounds_;

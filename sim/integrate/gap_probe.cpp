@@ -14,7 +14,7 @@ constexpr double kSettled = 3e-3;  // of the length: corrections that move the f
 
 GapProbe::GapProbe(System& system) : system_(system) {
     auto form = ModalForm::of(system);
-    if (!form || !system.has_cam()) return;
+    if (!form || !form->by_arrays() || !system.has_cam()) return;
     hq_.resize(static_cast<std::size_t>(form->n));
     expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
 }

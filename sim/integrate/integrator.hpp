@@ -26,6 +26,7 @@ struct MotionBounds {
     double angle_low = 0, angle_high = 0;    // of the hub angle [rad]
     double rate_low = 0, rate_high = 0;      // of its rate [rad/s]
     double ripple = 0, ripple_rate = 0;      // of the hub against the frame [rad], [rad/s]
+    double fastest = 0;                      // frequency of the fastest vibration that is no rounding [rad/s]
 };
 
 // What a step in contact knows of the contact at its start, at its nodes and at its end, in this order.

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/beam/eigenmodes.hpp"
 #include "sim/beam/modal_model.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kUncoupled = 1e-9;          // of the largest damping: rounding
+constexpr Eigen::Index kPlacesPerMode = 32;  // where shapes are looked at for their largest values
+constexpr double kBetweenPlaces = 1.05;      // a sine between places a 32nd of a half wave apart: 1.0012
 
 void copy_rows(const Eigen::MatrixXd& m, double factor, std::vector<double>& out) {
     const Eigen::Index n = m.rows();
@@ -25,27 +30,31 @@ std::vector<double> bounding_vector(const Eigen::MatrixXd& b, const Eigen::Vecto
 
 }  // namespace
 
+std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& model) {
+    auto form = std::make_shared<ModalForm>();
+    form->n = model.size() - 1;
+    form->prescribed = system.drive().prescribed();
+    form->damped = model.damped();
+    form->mass = model.mass();
+    form->gravity = system.problem().gravity;
+    form->radius = system.problem().hub.radius;
+    form->length = model.length();
+    return form;
+}
+
 std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
     const auto* model = dynamic_cast<const ModalModel*>(&system.model());
     const bool prescribed = system.drive().prescribed();
-    if (!model || (model->coupled() && !prescribed)) return nullptr;
+    if (!model || (model->coupled() && !prescribed)) return prescribed ? nullptr : of_natural_modes(system);
     if (model->damped() && !model->diagonal_damping()) return nullptr;
 
-    auto form = std::make_shared<ModalForm>();
+    auto form = begin(system, *model);
     const ModalMatrices& m = model->matrices();
-    const Problem& problem = system.problem();
-    const int n = model->size() - 1;
-    form->n = n;
-    form->prescribed = prescribed;
+    const int n = form->n;
     form->paper = model->kind() == ModelKind::paper;
     form->shortening = model->foreshortening();
-    form->damped = model->damped();
     form->J = m.J;
     form->S = m.S;
-    form->mass = model->mass();
-    form->gravity = problem.gravity;
-    form->radius = problem.hub.radius;
-    form->length = model->length();
     for (int i = 0; i < n; ++i) {
         Oscillator o{model->frequency(i), 0};
         if (const double* damping = model->diagonal_damping()) o.gamma = 0.5 * damping[i] / form->mass;
@@ -74,6 +83,88 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
         if (model->kind() == ModelKind::first_order) copy_rows(m.G, 1 / form->mass, form->second);
     }
     return form;
+}
+
+void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
+    if (by.size() == 0) return;
+    const Eigen::Index size = n + 1;
+    double result[kMaxSize];
+    Eigen::Map<Eigen::VectorXd> out(result, size);
+    for (double* part : {state, state + size}) {
+        out.noalias() = by.lazyProduct(Eigen::Map<const Eigen::VectorXd>(part, size));
+        std::copy_n(result, size, part);
+    }
+}
+
+// Without its vibration Θ = z₀; a mode turns the frame against the mean rigid turn, and its modal mass is that of the
+// beam.
+std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
+    const std::unique_ptr<Model> model = system.model().clone();
+    const Eigen::Index n = model->size() - 1;
+    if (n == 0) return nullptr;
+    auto form = begin(system, *model);
+    Eigen::MatrixXd mass(n + 1, n + 1), stiffness(n + 1, n + 1), centrifugal(n + 1, n + 1);
+    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+    const Eigen::VectorXd turning = mass.bottomLeftCorner(n, 1) / mass(0, 0);
+    const Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n) - turning * mass.topRightCorner(1, n);
+    const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
+    const Eigen::MatrixXd shapes = std::sqrt(form->mass) * modes.shapes;
+    Eigen::VectorXd gamma = Eigen::VectorXd::Zero(n);
+    if (form->damped) {
+        const std::vector<double> all = model->damping_matrix();
+        const Eigen::MatrixXd damping =
+            shapes.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * shapes;
+        gamma = damping.diagonal() / (2 * form->mass);
+        const Eigen::MatrixXd coupling = damping - Eigen::MatrixXd(damping.diagonal().asDiagonal());
+        if (coupling.cwiseAbs().maxCoeff() > kUncoupled * damping.diagonal().cwiseAbs().maxCoeff()) return nullptr;
+    }
+    form->natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
+    form->natural.bottomRightCorner(n, n) = shapes;
+    form->natural.topRightCorner(1, n) = -turning.transpose() * shapes;
+    form->to_natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
+    form->to_natural.bottomRightCorner(n, n) = shapes.transpose() * inertia / form->mass;
+    form->to_natural.topRightCorner(1, n) = turning.transpose();
+    form->J = mass(0, 0);
+    form->shortening = true;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        if (!(modes.omega_squared[i] > 0)) return nullptr;
+        form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), gamma[i]});
+    }
+    form->groups = side_by_side(form->oscillators);
+    form->bound_shapes(*model, system.problem().beam.bending_stiffness());
+    const auto count = static_cast<std::size_t>(n);
+    form->inertia.assign(count * count, 0);
+    form->inertia_root.assign(count, 0);
+    return form;
+}
+
+// By the largest of many places: what the straight beam's points move, its tangent turns and its curvature is for each
+// mode by itself. The largest between two places is hardly larger.
+void ModalForm::bound_shapes(Model& model, double bending_stiffness) {
+    const Eigen::Index count = n + 1, places = kPlacesPerMode * count;
+    const double none[kMaxSize] = {};
+    Eigen::VectorXd x(count), y(count), turned(count), curved(count);
+    Eigen::ArrayXd place = Eigen::ArrayXd::Zero(count), slope = place, curvature = place;
+    for (Eigen::Index k = 0; k <= places; ++k) {
+        const double at = length * static_cast<double>(k) / static_cast<double>(places);
+        model.set(none, none);
+        model.jacobian(at, x.data(), y.data(), turned.data());
+        place = place.max((natural.transpose() * y).array().abs());
+        slope = slope.max((natural.transpose() * turned).array().abs());
+        for (Eigen::Index i = 1; i < count; ++i) {
+            model.set(natural.col(i).data(), none);
+            curved[i] = model.bending_moment(at) / bending_stiffness;
+        }
+        curvature = curvature.max(curved.array().abs());
+    }
+    const Eigen::VectorXd hub = natural.transpose() * Eigen::Map<const Eigen::VectorXd>(model.hub_row(), count);
+    for (Eigen::Index i = 1; i < count; ++i) {
+        shape.push_back(kBetweenPlaces * (place[i] + std::fabs(radius * hub[i])));
+        beta.push_back(std::max(kBetweenPlaces * slope[i] / shape.back(),
+                                std::sqrt(kBetweenPlaces * curvature[i] / shape.back())));
+        slope_norm.push_back(std::sqrt(length) * shape.back() * beta.back());
+        h.push_back(hub[i]);
+    }
 }
 
 }  // namespace beamcam::sim

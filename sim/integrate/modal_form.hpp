@@ -1,7 +1,10 @@
-// The equations of a modal model as an exponential integrator reads them: oscillators, and what couples them, in
-// plain arrays. Free hub in hub–beam shapes (no coupling through the inertia), or prescribed hub in any shapes.
+// The equations of motion as an exponential integrator reads them: oscillators, and what couples them. Of a modal model
+// with a free hub in hub–beam shapes (no coupling through the inertia), or with a prescribed hub in any shapes, the
+// coupling is told by plain arrays; of all others with a free hub it is what their right-hand side adds to the
+// vibration of the straight beam.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -11,11 +14,19 @@
 namespace beamcam::sim {
 
 struct ModalForm {
-    // Null when the equations of this problem do not have the form: other models, clamped shapes with a free hub,
-    // damping that couples the modes.
+    // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub
+    // of other models.
     static std::shared_ptr<const ModalForm> of(System& system);
 
     int n = 0;  // modes
+    // Natural modes of the straight beam with its hub, in columns: ξ = natural z, z = to_natural ξ, z₀ the rigid turn.
+    // Empty where the coordinates are the natural ones and the coupling is told by the arrays below.
+    Eigen::MatrixXd natural, to_natural;
+    bool by_arrays() const { return natural.size() == 0; }
+    // In place, of coordinates and rates at the start of a state.
+    void to_coordinates(double* state) const { transform(natural, state); }
+    void to_modes(double* state) const { transform(to_natural, state); }
+
     bool prescribed = false, paper = false, shortening = false, damped = false;
     double J = 0, S = 0, mass = 1, gravity = 0, radius = 0, length = 1;
     std::vector<Oscillator> oscillators;
@@ -31,6 +42,12 @@ struct ModalForm {
     std::vector<double> shape;         // their largest values, at most
     std::vector<double> inertia_root;  // c with |B_ij| <= c_i c_j [√kg]
     std::vector<double> slope_norm;    // √∫φ′², if the beam shortens [1/√m]
+
+  private:
+    static std::shared_ptr<ModalForm> begin(const System& system, const Model& model);
+    static std::shared_ptr<const ModalForm> of_natural_modes(System& system);
+    void bound_shapes(Model& model, double bending_stiffness);
+    void transform(const Eigen::MatrixXd& by, double* state) const;
 };
 
 }  // namespace beamcam::sim

@@ -72,10 +72,12 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
 void NodalStep::begin(double t) {
     ExponentialSegment& s = segment;
     s.t0 = t;
-    const double* y = s.end.data();
+    std::copy_n(s.end.begin(), start_.size(), start_.begin());
+    form->to_modes(start_.data());
+    const double* y = start_.data();
     std::copy_n(y + 1, n, s.q0.begin());
     std::copy_n(y + 2 + n, n, s.v0.begin());
-    std::copy_n(y + system.controlled, kLedgerSize, s.ledger0);
+    std::copy_n(s.end.data() + system.controlled, kLedgerSize, s.ledger0);
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
     // Θ̇ = p/(J + qᵀBq) inverted.
@@ -93,7 +95,7 @@ void NodalStep::propagate_unforced(const StepTable& table) {
         const StepTable::Row& row = table.rows[i];
         base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
         base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
-        smooth_force(i, s.f[i]);
+        if (form->by_arrays()) smooth_force(i, s.f[i]);
     }
 }
 
@@ -200,10 +202,66 @@ double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load
     quadratic *= form->mass;
     s.push = -form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall)) + torque;
     if (load) s.push += load->torque();
-    const Lanes theta_dot = integral(s.p0, h, s.push) / (form->J + quadratic);
+    return std::max(modal, turn_hub(h, form->J + quadratic));
+}
+
+// Θ̇ and Θ at the nodes from ṗ; returns how much changed, in units of the tolerance.
+double NodalStep::turn_hub(double h, const Lanes& inertia) {
+    ExponentialSegment& s = segment;
+    const Lanes theta_dot = integral(s.p0, h, s.push) / inertia;
     const double rate_change = largest(theta_dot - s.spin) / scale_theta_dot;
     s.spin = theta_dot;
-    return std::max({modal, rate_change, set_angle(h) / scale_theta});
+    return std::max(rate_change, set_angle(h) / scale_theta);
+}
+
+// In place: a state in modes → in the place of its coordinates z̈ + 2γż + ω²z, first of all Θ̈.
+void NodalStep::forcing_at(double t, double* state) {
+    ++evaluations;
+    double z[kMaxSize], v[kMaxSize];
+    std::copy_n(state + 1, n, z);
+    std::copy_n(state + 2 + n, n, v);
+    form->to_coordinates(state);
+    system.acceleration(t, state, state);
+    form->to_modes(state);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Oscillator& o = form->oscillators[i];
+        state[1 + i] += 2 * o.gamma * v[i] + o.omega * o.omega * z[i];
+    }
+}
+
+void NodalStep::hold_forcing(double h) {
+    ExponentialSegment& s = segment;
+    std::copy(start_.begin(), start_.end(), next.begin());
+    forcing_at(s.t0, next.data());
+    for (std::size_t i = 0; i < n; ++i) s.f[i] = Lanes{} + next[1 + i];
+    s.push = Lanes{} + form->J * next[0];
+    turn_hub(h, Lanes{} + form->J);
+}
+
+double NodalStep::update_from_rhs(double h) {
+    ExponentialSegment& s = segment;
+    std::vector<double>& state = next;
+    double change2 = 0;
+    Lanes changed[kMaxModes];
+    for (int k = 0; k < kNodes; ++k) {
+        state[0] = theta[k];
+        state[1 + n] = s.spin[k];
+        for (std::size_t i = 0; i < n; ++i) {
+            state[1 + i] = s.q[i][k];
+            state[2 + n + i] = s.v[i][k];
+        }
+        forcing_at(time[k], state.data());
+        s.push[k] = form->J * state[0];
+        for (std::size_t i = 0; i < n; ++i) {
+            changed[i][k] = state[1 + i] - s.f[i][k];
+            s.f[i][k] = state[1 + i];
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const double d = largest(changed[i]) * std::min(h, 1 / form->oscillators[i].omega);
+        change2 += d * d;
+    }
+    return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
 }
 
 void NodalStep::hub_from_load(double h) {
@@ -234,7 +292,7 @@ void NodalStep::set_scales(const double* a, const double* b) {
 
 double NodalStep::forcing_error(double h, const ContactLoad* load) {
     const ExponentialSegment& s = segment;
-    set_scales(s.end.data(), next.data());
+    set_scales(start_.data(), next.data());
     double errors = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes f = load ? s.f[i] - load->modal(i) * (1 / form->mass) : s.f[i];
@@ -252,6 +310,13 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
 void NodalStep::finish(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     std::copy_n(next.begin(), system.controlled, s.end.begin());
+    finish_ledger(load);
+    form->to_coordinates(s.end.data());
+}
+
+// Of the step that ends at s.end, in modes.
+void NodalStep::finish_ledger(const ContactLoad* load) {
+    ExponentialSegment& s = segment;
     s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque();
     if (!s.ledger_changes) {
         std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
@@ -260,10 +325,6 @@ void NodalStep::finish(const ContactLoad* load) {
     for (Lanes& rate : s.rate) rate = Lanes{};
     if (form->damped)
         for (std::size_t i = 0; i < n; ++i) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
-    start_[0] = s.theta0;
-    start_[1 + n] = theta_dot0;
-    std::copy(s.q0.begin(), s.q0.end(), start_.begin() + 1);
-    std::copy(s.v0.begin(), s.v0.end(), start_.begin() + 2 + static_cast<std::ptrdiff_t>(n));
     s.boundary0 = s.drive_boundary(s.t0, start_.data());
     drive_power(load);
     if (load) {

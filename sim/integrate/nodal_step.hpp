@@ -66,6 +66,10 @@ struct NodalStep {
     void propagate_rates(const StepTable& table);
     // Forcing and hub from the nodal q; returns how much changed, in units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
+    // The same in flight by the right-hand side, where no arrays tell the coupling: from the nodal q and q̇.
+    double update_from_rhs(double h);
+    // A first guess for it: the forcing at the start of the step.
+    void hold_forcing(double h);
     // ṗ at the nodes → Θ̇, Θ.
     void hub_from_load(double h);
     // next ← the state at the end.
@@ -91,14 +95,17 @@ struct NodalStep {
     void evaluate_angle();
     void advance_angle(const Lanes& by);
     double set_angle(double h);
+    double turn_hub(double h, const Lanes& inertia);
+    void forcing_at(double t, double* state);
     void smooth_force(std::size_t i, Lanes& f) const;
+    void finish_ledger(const ContactLoad* load);
     void drive_power(const ContactLoad* load);
 
     double rtol_, atol_;
     Lanes acceleration_{};
     const LaneKernels& kernels_ = lane_kernels();
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
-    std::vector<double> start_;
+    std::vector<double> start_;  // of the step, in modes
 };
 
 }  // namespace beamcam::sim

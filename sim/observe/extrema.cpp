@@ -16,6 +16,8 @@ constexpr double kNegligible = 1e-10;  // of the best value: what is not searche
 // Intervals that a search looks into, at most: many times more than a sound step needs, so that a damaged one ends.
 constexpr double kLooksPerRadian = 32;
 constexpr double kFewestLooks = 4000, kMostLooks = 1e8;
+constexpr double kMostParts = 1e4;  // of a step: more than any of steps that are worth their while
+constexpr double kTurnsPerPart = 2;  // [rad] of the fastest vibration, which a polynomial of degree 7 follows to 10⁻⁷
 constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of steps: 32 MB
 
 struct Sample {
@@ -205,7 +207,7 @@ void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrem
     if (channels_.empty()) return;
     if (!set_bounds(s)) {
         last_time_ = -1;
-        search_now(s, extrema);
+        for (const SegmentInterval& part : parts(s)) search_now(part, extrema);
         return;
     }
     if (last_time_ == s.from)
@@ -267,6 +269,23 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     candidates_.clear();
     kept_numbers_ = 0;
     set_phase(phase);
+}
+
+// Steps that span many periods of vibration without bounds of the modes, in parts that are polynomials as others are.
+std::vector<SegmentInterval> ExtremaFinder::parts(const SegmentInterval& s) {
+    if (modal_ || !s.segment->bounds()) return {s};
+    const double wanted = std::ceil((s.to - s.from) * s.segment->bounds()->fastest / kTurnsPerPart);
+    const auto count = static_cast<long>(std::clamp(wanted, 1.0, kMostParts));
+    if (wanted > kMostParts) ++incomplete_;
+    std::vector<SegmentInterval> out;
+    double from = s.from;
+    for (long i = 1; i <= count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count);
+        const double to = i == count ? s.to : s.from + (s.to - s.from) * share;
+        out.push_back({s.segment, from, to, s.last && i == count});
+        from = to;
+    }
+    return out;
 }
 
 // Of a step that resolves all vibration: all channels are sampled at once.
@@ -412,18 +431,22 @@ void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& 
         const double t = find_root(angle, a.t, b.t, a.value, b.value);
         theta_zero.push_back({t, rate(t)});
     };
-    if (may_turn)
-        each_sign_change(s, {ChannelKind::theta_dot}, motion ? motion->spin + motion->ripple_rate : 0, rate, apex);
-    if (may_cross) each_sign_change(s, {ChannelKind::theta}, motion ? motion->ripple : 0, angle, zero);
+    for (const SegmentInterval& part : parts(s)) {
+        if (may_turn)
+            each_sign_change(part, {ChannelKind::theta_dot}, motion ? motion->spin + motion->ripple_rate : 0, rate,
+                             apex);
+        if (may_cross) each_sign_change(part, {ChannelKind::theta}, motion ? motion->ripple : 0, angle, zero);
+    }
 }
 
 void ExtremaFinder::crossings(const SegmentInterval& s, Channel channel, double level, std::vector<Crossing>& found) {
     set_bounds(s);
     const auto above = [&](double t) { return evaluate(s, channel, t) - level; };
-    each_sign_change(s, channel, std::fabs(level), above, [&](const Sample& a, const Sample& b) {
-        if (a.value == 0) return;
-        found.push_back({find_root(above, a.t, b.t, a.value, b.value), a.value < 0});
-    });
+    for (const SegmentInterval& part : parts(s))
+        each_sign_change(part, channel, std::fabs(level), above, [&](const Sample& a, const Sample& b) {
+            if (a.value == 0) return;
+            found.push_back({find_root(above, a.t, b.t, a.value, b.value), a.value < 0});
+        });
 }
 
 }  // namespace beamcam::sim

@@ -67,6 +67,7 @@ class ExtremaFinder {
     Values sample(const SegmentInterval& s, Channel channel);
     Variation variation(const SegmentInterval& s, Channel channel, const Values& values);
     bool set_bounds(const SegmentInterval& s);
+    std::vector<SegmentInterval> parts(const SegmentInterval& s);
     double turn(double arc, double near);
     template <class F, class Found>
     void each_sign_change(const SegmentInterval& s, Channel channel, double scale, F&& f, Found&& found);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/dynamics/system.hpp"
-#include "sim/integrate/modal_form.hpp"
+#include "sim/integrate/exponential.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -29,12 +29,12 @@ Problem at_tolerance(const Problem& problem) {
     return out;
 }
 
-// `auto` is Runge–Kutta's method where the equations are no modal form.
+// `auto` is Runge–Kutta's method in the contact of models that are not modal.
 Method other_method(const Problem& problem, System& system) {
     switch (problem.solver.method) {
         case Method::automatic:
         case Method::exponential:
-            return ModalForm::of(system) ? Method::rk8 : Method::cvode_adams;
+            return exponential_in_contact(system) ? Method::rk8 : Method::cvode_adams;
         case Method::rk8:
             return Method::cvode_adams;
         case Method::cvode_adams:

@@ -113,6 +113,7 @@ TEST(Failure, APaceThatTheBudgetCannotMeetEndsTheRunEarly) {
     p.beam.modes = 1;
     p.beam.model = ModelKind::second_order;
     p.beam.youngs_modulus = 1e25;
+    p.solver.method = Method::rk8;
     p.solver.max_steps = 1'000'000;
     EXPECT_THAT(words(p, 1e3),
                 AllOf(HasSubstr("at the pace of late"), HasSubstr("its budget of 1000000"), HasSubstr("1 mode up to")));
