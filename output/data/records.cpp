@@ -44,6 +44,17 @@ void for_each_field(const sim::Impact& i, Visit visit) {
     visit("restitution", i.restitution);
     visit("energy_lost", i.energy_lost);
     visit("collision", i.collision);
+    if (!i.at_touch) return;
+    const auto state = [&](const std::optional<sim::TouchState>& at, const std::string& suffix) {
+        const auto value = [&](double known) { return at ? std::optional(known) : std::nullopt; };
+        const sim::TouchState& some = at ? *at : *i.at_touch;
+        visit("theta" + suffix, value(some.theta));
+        visit("theta_dot" + suffix, value(some.theta_dot));
+        visit("contact_s" + suffix, value(some.contact_s));
+        for (std::size_t k = 0; k < some.q.size(); ++k) visit("q" + std::to_string(k + 1) + suffix, value(some.q[k]));
+    };
+    state(i.at_touch, "");
+    state(i.at_release, "_after");
 }
 
 template <typename Visit>
@@ -64,7 +75,8 @@ Json array_of(const std::vector<Record>& records) {
     Json list = Json::array();
     for (const Record& record : records) {
         Json object = Json::object();
-        for_each_field(record, [&object](const char* name, const auto& value) { object[name] = json_of(value); });
+        for_each_field(record,
+                       [&object](const std::string& name, const auto& value) { object[name] = json_of(value); });
         list.push_back(std::move(object));
     }
     return list;
@@ -177,15 +189,16 @@ std::string impacts_json(const sim::Result& result) {
 
 std::string impacts_csv(const sim::Result& result) {
     std::string text;
-    for_each_field(sim::Impact{}, [&text](const char* name, const auto&) {
+    const sim::Impact& first = result.impacts.empty() ? sim::Impact{} : result.impacts.front();
+    for_each_field(first, [&text](const std::string& name, const auto&) {
         if (!text.empty()) text += ',';
         text += name;
     });
     text += '\n';
     for (const sim::Impact& impact : result.impacts) {
         std::string line;
-        for_each_field(impact, [&line](const char* name, const auto& value) {
-            if (std::string_view(name) != "t_start") line += ',';
+        for_each_field(impact, [&line](const std::string& name, const auto& value) {
+            if (name != "t_start") line += ',';
             append_cell(line, value);
         });
         text += line + '\n';
@@ -200,8 +213,37 @@ void write_impacts(const Target& file, const sim::Result& result) {
     throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
 }
 
+namespace {
+
+void add_part(const Agreement::Part& part, Json& out) {
+    out["rows"] = part.rows;
+    if (part.rows == 0) return;
+    out["rms"] = part.rms, out["largest"] = part.largest, out["t_largest"] = part.t_largest;
+    out["highest"] = part.highest;
+}
+
+// Differences are measured minus computed, in the channel's unit.
+Json json_of(const Agreement& each, const char* unit) {
+    Json out{{"label", each.label}, {"file", each.file}, {"channel", sim::name(each.channel)}, {"unit", unit}};
+    add_part(each.whole, out);
+    Json& collisions = out["collisions"] = Json::array();
+    for (const auto& after : each.collisions) {
+        collisions.push_back({{"collision", after.collision}, {"t_start", after.t_start}});
+        add_part(after, collisions.back());
+    }
+    if (!each.beyond) return out;
+    const auto both = [](const Agreement::Statistics& s) { return Json{{"mean", s.mean}, {"deviation", s.deviation}}; };
+    out["not_reproducible"] = {{"rows", each.beyond->rows},
+                               {"measured", both(each.beyond->measured)},
+                               {"computed", both(each.beyond->computed)}};
+    return out;
+}
+
+}  // namespace
+
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema, const Work* work) {
+                         const std::vector<sim::Channel>& extrema, const Work* work,
+                         const std::vector<Agreement>& data) {
     Json json;
     json["units"] = units(problem);
     json["model"] = sim::name(problem.beam.model);
@@ -221,14 +263,15 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     json["impacts"] = result.impacts.size();
     json["collisions"] = result.collisions.size();
     if (result.reproducible_until) add_reproducibility(result, json);
+    for (const Agreement& each : data) json["data"].push_back(json_of(each, unit(each.channel, problem)));
     json["warnings"] = result.warnings;
     if (work) for_each_count(*work, [&](const char* name, long count) { json["work"][name] = count; });
     return text_of(json);
 }
 
 void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema, const Work* work) {
-    write_file(file, summary_json(problem, result, extrema, work));
+                   const std::vector<sim::Channel>& extrema, const Work* work, const std::vector<Agreement>& data) {
+    write_file(file, summary_json(problem, result, extrema, work, data));
 }
 
 std::string modes_json(const std::vector<sim::Mode>& modes) {

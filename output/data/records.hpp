@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "output/data/agreement.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
@@ -35,9 +36,11 @@ void write_impacts(const Target& file, const sim::Result& result);
 // `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
 // problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
+                         const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
+                         const std::vector<Agreement>& data = {});
 void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema, const Work* work = nullptr);
+                   const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
+                   const std::vector<Agreement>& data = {});
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
 std::string modes_json(const std::vector<sim::Mode>& modes);

@@ -14,11 +14,23 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 16;  // [bytes] gathered before they are written
 
-void csv(const sim::Table& table, const std::function<void(const std::string&)>& write) {
+// Columns by name.
+struct Columns {
+    std::vector<std::string> names;
+    const std::vector<std::vector<double>>& values;
+    std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
+};
+Columns columns_of(const sim::Table& table) {
+    std::vector<std::string> names;
+    for (const sim::Channel& channel : table.channels) names.push_back(sim::name(channel));
+    return {std::move(names), table.values};
+}
+
+void csv(const Columns& table, const std::function<void(const std::string&)>& write) {
     std::string text;
-    for (std::size_t c = 0; c < table.channels.size(); ++c) {
+    for (std::size_t c = 0; c < table.names.size(); ++c) {
         if (c > 0) text += ',';
-        text += sim::name(table.channels[c]);
+        text += table.names[c];
     }
     text += '\n';
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -34,35 +46,40 @@ void csv(const sim::Table& table, const std::function<void(const std::string&)>&
     write(text);
 }
 
+void write_csv(const Target& file, const Columns& table) {
+    AtomicFile atomic(file);
+    csv(table, [&atomic](const std::string& text) { atomic.write(text); });
+    atomic.commit();
+}
+
+void write_npz(const Target& file, const Columns& table) {
+    std::vector<NpzArray> arrays;
+    for (std::size_t c = 0; c < table.names.size(); ++c)
+        arrays.push_back({table.names[c], table.rows(),
+                          [&table, c](const auto& put) { put(std::span(table.values[c].data(), table.rows())); }});
+    write_npz(file, arrays);
+}
+
+void write_columns(const Target& file, const Columns& table) {
+    const std::string ending = file.path.extension().string();
+    if (ending == ".csv") return write_csv(file, table);
+    if (ending == ".npz") return write_npz(file, table);
+    throw UnsupportedOption("cannot write " + file.path.string() + ": tables end in .csv or .npz");
+}
+
 }  // namespace
 
 void write_csv(std::ostream& out, const sim::Table& table) {
-    csv(table, [&out](const std::string& text) {
+    csv(columns_of(table), [&out](const std::string& text) {
         if (!out.write(text.data(), static_cast<std::streamsize>(text.size())))
             throw IoError("cannot write the table: the output was closed or the disk is full");
     });
     if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
 }
 
-void write_csv(const Target& file, const sim::Table& table) {
-    AtomicFile atomic(file);
-    csv(table, [&atomic](const std::string& text) { atomic.write(text); });
-    atomic.commit();
-}
-
-void write_npz(const Target& file, const sim::Table& table) {
-    std::vector<NpzArray> arrays;
-    for (std::size_t c = 0; c < table.channels.size(); ++c)
-        arrays.push_back({sim::name(table.channels[c]), table.rows(),
-                          [&table, c](const auto& put) { put(std::span(table.values[c].data(), table.rows())); }});
-    write_npz(file, arrays);
-}
-
-void write_table(const Target& file, const sim::Table& table) {
-    const std::string ending = file.path.extension().string();
-    if (ending == ".csv") return write_csv(file, table);
-    if (ending == ".npz") return write_npz(file, table);
-    throw UnsupportedOption("cannot write " + file.path.string() + ": tables end in .csv or .npz");
-}
+void write_csv(const Target& file, const sim::Table& table) { write_csv(file, columns_of(table)); }
+void write_npz(const Target& file, const sim::Table& table) { write_npz(file, columns_of(table)); }
+void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
+void write_table(const Target& file, const NamedTable& table) { write_columns(file, {table.names, table.columns}); }
 
 }  // namespace beamcam::output

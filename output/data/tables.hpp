@@ -3,6 +3,7 @@
 
 #include <ostream>
 
+#include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
 #include "sim/observe/channels.hpp"
@@ -20,5 +21,6 @@ void write_npz(const Target& file, const sim::Table& table);
 
 // By the name's ending, .csv or .npz. Throws UnsupportedOption for another.
 void write_table(const Target& file, const sim::Table& table);
+void write_table(const Target& file, const NamedTable& table);
 
 }  // namespace beamcam::output

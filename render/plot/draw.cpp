@@ -38,12 +38,19 @@ class Layout {
         if (figure_.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure_.name));
         make_drawings();
         // Margins depend on the numbers at the ticks, those on the plots' sizes: twice settles it; a legend that
-        // finds no room inside a plot asks for one more.
-        for (int round = 0; round < 4; ++round) {
-            measure();
+        // finds no room inside a plot asks for one more, and so do labels that are broken into more lines.
+        for (int round = 0; round < 8; ++round) {
+            measure(round > 3);  // then they grow alone, or lines would come and go
             bool settled = round > 0;
-            for (std::size_t i = 0; i < drawings_.size(); ++i)
-                if (drawings_[i] && !drawings_[i]->place(plot(i))) settled = false;
+            for (std::size_t i = 0; i < drawings_.size(); ++i) {
+                if (!drawings_[i]) continue;
+                if (!drawings_[i]->place(plot(i))) settled = false;
+                // In another height labels may have a line more.
+                const Margins m = drawings_[i]->margins();
+                const double top = margins_[i / grid_.columns].top;
+                if (std::max({m.left - left_, m.right - right_, m.top - top}) > 0.5 * page_.style.letters)
+                    settled = false;
+            }
             if (settled) break;
         }
         for (std::size_t i = 0; i < drawings_.size(); ++i) {
@@ -97,7 +104,7 @@ class Layout {
                 shared * mine / all + own};
     }
 
-    void measure() {
+    void measure(bool grow) {
         std::vector<Margins> rows(grid_.rows);
         double left = 0, right = 0;
         for (std::size_t i = 0; i < drawings_.size(); ++i) {
@@ -109,17 +116,21 @@ class Layout {
             left = std::max(left, m.left);
             right = std::max(right, m.right);
         }
+        for (std::size_t r = 0; r < rows.size() && grow; ++r)
+            rows[r] = {std::max(rows[r].left, margins_[r].left), std::max(rows[r].right, margins_[r].right),
+                       std::max(rows[r].top, margins_[r].top), std::max(rows[r].bottom, margins_[r].bottom)};
         margins_ = rows;
-        left_ = left;
-        right_ = right;
+        left_ = grow ? std::max(left, left_) : left;
+        right_ = grow ? std::max(right, right_) : right;
     }
 
     Box plot(std::size_t i) const {
         const Box c = cell(i);
         const Margins& row = margins_[i / grid_.columns];
         const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
-        const double least = 2 * page_.style.letters;
-        if (p.w < least || p.h < least)
+        // Numbers need room beside each other.
+        const double letters = page_.style.letters;
+        if (p.w < 4 * letters || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
             throw PictureError(
                 fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
                             "its labels; make it wider",

@@ -12,8 +12,9 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kCell = 1.5;   // of the grid of what is covered: resolves letters [pt]
-constexpr int kMostDirect = 4;  // more labels than that are told apart better in a box
+constexpr double kCell = 1.5;     // of the grid of what is covered: resolves letters [pt]
+constexpr double kOutside = 1e5;  // cost of a box that leaves the plot
+constexpr int kMostDirect = 4;    // more labels than that are told apart better in a box
 
 // Does the segment a–b enter the box?
 bool enters(const Box& box, Vec2 a, Vec2 b) {
@@ -163,7 +164,7 @@ PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     l.color = look(m.look).color;
     const Box size = sheet_.measure(m.label, l);
     Writing best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = 10 * kOutside;
     for (const double far : {1.0, 2.0, 3.5, 5.5, 8.0})
         for (int k = 0; k < 16; ++k) {
             const double turn = (k + 0.5) * std::numbers::pi / 8;
@@ -196,6 +197,7 @@ void PanelDrawing::place_marks() {
         if (m.label.empty()) continue;
         const Box size = sheet_.measure(m.label, numbers());
         Writing best = best_at_mark(m);
+        if (best.markup.empty()) continue;  // a plot too small for it
         taken_->cover(Box{best.at.x, best.at.y + size.y, size.w, size.h});
         if (best.leader) taken_->cover(std::vector<Vec2>{best.leader->first, best.leader->second}, 4);
         writings_.push_back(std::move(best));
@@ -231,8 +233,7 @@ bool PanelDrawing::place_labels() {
     if (legend_.entries() == 0 || panel_.legend == Legend::none) return true;
     if (legend_.is_above()) {
         const bool settled = legend_.place_above(plot_.w);
-        const double titles = panel_.letter.empty() && panel_.title.empty() ? 0 : style_.letters + style_.gap;
-        legend_.stand_at({plot_.x, plot_.y - margins().top + titles});
+        legend_.stand_at({plot_.x, plot_.y - margins().top + axes_.titles_height()});
         return settled;
     }
     if (panel_.legend == Legend::direct && legend_.entries() <= kMostDirect && panel_.bands.empty() && place_direct())
@@ -273,7 +274,7 @@ double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
                 const Vec2 middle{p.x + side * (size.w / 2 + style_.gap), p.y - up * (size.h / 2 + 1.0 * style_.gap)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
                 const double cover = taken_->cost(box.inset(-1));
-                if (cover >= 1e5) continue;
+                if (cover >= kOutside) continue;
                 const double cost = 10 * cover + 3 * std::max(0.0, crowding(box, curve)) +
                                     0.02 * (plot_.right() - middle.x) + std::abs(side);
                 if (cost >= least) continue;

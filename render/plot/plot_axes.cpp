@@ -7,6 +7,36 @@
 namespace beamcam::render::figure {
 namespace {
 
+constexpr double kLineStep = 1.25;  // between lines, in letters
+
+// In lines that the room holds, broken at spaces outside of formulas.
+std::vector<std::string> lines_of(const std::string& markup, double room, const Lettering& lettering, Sheet& sheet) {
+    std::vector<std::string> lines;
+    std::string word;
+    int depth = 0;
+    bool formula = false;
+    const auto end_word = [&] {
+        if (!lines.empty() && sheet.measure(lines.back() + " " + word, lettering).w <= room)
+            lines.back() += " " + word;
+        else if (!word.empty())
+            lines.push_back(word);
+        word.clear();
+    };
+    for (std::size_t i = 0; i < markup.size(); ++i) {
+        const char c = markup[i];
+        if (c == '$') formula = !formula;
+        depth += c == '{' || c == '(' ? 1 : c == '}' || c == ')' ? -1 : 0;
+        if (c == ' ' && !formula && depth == 0) {
+            end_word();
+            continue;
+        }
+        word += c;
+        if (c == '\\' && i + 1 < markup.size()) word += markup[++i];
+    }
+    end_word();
+    return lines;
+}
+
 struct Extents {
     Extent x, y, right, color;
 };
@@ -51,6 +81,7 @@ Extents extents_of(const Panel& panel) {
 }  // namespace
 
 void PlotAxes::fit(double width, double height) {
+    width_ = width, height_ = height;
     const auto [ex, ey, er, eb] = extents_of(panel_);
     const int across = std::clamp(static_cast<int>(width / (4.2 * style_.numbers)), 3, 9);
     const int up = std::clamp(static_cast<int>(height / (2.3 * style_.numbers)), 3, 8);
@@ -86,17 +117,18 @@ Vec2 PlotAxes::at(double x, double y, bool right) const {
 Margins PlotAxes::margins() const {
     const double number = sheet_.cap_height(style_.numbers), letter = style_.letters;
     Margins m;
-    m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap);
+    m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap) +
+             label_height(panel_.y);
     m.bottom = number / 2;
     if (lowest_) {
         m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 : style_.gap;
-        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap;
+        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(panel_.x);
     }
     m.top = number / 2 + 0.5;
-    if (!panel_.letter.empty() || !panel_.title.empty()) m.top = std::max(m.top, letter + style_.gap);
+    m.top = std::max(m.top, titles_height());
     if (!y_->common().empty() || (right_ && !right_->common().empty())) m.top += style_.numbers + style_.gap;
     m.right = 1.3 * style_.numbers;  // the last x number overhangs
-    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap;
+    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + label_height(*panel_.right);
     if (bar_ && !panel_.color_bar->hidden)
         m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
@@ -144,13 +176,20 @@ void PlotAxes::draw_frame() const {
 }
 
 void PlotAxes::draw_labels() const {
+    const double step = kLineStep * style_.letters;
     const double number = sheet_.cap_height(style_.numbers);
     Lettering l = words();
     l.align = HAlign::centre;
     if (lowest_ && !panel_.x.label.empty()) {
         l.valign = VAlign::top;
-        const double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
-        sheet_.text({plot_.centre().x, y}, panel_.x.label, l);
+        double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
+        // Clear of the power of ten at the right end.
+        const double common = x_->common().empty() ? 0 : sheet_.measure(x_->common(), numbers()).w + 2 * style_.gap;
+        for (const std::string& line : label_lines(panel_.x)) {
+            const double half = 0.5 * sheet_.measure(line, l).w;
+            const double x = common > 0 ? std::min(plot_.centre().x, plot_.right() - common - half) : plot_.centre().x;
+            sheet_.text({x, y}, line, l), y += step;
+        }
     }
     if (lowest_ && !x_->common().empty()) {
         Lettering common = numbers();
@@ -160,12 +199,13 @@ void PlotAxes::draw_labels() const {
     }
     l.turned = std::numbers::pi / 2;
     l.valign = VAlign::baseline;
-    if (!panel_.y.label.empty())
-        sheet_.text({plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap, plot_.centre().y}, panel_.y.label, l);
+    double x = plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap - label_height(panel_.y);
+    for (const std::string& line : label_lines(panel_.y)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
     if (right_) {
         l.valign = VAlign::top;
-        sheet_.text({plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap, plot_.centre().y},
-                    panel_.right->label, l);
+        x = plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
+        for (const std::string& line : label_lines(*panel_.right))
+            sheet_.text({x, plot_.centre().y}, line, l), x += step;
     }
     double y = plot_.y - style_.gap;
     Lettering common = numbers();
@@ -176,18 +216,38 @@ void PlotAxes::draw_labels() const {
     }
 }
 
+std::vector<std::string> PlotAxes::title_lines() const {
+    const double indent = panel_.letter.empty() ? 0 : 2 * style_.letters;
+    return lines_of(panel_.title, width_ - indent, words(), sheet_);
+}
+std::vector<std::string> PlotAxes::label_lines(const Axis& axis) const {
+    return lines_of(axis.label, &axis == &panel_.x ? 1.1 * width_ : 1.05 * height_, words(), sheet_);
+}
+double PlotAxes::label_height(const Axis& axis) const {
+    const std::size_t lines = label_lines(axis).size();
+    return lines > 1 ? static_cast<double>(lines - 1) * kLineStep * style_.letters : 0;
+}
+
+double PlotAxes::titles_height() const {
+    if (panel_.letter.empty() && panel_.title.empty()) return 0;
+    const double lines = std::max(1.0, static_cast<double>(title_lines().size()));
+    return style_.letters + style_.gap + (lines - 1) * kLineStep * style_.letters;
+}
+
 void PlotAxes::draw_titles(double top, bool legend_above) const {
     draw_labels();
-    const double y = plot_.y - style_.gap;
+    const std::vector<std::string> lines = title_lines();
+    const double step = kLineStep * style_.letters;
     const bool alone = y_->common().empty() && !legend_above;
-    double x = plot_.x;
+    double y = top, x = plot_.x;
+    if (alone) y = plot_.y - style_.gap - step * std::max(0.0, static_cast<double>(lines.size()) - 1);
     Lettering title = words();
     if (!panel_.letter.empty()) {
         title.bold = true;
-        x += sheet_.text({x, alone ? y : top}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
+        x += sheet_.text({x, y}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
         title.bold = false;
     }
-    if (!panel_.title.empty()) sheet_.text({x, alone ? y : top}, panel_.title, title);
+    for (const std::string& line : lines) sheet_.text({x, y}, line, title), y += step;
 }
 
 void PlotAxes::draw_color_bar() const {

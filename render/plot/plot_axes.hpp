@@ -34,12 +34,16 @@ class PlotAxes {
 
     // Room that numbers, labels and colour bar need around the plot.
     Margins margins() const;
+    double titles_height() const;  // of letter and title above the plot; 0: none
     void draw_frame() const;
     // Letter and title stand so high, or on the plot when nothing else does.
     void draw_titles(double top, bool legend_above) const;
     void draw_color_bar() const;
 
   private:
+    std::vector<std::string> title_lines() const;
+    std::vector<std::string> label_lines(const Axis& axis) const;
+    double label_height(const Axis& axis) const;  // of the lines beside the first
     Lettering words() const { return {.size = style_.letters, .color = kInk}; }
     Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
@@ -54,6 +58,7 @@ class PlotAxes {
     std::optional<AxisMap> x_, y_, right_, bar_;
     double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0;
     Box plot_;
+    double width_ = 0, height_ = 0;  // of the plot
 };
 
 }  // namespace beamcam::render::figure

@@ -1,6 +1,7 @@
 #include "render/plot/sheet.hpp"
 
 #include <cairo-pdf.h>
+#include <cairo-ps.h>
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/chrono.h>
@@ -53,7 +54,9 @@ std::string xml(std::string_view text) {
 }  // namespace
 
 struct Sheet::Handles {
-    std::string stream;  // of PDF and SVG; outlives the surface
+    std::string stream;  // of PDF, EPS and SVG; outlives the surface
+    std::string texts;   // of SVG, where they are no outlines
+    Color ink;           // of the label that is shown
     Image image;
     cairo_surface_t* surface = nullptr;
     // Writes what is left of a document.
@@ -64,17 +67,24 @@ struct Sheet::Handles {
     ~Handles() { cairo_surface_destroy(surface); }
 };
 
-struct Sheet::Set {
-    struct Piece {
-        Run run;
-        double x = 0, y = 0, size = 0, advance = 0;  // of the baseline's start
-    };
-    std::vector<Piece> pieces;
-    std::vector<std::vector<Vec2>> rules;  // of fractions and roots
-    double width = 0, ascent = 0, descent = 0, smallest = 1e9;
+struct Sheet::Set::Piece {
+    Run run;
+    double x = 0, y = 0, size = 0, advance = 0;  // of the baseline's start
 };
 
 namespace {
+
+// By the name's and the file's own words; in comments of EPS lines end and are short.
+void describe_eps(cairo_surface_t* eps, const Document& d) {
+    const auto say = [&](const char* key, const std::string& text) {
+        constexpr std::size_t kLongest = 200;  // a line has 255 characters
+        std::string line;
+        for (const char c : text.substr(0, kLongest)) line += c >= ' ' && c <= '~' ? c : ' ';
+        if (!line.empty()) cairo_ps_surface_dsc_comment(eps, fmt::format("%%{}: {}", key, line).c_str());
+    };
+    say("Title", d.title);
+    say("For", d.creator);
+}
 
 void describe(cairo_surface_t* pdf, const Document& d) {
     const auto say = [&](cairo_pdf_metadata_t key, const std::string& text) {
@@ -109,6 +119,10 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
             cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
                                                 CAIRO_FORMAT_ARGB32, h.image.width, h.image.height, 4 * h.image.width);
         unit = scale;
+    } else if (medium == Medium::eps) {
+        h.surface = cairo_ps_surface_create_for_stream(collect, &h.stream, size.width, size.height);
+        cairo_ps_surface_set_eps(h.surface, 1);
+        describe_eps(h.surface, document);
     } else if (medium == Medium::pdf) {
         h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, size.width, size.height);
         describe(h.surface, document);
@@ -304,9 +318,13 @@ void Sheet::show(const Set& label, const Lettering& l) {
     }
     for (const Set::Piece& piece : label.pieces) {
         lay(layout, piece.run, piece.size, false);
-        const double baseline = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
-        cairo_move_to(cr_, x0 + piece.x, y0 + piece.y - baseline);
-        pango_cairo_show_layout(cr_, layout);
+        if (medium_ == Medium::svg && document_.editable) {
+            add_text(piece, {x0 + piece.x, y0 + piece.y});
+        } else {
+            const double baseline = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
+            cairo_move_to(cr_, x0 + piece.x, y0 + piece.y - baseline);
+            pango_cairo_show_layout(cr_, layout);
+        }
         cairo_new_path(cr_);
         // Dots stand above the middle of the slanted letter.
         for (int k = 0; k < piece.run.dots; ++k) {
@@ -316,6 +334,24 @@ void Sheet::show(const Set& label, const Lettering& l) {
             cairo_fill(cr_);
         }
     }
+}
+
+// An element of SVG; it stands behind everything that is drawn.
+void Sheet::add_text(const Set::Piece& piece, Vec2 at) {
+    cairo_user_to_device(cr_, &at.x, &at.y);
+    cairo_matrix_t matrix;
+    cairo_get_matrix(cr_, &matrix);
+    const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
+    const bool symbol = piece.run.symbol;
+    const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    const Color& ink = handles_->ink;
+    handles_->texts += fmt::format(
+        R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="#{:02x}{:02x}{:02x}" xml:space="preserve">{}</text>)svg"
+        "\n",
+        at.x, at.y, turned * 180 / std::numbers::pi,
+        symbol ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
+        (symbol ? kSymbolSize : 1) * piece.size * scale, symbol ? R"( font-style="italic")" : "",
+        piece.run.bold ? R"( font-weight="bold")" : "", level(ink.r), level(ink.g), level(ink.b), xml(piece.run.text));
 }
 
 Box Sheet::measure(std::string_view markup, const Lettering& l) {
@@ -336,6 +372,7 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -l.turned);
     use(l.color);
+    handles_->ink = l.color;
     cairo_move_to(cr_, dx, dy);
     show(label, l);
     cairo_restore(cr_);
@@ -351,6 +388,19 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
     return box;
 }
 
+namespace {
+
+// Cairo writes the clock's.
+std::string with_date(std::string eps, std::int64_t created) {
+    const std::string key = "%%CreationDate: ";
+    const std::size_t at = eps.find(key), end = eps.find('\n', at);
+    if (at == std::string::npos || end == std::string::npos) return eps;
+    return eps.replace(at + key.size(), end - at - key.size(),
+                       fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(created))));
+}
+
+}  // namespace
+
 // ---- the end -------------------------------------------------------------------------------------
 
 Image Sheet::image() {
@@ -364,6 +414,7 @@ std::string Sheet::bytes() {
     end();
     handles_->finish();
     std::string file = std::move(handles_->stream);
+    if (medium_ == Medium::eps) return with_date(std::move(file), document_.created);
     if (medium_ != Medium::svg) return file;
     // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.
     if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
@@ -377,6 +428,7 @@ std::string Sheet::bytes() {
                                      "<scene>{}</scene>\n</metadata>",
                                      xml(document_.title), xml(document_.subject), xml(document_.creator),
                                      xml(document_.scene)));
+    if (const std::size_t last = file.rfind("</svg>"); last != std::string::npos) file.insert(last, handles_->texts);
     return file;
 }
 

@@ -1,8 +1,8 @@
 // A sheet of paper to draw on: PNG, PDF or SVG behind one set of strokes, fills and labels.
 //
 // Units are points (1/72 inch) of the printed figure, y down, whatever the medium: a line of 0.8 pt and a letter of
-// 8 pt are that on paper. PDF text is embedded TrueType, SVG is measured in millimetres and carries its glyphs as
-// outlines. The same calls give the same bytes.
+// 8 pt are that on paper. PDF and EPS text is embedded TrueType, SVG is measured in millimetres and carries its glyphs
+// as outlines or, on request, as text. The same calls give the same bytes.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
 inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
 
 struct Run;  // text.hpp
-enum class Medium { png, pdf, svg };
+enum class Medium { png, pdf, svg, eps };
 
 // What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
 struct Document {
@@ -31,6 +31,7 @@ struct Document {
     std::string scene;         // JSON
     std::string creator;       // "beamcam 0.1.0"
     std::int64_t created = 0;  // [s] since 1970, UTC: part of the bytes, so never the clock
+    bool editable = false;     // SVG: text as text, in fonts that the reader has, instead of outlines
 };
 
 struct SheetSize {
@@ -94,12 +95,18 @@ class Sheet : public Brush {
 
   private:
     struct Handles;
-    struct Set;  // a label in its runs
+    struct Set {  // a label in its runs
+        struct Piece;
+        std::vector<Piece> pieces;
+        std::vector<std::vector<Vec2>> rules;  // of fractions and roots
+        double width = 0, ascent = 0, descent = 0, smallest = 1e9;
+    };
     Set set(std::string_view markup, const Lettering& lettering);
     Set set(const std::vector<Run>& runs, const Lettering& lettering);
     static void join(Set& label, Set part, double x, double y);
     void set_parts(Set& label, const Run& run, const Lettering& lettering);
     void show(const Set& label, const Lettering& lettering);
+    void add_text(const Set::Piece& piece, Vec2 at);
 
     Medium medium_;
     SheetSize size_;

@@ -291,6 +291,15 @@ std::string power_of_ten(int exponent) {
     return fmt::format("10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
 }
 
+std::string escaped(std::string_view plain) {
+    std::string out;
+    for (const char c : plain) {
+        if (c == '$' || c == '_' || c == '^' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
 std::vector<Run> parse_markup(std::string_view markup) { return Parser(markup).all(); }
 
 std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }

@@ -30,5 +30,6 @@ std::string power_of_ten(int exponent);  // as markup: "10^{−8}"
 std::vector<Run> parse_markup(std::string_view markup);
 std::string to_latex(std::string_view markup);
 std::string to_plain(std::string_view markup);
+std::string escaped(std::string_view plain);  // as markup
 
 }  // namespace beamcam::render::figure

@@ -27,7 +27,7 @@ void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
     app.flag("--force", common.force, "Replace files that beamcam did not make");
 }
 
-void need_room(const AnswerFiles& files, std::initializer_list<std::string_view> endings, output::Manifest& manifest) {
+void need_room(const AnswerFiles& files, std::initializer_list<const char*> endings, output::Manifest& manifest) {
     for (const std::string& file : files.names) {
         need_ending("-o", file, endings);
         if (file == "-") continue;

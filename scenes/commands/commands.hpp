@@ -95,6 +95,6 @@ double quantity_argument(const char* option, const std::string& text, const Dime
 double seconds_argument(const char* option, const std::string& text);
 std::string ending_of(const std::string& file);  // ".png"
 // Throws UsageError unless `file` is "-" or ends in one of these.
-void need_ending(const char* option, const std::string& file, std::initializer_list<std::string_view> endings);
+void need_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
 
 }  // namespace beamcam::scenes

@@ -21,12 +21,12 @@ namespace {
 
 struct FigureArguments {
     Common common;
-    std::string scene, figure, file, column = "elsevier", lang = "en";
+    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines";
     std::optional<std::string> width, data, caption;
-    double dpi = 300;
+    double dpi = 0;  // by the file
     std::vector<std::string> channels;
     std::optional<std::string> against, from, to, height;
-    bool impacts = false;
+    bool impacts = false, residuals = false;
 };
 
 // Names that the scene has, and why it has not the others.
@@ -47,20 +47,22 @@ Node value_node(const std::string& text) {
     return node;
 }
 
-// The keys of "series" that options name, read as if the scene said so.
+// The keys of the figure's own that options name, read as if the scene said so.
 SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
-    if (args.channels.empty()) throw UsageError("figure series: name its --channels, for example theta,contact_force");
+    if (args.figure == "series" && args.channels.empty())
+        throw UsageError("figure series: name its --channels, for example theta,contact_force");
     Node output = object_node();
     add(output, "type", text_node(FigureOutput::kType));
-    add(output, "figure", text_node("series"));
+    add(output, "figure", text_node(args.figure));
     Node channels = array_node();
     for (const std::string& channel : args.channels) channels.items.push_back(text_node(channel));
-    add(output, "channels", std::move(channels));
+    if (!args.channels.empty()) add(output, "channels", std::move(channels));
     const std::pair<const char*, const std::optional<std::string>&> options[] = {
         {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}};
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
     if (args.impacts) add(output, "impacts", truth_node(true));
+    if (args.residuals) add(output, "residuals", truth_node(true));
 
     SceneFiles files;
     std::vector<Message> messages;
@@ -69,16 +71,23 @@ SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
     return std::get<FigureOutput>(scene.outputs.front()).series;
 }
 
+bool asks_for_series(const FigureArguments& args) {
+    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.impacts ||
+           args.residuals;
+}
+
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
-    if (args.file == "-") throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg or .png");
-    need_ending("-o", args.file, {".pdf", ".svg", ".png"});
+    if (args.file == "-")
+        throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg, .eps, .png or .tif");
+    need_ending("-o", args.file, kFigureEndings);
     FigureOutput figure;
     figure.file = args.file;
     figure.figure = recipe.name;
-    if (figure.figure == "series") figure.series = series_keys(args, scene);
+    if (figure.figure == "series" || asks_for_series(args)) figure.series = series_keys(args, scene);
     figure.column = args.column;
     figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
-    figure.dpi = args.dpi;
+    if (args.dpi > 0) figure.dpi = args.dpi;
+    figure.editable = args.text == "editable";
     if (args.width) {
         figure.width = quantity_argument("--width", *args.width, dimension::kLength);
         if (!(*figure.width >= 0.03 && *figure.width <= 1))
@@ -100,16 +109,10 @@ FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Sce
     return figure;
 }
 
-bool asks_for_series(const FigureArguments& args) {
-    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.impacts;
-}
-
 int act(const FigureArguments& given) {
     FigureArguments args = given;
     Scene scene = read_or_refuse(args.scene, args.common);
     if (args.figure.empty() && asks_for_series(args)) args.figure = "series";
-    if (args.figure != "series" && asks_for_series(args))
-        throw UsageError("--channels, --x, --from, --to, --height and --impacts belong to the figure series");
     if (args.figure.empty()) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
@@ -121,7 +124,8 @@ int act(const FigureArguments& given) {
         throw UsageError(fmt::format("there is no figure {}{}", in_quotes(args.figure),
                                      suggestion_or_list(args.figure, recipe_names())));
     if (args.file.empty())
-        throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
+        throw UsageError(
+            fmt::format("figure {}: name the file with -o, ending in .pdf, .svg, .eps, .png or .tif", args.figure));
     if (const auto refusal = refusal_of(*recipe, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
     scene.set_outputs({wanted(args, *recipe, scene)});
@@ -134,25 +138,29 @@ int act(const FigureArguments& given) {
 
 void add_figure(Grammar& grammar) {
     auto args = std::make_shared<FigureArguments>();
-    Command& app = grammar.command("figure", "Make a figure for print (.pdf, .svg, .png); no FIGURE: list them");
+    Command& app =
+        grammar.command("figure", "Make a figure for print (.pdf, .svg, .eps, .png, .tif); no FIGURE: list them");
     add_scene(app, args->scene, args->common);
     app.positional("FIGURE", &args->figure, "Which figure; none: list those of the scene");
-    app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg or .png");
+    app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
     app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
         .one_of(render::figure::column_names());
     app.option("--width", &args->width, "W", "Another width than the column's, for example 120mm");
     app.option("--lang", &args->lang, "LANG", "Language of labels and caption: en or zh").one_of({"en", "zh"});
-    app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png").range(50, 2400);
+    app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png or .tif (default: 300, 600)").range(50, 2400);
+    app.option("--text", &args->text, "HOW", "Letters of an .svg: outlines or editable")
+        .one_of({"outlines", "editable"});
     app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
     app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
     app.option("--channels", &args->channels, "A,B,…",
                "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit")
         .separated_by(',');
     app.option("--x", &args->against, "CHANNEL", "Of series: against what; t, turns (of the cam) or a channel");
-    app.option("--from", &args->from, "T", "Of series: from this instant");
-    app.option("--to", &args->to, "T", "Of series: until this instant");
+    app.option("--from", &args->from, "T", "Of series, kymograph, strobe, impact-maps: from this instant");
+    app.option("--to", &args->to, "T", "Of these: until this instant");
     app.option("--height", &args->height, "H", "Of series: its height, for example 60mm");
     app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
+    app.flag("--residuals", args->residuals, "Of series: panels with what measured data differ by");
     add_work(app, args->common);
     app.bind(args, act);
 }

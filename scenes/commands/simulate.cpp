@@ -16,10 +16,17 @@ namespace {
 struct SimulateArguments {
     Common common;
     std::string scene;
-    std::optional<std::string> trajectory, impacts, summary, rate;
+    std::optional<std::string> trajectory, shapes, impacts, summary, rate;
     std::vector<std::string> times, channels;
     bool horizon = false;
 };
+
+double positive_rate(const std::string& text, double rows_per_rate) {
+    const double rate = quantity_argument("--rate", text, dimension::kFrequency);
+    if (!(rate > 0)) throw UsageError("--rate must be positive");
+    if (rate * rows_per_rate > 2e7) throw UsageError(fmt::format("--rate {}: more than 2e7 rows; lower it", text));
+    return rate;
+}
 
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     TrajectoryOutput table;
@@ -27,10 +34,7 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
     need_ending("--trajectory", table.file, {".csv", ".npz"});
     if (args.rate && !args.times.empty()) throw UsageError("--rate and --times exclude each other; keep one");
     if (args.rate) {
-        table.rate = quantity_argument("--rate", *args.rate, dimension::kFrequency);
-        if (!(table.rate > 0)) throw UsageError("--rate must be positive");
-        if (table.rate * scene.end_time > 2e7)
-            throw UsageError(fmt::format("--rate {}: more than 2e7 rows; lower it", *args.rate));
+        table.rate = positive_rate(*args.rate, scene.end_time);
     }
     for (const std::string& text : args.times) table.times.push_back(seconds_argument("--times", text));
     std::vector<std::string> known;
@@ -52,8 +56,16 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 // With no file named, the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    const bool wants_table = args.trajectory || args.rate || !args.times.empty() || !args.channels.empty();
+    const bool wants_rows = args.trajectory || !args.times.empty() || !args.channels.empty();
+    const bool wants_table = wants_rows || (args.rate && !args.shapes);
     if (wants_table) outputs.push_back(trajectory_output(args, scene));
+    if (args.shapes) {
+        if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
+        need_ending("--shapes", *args.shapes, {".csv", ".npz"});
+        ShapesOutput shapes{*args.shapes};
+        if (args.rate) shapes.rate = positive_rate(*args.rate, scene.end_time * shapes.stations);
+        outputs.push_back(shapes);
+    }
     if (args.impacts) {
         need_ending("--impacts", *args.impacts, {".json", ".csv"});
         outputs.push_back(ImpactsOutput{*args.impacts});
@@ -89,6 +101,7 @@ void add_simulate(Grammar& grammar) {
     add_scene(app, args->scene, args->common);
     app.option("--trajectory", &args->trajectory, "FILE",
                "Table of channels, .csv or .npz; - is standard output (CSV)");
+    app.option("--shapes", &args->shapes, "FILE", "Deflection along the beam in time, .csv or .npz");
     app.option("--rate", &args->rate, "HZ", "Rows a second (default: 1000)");
     app.option("--times", &args->times, "T,T,...", "Exactly these rows, in this order").separated_by(',');
     app.option("--channels", &args->channels, "CHANNEL,...", "Columns besides the time (default: all)")

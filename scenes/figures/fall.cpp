@@ -1,4 +1,4 @@
-// Falling without a cam: the hub angle of the flexible and the rigid beam, and the vibration of the free end.
+// Falling without a cam: the hub angle of the flexible and the rigid beam.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,7 +18,6 @@ using render::figure::Series;
 using sim::ChannelKind;
 
 constexpr int kFallPoints = 2001;  // points: a column of print has fewer dots
-constexpr int kVibration = 12001;
 constexpr double kAround = 12e-6;  // the enlarged stretch about the rigid crossing [s]
 
 // Where the inset looks: only the hinged rod at rest has the closed form that tells beforehand.
@@ -198,52 +197,8 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
     };
 }
 
-FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end, "tip-vibration");
-    const std::size_t table = studies.table(study, {0, end, kVibration}, {ChannelKind::t, ChannelKind::tip_deflection});
-    return [=, problem = scene.problem](const Results& results) {
-        const bool en = lang == Lang::en;
-        const sim::Result& result = *results[study];
-        Figure figure;
-        figure.name = "tip-vibration";
-        figure.title = en ? "Transverse vibration of the free end" : "自由端的横向振动";
-        Panel panel;
-        panel.x.label = "$t$ / s";
-        Series s;
-        s.x = column(result.tables[table], ChannelKind::t);
-        s.y = column(result.tables[table], ChannelKind::tip_deflection);
-        double largest = 0;
-        for (const double v : s.y)
-            if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
-        // Millimetres, or micrometres where those would be hundredths.
-        const bool micro = largest < 5e-4;
-        s.y = scaled(s.y, micro ? 1e6 : 1e3);
-        panel.y.label = micro ? "$v$($L$, $t$) / µm" : "$v$($L$, $t$) / mm";
-        s.weight = 0.75;
-        panel.rules.push_back({.at = 0});
-        panel.series.push_back(std::move(s));
-        figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.55;
-        figure.caption = filled(en ? "Transverse deflection of the free end from the tangent at the root{}. "
-                                   : "自由端相对根部切线的横向挠度{}。",
-                                problem.cam ? "" : (en ? ", without a cam" : "（无凸轮）"));
-        figure.caption += facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, &result}}, lang);
-        return figure;
-    };
-}
-
-std::optional<std::string> needs_vibration(const Scene& scene) {
-    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
-    return "a rigid beam does not vibrate; choose another beam.model";
-}
-
 }  // namespace
 
 const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
-const Recipe kTipVibration{
-    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

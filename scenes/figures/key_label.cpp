@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "render/plot/text.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -26,9 +27,7 @@ std::string symbol_of(const std::string& name) {
                                                              {"cam_phase", "cam phase"},
                                                              {"t", "$t$"}};
     if (const auto found = kSymbols.find(name); found != kSymbols.end()) return found->second;
-    std::string escaped;
-    for (const char c : name) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
-    return escaped;
+    return render::figure::escaped(name);
 }
 
 // "rad/s" becomes "rad s^{−1}".

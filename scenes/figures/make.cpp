@@ -4,9 +4,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "output/files/numbers.hpp"
 #include "output/image/png.hpp"
+#include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
 #include "render/plot/text.hpp"
 #include "scenes/scene/version.hpp"
@@ -52,18 +54,22 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
            Take take) {
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f), render::Typefaces::print);
-    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.dpi}, fonts, document);
+    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution()}, fonts,
+                        document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }
 
 std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
-    const figure::Document document = document_of(f, scene);
-    const std::string kind = ending(how.file);
-    if (kind == ".pdf" || kind == ".svg")
-        return drawn(f, how, kind == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
-                     [](figure::Sheet& sheet) { return sheet.bytes(); });
-    return output::encode_png(figure_image(f, how), {how.dpi,
+    figure::Document document = document_of(f, scene);
+    document.editable = how.editable;
+    static const std::map<std::string, figure::Medium> kVectors{
+        {".pdf", figure::Medium::pdf}, {".svg", figure::Medium::svg}, {".eps", figure::Medium::eps}};
+    if (const auto vector = kVectors.find(ending(how.file)); vector != kVectors.end())
+        return drawn(f, how, vector->second, document, [](figure::Sheet& sheet) { return sheet.bytes(); });
+    if (how.is_tiff())
+        return output::encode_tiff(figure_image(f, how), {how.resolution(), document.title, document.creator});
+    return output::encode_png(figure_image(f, how), {how.resolution(),
                                                      {{"Title", document.title},
                                                       {"Description", document.subject},
                                                       {"Software", document.creator},

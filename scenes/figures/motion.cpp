@@ -1,4 +1,4 @@
-// The hub angle in time, also for three speeds of the cam, and the phase portrait.
+// The phase portrait: raw, and its mean over a period of the first bending mode.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,112 +19,10 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-constexpr int kMotionPoints = 8001;
-
-Panel angle_panel(const sim::Result& result, std::size_t table, double end) {
-    Panel panel;
-    panel.x.label = "$t$ / s";
-    panel.y.label = "$θ$ / rad";
-    panel.legend = Legend::none;
-    Series whole;
-    whole.x = column(result.tables[table], ChannelKind::t);
-    whole.y = column(result.tables[table], ChannelKind::theta);
-    whole.weight = 0.9;
-    const std::vector<Lost> intervals = unreliable(result, end);
-    auto [sure, unsure] = split(whole, whole.x, intervals);
-    unsure.faded = true;
-    if (!unsure.x.empty()) panel.series.push_back(std::move(unsure));
-    if (!sure.x.empty()) panel.series.push_back(std::move(sure));
-    for (const Lost& v : intervals) {
-        panel.rules.push_back({.at = v.from, .vertical = true});
-        if (v.to < end) panel.rules.push_back({.at = v.to, .vertical = true});
-    }
-    return panel;
-}
-
 // The run may go on for other figures.
 std::ptrdiff_t impacts_until(const sim::Problem& problem, const sim::Result& result, double end) {
     return std::ranges::count_if(result.impacts,
                                  [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
-}
-
-// "12 impacts", "no impact".
-std::string impacts_words(std::ptrdiff_t count, Lang lang) {
-    if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
-    return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
-}
-
-FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end, "angle");
-    const std::size_t table = studies.table(study, {0, end, kMotionPoints}, {ChannelKind::t, ChannelKind::theta});
-    studies.horizon(study);
-    return [=, problem = scene.problem](const Results& results) {
-        const bool en = lang == Lang::en;
-        Figure figure;
-        figure.name = "angle";
-        figure.title = en ? "Hub angle" : "转角";
-        figure.panels.push_back(angle_panel(*results[study], table, end));
-        figure.aspect = 0.55;
-        figure.caption = en ? "Hub angle $θ$. " : "转角 $θ$。";
-        figure.caption += horizon_words({results[study]}, end, lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
-        return figure;
-    };
-}
-
-FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    const double end = scene.end_time;
-    std::vector<sim::Problem> problems;
-    std::vector<std::size_t> where, tables;
-    for (const double speed : kPaperSpeeds) {
-        sim::Problem p = scene.problem;
-        p.cam->speed = speed;
-        where.push_back(studies.of(p, end, "speeds"));
-        tables.push_back(studies.table(where.back(), {0, end, kMotionPoints}, {ChannelKind::t, ChannelKind::theta}));
-        studies.horizon(where.back());
-        problems.push_back(std::move(p));
-    }
-    return [=](const Results& results) {
-        const bool en = lang == Lang::en;
-        Figure figure;
-        figure.name = "speeds";
-        figure.title = en ? "Hub angle for three speeds of the cam" : "三种凸轮转速下的转角";
-        std::vector<const sim::Result*> all;
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
-        double low = 1e300, high = -1e300;
-        for (std::size_t k = 0; k < where.size(); ++k) {
-            const sim::Result& result = *results[where[k]];
-            Panel panel = angle_panel(result, tables[k], end);
-            panel.letter = std::string(1, static_cast<char>('a' + k));
-            panel.title = fmt::format("$ω$ = {} rad s^{{−1}}", number(kPaperSpeeds[k], 3));
-            for (const Series& s : panel.series)
-                for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
-            figure.panels.push_back(std::move(panel));
-            all.push_back(&result);
-            runs.emplace_back(&problems[k], &result);
-        }
-        // One scale for all three, so that heights compare.
-        const double air = 0.05 * (high - low);
-        if (high > low)
-            for (Panel& panel : figure.panels) panel.y.from = low - air, panel.y.to = high + air;
-        figure.stack = true;
-        figure.share_x = true;
-        figure.aspect = 1.25;
-        std::vector<std::string> panels;
-        for (std::size_t k = 0; k < all.size(); ++k)
-            panels.push_back(filled(en ? "({}) $ω$ = {} rad s^{{−1}}, {}" : "({}) $ω$ = {} rad s^{{−1}}，{}",
-                                    static_cast<char>('a' + k), number(kPaperSpeeds[k], 3),
-                                    impacts_words(impacts_until(problems[k], *all[k], end), lang)));
-        figure.caption = filled(en ? "Hub angle $θ$ for three speeds of the cam, clockwise: {}. "
-                                   : "三种凸轮转速（顺时针）下的转角 $θ$：{}。",
-                                fmt::format("{}", fmt::join(panels, en ? "; " : "；")));
-        figure.caption += horizon_words(all, end, lang) + facts(problems[1], lang, {.cam_speed = true});
-        figure.accuracy = accuracy(runs, lang);
-        return figure;
-    };
 }
 
 // Rows in a period of the first bending mode; 0: the beam has none, or the rows are too far apart to average.
@@ -200,9 +98,6 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
 
 }  // namespace
 
-const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
-const Recipe kSpeeds{
-    "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
 const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
 
 }  // namespace beamcam::scenes

@@ -8,8 +8,9 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{&kSeries, &kSchematic, &kFreeFall, &kTipVibration,  &kDeflection, &kDistance,  &kAngle,
-                          &kSpeeds, &kCollision, &kEnergy,   &kContactPlaces, &kPhase,      &kApexModes, &kModels};
+const std::array kRecipes{&kSeries,    &kSchematic, &kFreeFall,  &kTipVibration, &kDeflection,    &kDistance,
+                          &kAngle,     &kSpeeds,    &kCollision, &kEnergy,       &kContactPlaces, &kPhase,
+                          &kApexModes, &kModels,    &kKymograph, &kStrobe,       &kImpactMaps};
 
 const std::vector<Recipe>& table() {
     static const std::vector<Recipe> all = [] {

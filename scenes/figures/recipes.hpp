@@ -27,6 +27,7 @@ struct Recipe {
     std::optional<std::string> (*refusal)(const Scene& scene);
     // Adds the needs; the maker remembers where they are. `how`: the language, and what keys of the figure's own say.
     FigureMaker (*prepare)(const Scene& scene, const FigureOutput& how, Studies& studies);
+    bool takes_stretch = false;  // the keys "from" and "to"
 };
 
 std::span<const Recipe> recipes();
@@ -38,7 +39,7 @@ std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
 
 // The recipes of each file of this folder.
 extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
-    kContactPlaces, kPhase, kApexModes, kModels, kSeries;
+    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kStrobe, kImpactMaps;
 
 // ---- what they share ------------------------------------------------------------------------------
 

@@ -34,16 +34,16 @@ std::array<Series, 2> split(const Series& whole, const std::vector<double>& time
     return parts;
 }
 
-std::string horizon_words(const std::vector<const sim::Result*>& results, double end, Lang lang) {
+std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double end,
+                          Lang lang) {
     const bool en = lang == Lang::en;
     std::vector<std::string> times;
-    for (std::size_t k = 0; k < results.size(); ++k)
-        for (const Lost& v : unreliable(*results[k], end)) {
-            const std::string panel =
-                results.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + k)) : std::string();
-            times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", panel, number(v.from, 3),
+    for (const auto& [name, result] : motions)
+        for (const Lost& v : unreliable(*result, end)) {
+            const std::string of = name.empty() ? "" : name + " ";
+            times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", of, number(v.from, 3),
                                                 number(v.to, 3))
-                                       : filled(en ? "{}from {} s on" : "{}{} s 之后", panel, number(v.from, 3)));
+                                       : filled(en ? "{}from {} s on" : "{}{} s 之后", of, number(v.from, 3)));
         }
     if (times.empty()) return {};
     return filled(en ? "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/plot/figure.hpp"
@@ -22,7 +23,8 @@ std::vector<Lost> unreliable(const sim::Result& result, double end);
 std::array<render::figure::Series, 2> split(const render::figure::Series& whole, const std::vector<double>& times,
                                             const std::vector<Lost>& intervals);
 
-// Where θ is not reproducible, if anywhere; of several results each is a panel "(a)", "(b)", … of the figure.
-std::string horizon_words(const std::vector<const sim::Result*>& results, double end, Lang lang);
+// Where θ is not reproducible, if anywhere: of motions by their names, of one by none.
+std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double end,
+                          Lang lang);
 
 }  // namespace beamcam::scenes

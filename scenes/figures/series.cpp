@@ -1,17 +1,22 @@
-// Any channels against the time, the turns of the cam or another channel; of one motion or of several.
+#include "scenes/figures/series.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "render/plot/channel_label.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/key_label.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/measured.hpp"
 #include "scenes/figures/reproducible.hpp"
+#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series_words.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -47,8 +52,8 @@ std::vector<double> above_zero(std::vector<double> values, Channel channel) {
     return values;
 }
 
-bool has_values(const sim::Table* table) {
-    return std::ranges::any_of(table->values.back(), [](double v) { return std::isfinite(v); });
+bool has_values(const sim::Table& table) {
+    return std::ranges::any_of(table.values.back(), [](double v) { return std::isfinite(v); });
 }
 
 double largest(const std::vector<double>& values) {
@@ -58,60 +63,129 @@ double largest(const std::vector<double>& values) {
     return out;
 }
 
-struct Motion {
-    std::string label;
-    sim::Problem problem;
-    std::size_t study = 0;
-};
+std::string letter(std::size_t k) { return {static_cast<char>('a' + k)}; }
+
+// Of measured data from the curves of a channel; its unit has a prefix of its own.
+void finish_differences(Channel channel, const sim::Problem& problem, Panel& differences) {
+    double most = 0;
+    for (const Series& each : differences.series) most = std::max(most, largest(each.y));
+    const Measure measure = measure_of(unit(channel, problem), most);
+    for (Series& each : differences.series) each.y = scaled(std::move(each.y), measure.factor), each.label.clear();
+    differences.y.label = axis_label("Δ" + render::print_symbol(channel), measure.unit);
+    differences.name = name(channel) + " difference";
+    differences.rules.push_back({.at = 0});
+    differences.share = 0.6;
+    differences.legend = Legend::none;
+}
+
+// Panels of several motions have one scale, so that heights compare.
+void share_ordinates(Figure& figure) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    std::map<std::string, std::pair<double, double>> ranges;  // by what the panels show
+    for (const Panel& panel : figure.panels) {
+        auto& [low, high] = ranges.try_emplace(panel.name, infinity, -infinity).first->second;
+        for (const Series& curve : panel.series)
+            for (const double y : curve.y)
+                if (std::isfinite(y) && !curve.right) low = std::min(low, y), high = std::max(high, y);
+    }
+    for (Panel& panel : figure.panels) {
+        const auto& [low, high] = ranges[panel.name];
+        const double air = 0.05 * (high - low);
+        if (!(high > low) || panel.y.scale == render::figure::Scale::logarithmic) continue;
+        panel.y.from = panel.y.from.value_or(low - air), panel.y.to = panel.y.to.value_or(high + air);
+    }
+}
+
+template <class Touch>
+std::vector<double> begins(const std::vector<Touch>& touches, double from, double to) {
+    std::vector<double> out;
+    for (const Touch& touch : touches)
+        if (touch.t_start >= from && touch.t_start <= to) out.push_back(touch.t_start);
+    return out;
+}
 
 class SeriesFigure {
   public:
-    SeriesFigure(const Scene& scene, const FigureOutput& how, Studies& studies)
-        : keys_(how.series), lang_(how.lang), end_(keys_.to.value_or(scene.end_time)) {
+    SeriesFigure(const Scene& scene, SeriesKeys keys, SeriesWords words, Lang lang, Studies& studies)
+        : keys_(std::move(keys)), words_(std::move(words)), lang_(lang), end_(keys_.to.value_or(scene.end_time)) {
         if (keys_.compare.empty()) motions_.push_back({"", scene.problem, 0});
         for (const Compared& each : keys_.compare) motions_.push_back({each.label, each.problem, 0});
         if (const auto channel = sim::channel_named(keys_.against); channel && channel->kind != ChannelKind::t)
             abscissa_ = *channel;
-        for (Motion& motion : motions_) {
-            motion.study = studies.of(motion.problem, end_, "series");
+        for (SeriesMotion& motion : motions_) {
+            motion.study = studies.of(motion.problem, end_, words_.name);
             studies.horizon(motion.study);
         }
-        for (const SeriesPanel& panel : keys_.panels)
+        // Data are of the scene's own motion; where that is not among those shown, they are held against the first.
+        for (std::size_t k = motions_.size(); k-- > 0;)
+            if (Studies::key(motions_[k].problem) == Studies::key(scene.problem)) measured_motion_ = k;
+        std::vector<Channel> all;
+        for (const SeriesPanel& panel : keys_.panels) {
+            all.insert(all.end(), panel.channels.begin(), panel.channels.end());
+            all.insert(all.end(), panel.right.begin(), panel.right.end());
+        }
+        if (abscissa_) all.push_back(*abscissa_);
+        measured_ = measured(scene, all, keys_.from, end_, motions_[measured_motion_].study, studies);
+        each_panel([&](const SeriesPanel& panel, const std::vector<std::size_t>& shown) {
             for (const auto* side : {&panel.channels, &panel.right})
                 for (const Channel& channel : *side)
-                    for (const Motion& motion : motions_)
-                        tables_.push_back(studies.curve(motion.study, {keys_.from, end_, kRows},
-                                                        abscissa_.value_or(Channel{}), channel));
+                    for (const std::size_t motion : shown) tables_.push_back(table_of(channel, motion, studies));
+        });
     }
 
     Figure operator()(const Results& results) const {
         Figure figure;
-        figure.name = "series";
+        figure.name = words_.name;
         std::size_t table = 0;
-        std::vector<std::string> words;
-        for (std::size_t k = 0; k < keys_.panels.size(); ++k) {
-            figure.panels.push_back(panel(keys_.panels[k], results, table));
-            if (keys_.panels.size() > 1) figure.panels.back().letter = std::string(1, static_cast<char>('a' + k));
-            for (const auto* side : {&keys_.panels[k].channels, &keys_.panels[k].right})
-                for (const Channel& channel : *side) words.push_back(words_of(channel));
-        }
+        each_panel([&](const SeriesPanel& keys, const std::vector<std::size_t>& shown) {
+            Panel differences;
+            figure.panels.push_back(panel(keys, shown, results, table, differences));
+            if (!differences.series.empty()) figure.panels.push_back(std::move(differences));
+        });
+        if (figure.panels.size() > 1)
+            for (std::size_t k = 0; k < figure.panels.size(); ++k) figure.panels[k].letter = letter(k);
         share_abscissa(figure);
+        if (keys_.apart) share_ordinates(figure);
         figure.stack = figure.share_x = true;
-        figure.aspect = 0.2 + 0.36 * static_cast<double>(keys_.panels.size());
+        figure.aspect = words_.aspect > 0 ? words_.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
         if (keys_.height) figure.height = *keys_.height * 1e3;
-        figure.title = render::label_of(keys_.panels.front().channels.front().kind).words;
-        write_caption(figure, words, results);
+        const render::ChannelLabel& first = render::label_of(keys_.panels.front().channels.front().kind);
+        figure.title = !words_.title.empty() ? words_.title : en() ? first.words : first.chinese;
+        write_caption(figure, results);
         return figure;
     }
 
   private:
     bool en() const { return lang_ == Lang::en; }
 
-    std::string words_of(const Channel& channel) const {
-        const render::ChannelLabel& label = render::label_of(channel.kind);
-        std::string text = en() ? label.words : label.chinese;
-        if (en()) text.front() = static_cast<char>(std::tolower(text.front()));
-        return fmt::format("{} {}", text, render::print_symbol(channel));
+    // Panels in their order, each with the motions that it shows.
+    template <class Visit>
+    void each_panel(Visit&& visit) const {
+        std::vector<std::size_t> all(motions_.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        const std::size_t groups = keys_.apart ? all.size() : 1;
+        for (std::size_t k = 0; k < groups; ++k)
+            for (const SeriesPanel& panel : keys_.panels) visit(panel, keys_.apart ? std::vector<std::size_t>{k} : all);
+    }
+
+    // Where curves are lighter; a spectrum is of all of a stretch.
+    std::vector<Lost> lost(const sim::Result& result) const {
+        return keys_.against == "frequency" ? std::vector<Lost>{} : unreliable(result, end_);
+    }
+    bool over_time() const { return keys_.against == "t" || keys_.against == "turns"; }
+
+    std::size_t table_of(Channel channel, std::size_t motion, Studies& studies) const {
+        const SeriesMotion& of = motions_[motion];
+        if (keys_.against != "frequency")
+            return studies.curve(of.study, {keys_.from, end_, kRows}, abscissa_.value_or(Channel{}), channel);
+        std::vector<sim::TableRequest>& tables = studies.request(of.study).tables;
+        tables.push_back({spectrum_instants(of.problem, keys_.from, end_), {Channel{}, channel}});
+        return tables.size() - 1;
+    }
+    // Of a motion, or its amplitudes by frequency.
+    sim::Table curve(const Results& results, std::size_t motion, std::size_t table) const {
+        const sim::Table& rows = results[motions_[motion].study]->tables[tables_[table]];
+        return keys_.against == "frequency" ? spectrum_table(rows, keys_.x_high) : rows;
     }
 
     // Of each point of a curve, in SI units or turns.
@@ -124,81 +198,134 @@ class SeriesFigure {
         return x;
     }
 
-    // One side of a panel. `look` counts the curves of both.
-    void add_side(const std::vector<Channel>& channels, bool right, Axis& axis, int& look, std::size_t& table,
-                  const Results& results, Panel& out) const {
+    // Of the same panel of every motion: all have one unit. `table`: the first of one of them.
+    double most_of_all(const std::vector<Channel>& channels, std::size_t table, const Results& results) const {
+        const std::size_t each = tables_.size() / motions_.size();
         double most = 0;
-        std::vector<const sim::Table*> all;
-        for (std::size_t i = 0; i < channels.size() * motions_.size(); ++i) {
-            const Motion& motion = motions_[i % motions_.size()];
-            all.push_back(&results[motion.study]->tables[tables_[table++]]);
-            most = std::max(most, largest(above_zero(all.back()->values.back(), channels[i / motions_.size()])));
+        for (std::size_t motion = 0; motion < motions_.size(); ++motion)
+            for (std::size_t k = 0; k < channels.size(); ++k) {
+                const sim::Table rows = curve(results, motion, motion * each + table % each + k);
+                most = std::max(most, largest(above_zero(rows.values.back(), channels[k])));
+            }
+        return most;
+    }
+
+    // One side of a panel. `look` counts the curves of both.
+    void add_side(const SeriesPanel& keys, const std::vector<std::size_t>& shown, bool right, int& look,
+                  std::size_t& table, const Results& results, Panel& out, Panel& differences) const {
+        const std::vector<Channel>& channels = right ? keys.right : keys.channels;
+        Axis& axis = right ? *out.right : out.y;
+        double most = keys_.apart ? most_of_all(channels, table, results) : 0;
+        std::vector<sim::Table> all;
+        for (std::size_t i = 0; i < channels.size() * shown.size(); ++i) {
+            all.push_back(curve(results, shown[i % shown.size()], table++));
+            all.back().values.back() = above_zero(all.back().values.back(), channels[i / shown.size()]);
+            most = std::max(most, largest(all.back().values.back()));
         }
         if (!(most > 0) && std::ranges::none_of(all, has_values))
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(channels.front()), keys_.from, end_));
         const Measure measure = measure_of(unit(channels.front(), motions_.front().problem), most);
         std::vector<std::string> symbols;
-        for (const Channel& channel : channels) symbols.push_back(render::print_symbol(channel));
-        axis.label = axis_label(fmt::format("{}", fmt::join(symbols, ", ")), measure.unit);
+        for (const Channel& channel : channels)
+            symbols.push_back(filled(keys_.against == "frequency" ? "|{}|" : "{}", render::print_symbol(channel)));
+        const bool own_label = !right && !keys.label.empty();
+        axis.label = axis_label(own_label ? keys.label : fmt::format("{}", fmt::join(symbols, ", ")), measure.unit);
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const Motion& motion = motions_[i % motions_.size()];
-            const std::string& symbol = symbols[i / motions_.size()];
+            const SeriesMotion& motion = motions_[shown[i % shown.size()]];
+            const std::string& symbol = symbols[i / shown.size()];
             Series whole;
-            whole.x = abscissa(*all[i], motion.problem);
-            whole.y = scaled(above_zero(all[i]->values.back(), channels[i / motions_.size()]), measure.factor);
+            whole.x = abscissa(all[i], motion.problem);
+            whole.y = scaled(all[i].values.back(), measure.factor);
             whole.right = right;
             whole.look = look++;
-            whole.weight = 0.9;
+            whole.weight = words_.weight;
             const bool is_one_symbol = channels.size() == 1 && !out.right;
-            whole.label = motions_.size() == 1 ? symbol
-                          : is_one_symbol      ? motion.label
-                                               : fmt::format("{}, {}", motion.label, symbol);
-            auto [sure, unsure] = split(whole, all[i]->values[0], unreliable(*results[motion.study], end_));
+            whole.label = shown.size() == 1 ? symbol
+                          : is_one_symbol   ? motion.label
+                                            : fmt::format("{}, {}", motion.label, symbol);
+            auto [sure, unsure] = split(whole, all[i].values[0], lost(*results[motion.study]));
             unsure.faded = true;
             if (!sure.x.empty()) unsure.label.clear();
             if (!unsure.x.empty()) out.series.push_back(std::move(unsure));
             if (!sure.x.empty()) out.series.push_back(std::move(sure));
         }
-        if (!right) {
-            axis.scale = out.y.scale;
-            for (auto* limit : {&axis.from, &axis.to})
-                if (*limit) **limit *= measure.factor;
-        }
+        const bool with_data = std::ranges::find(shown, measured_motion_) != shown.end();
+        for (std::size_t k = 0; k < channels.size() && with_data; ++k)
+            for (const Measured& each : measured_)
+                add_measured(each, channels[k], right, measure, look, results, out, differences);
+        if (right) return;
+        for (auto* limit : {&axis.from, &axis.to})
+            if (*limit) **limit *= measure.factor;
+        for (const double at : keys.lines) out.rules.push_back({.at = at * measure.factor});
     }
 
-    Panel panel(const SeriesPanel& keys, const Results& results, std::size_t& table) const {
+    void add_measured(const Measured& each, Channel channel, bool right, const Measure& measure, int& look,
+                      const Results& results, Panel& out, Panel& differences) const {
+        const SeriesMotion& motion = motions_[measured_motion_];
+        const std::vector<double>* values = each.data.find(channel);
+        const std::vector<double>* along = abscissa_ ? each.data.find(*abscissa_) : &each.data.times;
+        if (!values || !along || keys_.against == "frequency") return;
+        sim::Table rows;
+        rows.values = {each.data.times, *along};
+        out.series.push_back(measured_series(each.data, abscissa(rows, motion.problem),
+                                             scaled(above_zero(*values, channel), measure.factor), look++));
+        out.series.back().right = right;
+        if (!keys_.residuals || right) return;
+        const sim::Table& computed = results[motion.study]->tables[each.table];
+        std::vector<double> difference = *values;
+        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= column(computed, channel.kind)[i];
+        Series whole = measured_series(each.data, out.series.back().x, std::move(difference), out.series.back().look);
+        auto [sure, unsure] = split(whole, each.data.times, lost(*results[motion.study]));
+        unsure.faded = true;
+        for (Series* part : {&unsure, &sure})
+            if (!part->x.empty()) differences.series.push_back(std::move(*part));
+    }
+
+    Panel panel(const SeriesPanel& keys, const std::vector<std::size_t>& shown, const Results& results,
+                std::size_t& table, Panel& differences) const {
         Panel out;
         out.title = keys.title;
+        if (keys_.apart) out.title = motions_[shown.front()].label + (out.title.empty() ? "" : ": ") + out.title;
         out.name = name(keys.channels.front());
         if (keys.logarithmic) out.y.scale = render::figure::Scale::logarithmic;
         out.y.from = keys.low, out.y.to = keys.high;
         int look = 0;
         if (!keys.right.empty()) out.right.emplace();
-        add_side(keys.channels, false, out.y, look, table, results, out);
-        if (out.right) add_side(keys.right, true, *out.right, look, table, results, out);
+        add_side(keys, shown, false, look, table, results, out, differences);
+        if (out.right) add_side(keys, shown, true, look, table, results, out, differences);
+        finish_differences(keys.channels.front(), motions_.front().problem, differences);
         out.legend = look > 1 ? Legend::direct : Legend::none;
-        if (keys_.impacts && !abscissa_) add_impacts(results, out);
+        if (!over_time()) return out;
+        const SeriesMotion& first = motions_[shown.front()];
+        if (keys_.impacts)
+            add_rules(impacts_of(*results[first.study]), first, out);
+        else if (shown.size() == 1)
+            add_rules(ends_of(unreliable(*results[first.study], end_)), first, out);
         return out;
     }
 
-    // Of impacts or, where they are too many to be told apart, of collisions.
-    template <class Touch>
-    std::vector<double> begins(const std::vector<Touch>& touches) const {
-        std::vector<double> out;
-        for (const Touch& touch : touches)
-            if (touch.t_start >= keys_.from && touch.t_start <= end_) out.push_back(touch.t_start);
-        return out;
+    // Impacts are too many to be told apart: collisions stand for them.
+    bool marks_collisions(const sim::Result& result) const {
+        return begins(result.impacts, keys_.from, end_).size() > kMostRules;
     }
-    bool marks_collisions(const sim::Result& result) const { return begins(result.impacts).size() > kMostRules; }
 
-    void add_impacts(const Results& results, Panel& out) const {
-        const Motion& first = motions_.front();
-        const sim::Result& result = *results[first.study];
+    std::vector<double> impacts_of(const sim::Result& result) const {
+        std::vector<double> times = marks_collisions(result) ? begins(result.collisions, keys_.from, end_)
+                                                             : begins(result.impacts, keys_.from, end_);
+        return times.size() > kMostRules ? std::vector<double>{} : times;
+    }
+    std::vector<double> ends_of(const std::vector<Lost>& intervals) const {
+        std::vector<double> times;
+        for (const Lost& lost : intervals)
+            for (const double t : {lost.from, lost.to})
+                if (t > keys_.from && t < end_) times.push_back(t);
+        return times;
+    }
+    void add_rules(std::vector<double> times, const SeriesMotion& motion, Panel& out) const {
         sim::Table table;
-        table.values = {marks_collisions(result) ? begins(result.collisions) : begins(result.impacts)};
-        if (table.rows() > kMostRules) return;
-        for (const double at : abscissa(table, first.problem)) out.rules.push_back({.at = at, .vertical = true});
+        table.values = {std::move(times)};
+        for (const double at : abscissa(table, motion.problem)) out.rules.push_back({.at = at, .vertical = true});
     }
 
     // All panels have one axis along x.
@@ -212,58 +339,77 @@ class SeriesFigure {
         // A logarithmic panel leaves out what is not positive; its axis stays that of the others.
         const double air = abscissa_ ? 0.03 * (high - low) : 0;
         const Channel channel = abscissa_.value_or(Channel{});
+        // Seconds, as in print, unless a stretch is short.
+        constexpr double kShort = 0.05;  // [s]
+        if (!abscissa_ && high - low >= kShort) most = 1;
+        if (keys_.x_low) low = *keys_.x_low + air;
+        if (keys_.x_high) high = *keys_.x_high - air;
         Measure measure = measure_of(unit(channel, motions_.front().problem), most);
         std::string symbol = render::print_symbol(channel);
+        if (keys_.against == "frequency") measure = {1, "Hz"}, symbol = "$f$";
         if (keys_.against == "turns") measure = {1, ""}, symbol = en() ? "turns of the cam" : "凸轮转数";
         for (Panel& each : figure.panels) {
             each.x.label = axis_label(symbol, measure.unit);
             if (high > low) each.x.from = (low - air) * measure.factor, each.x.to = (high + air) * measure.factor;
             for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);
-            for (auto& rule : each.rules) rule.at *= measure.factor;
+            for (auto& rule : each.rules)
+                if (rule.vertical) rule.at *= measure.factor;
         }
     }
 
-    void write_caption(Figure& figure, const std::vector<std::string>& words, const Results& results) const {
-        std::string all = fmt::format("{}", fmt::join(words, en() ? ", " : "，"));
-        if (en()) all.front() = static_cast<char>(std::toupper(all.front()));
-        const std::string over = abscissa_ ? filled(en() ? " against {}" : "随{}的变化", words_of(*abscissa_)) : "";
+    void write_caption(Figure& figure, const Results& results) const {
         std::vector<std::string> labels;
-        std::vector<const sim::Result*> runs;
+        std::vector<std::pair<std::string, const sim::Result*>> runs;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> pairs;
-        for (const Motion& motion : motions_) {
-            if (!motion.label.empty()) labels.push_back(motion.label);
-            runs.push_back(results[motion.study]);
-            pairs.emplace_back(&motion.problem, runs.back());
+        // Panels of differences belong to the motion with data.
+        const std::size_t differences = keys_.apart ? figure.panels.size() - motions_.size() * keys_.panels.size() : 0;
+        for (std::size_t k = 0; k < motions_.size(); ++k) {
+            const SeriesMotion& motion = motions_[k];
+            const sim::Result& result = *results[motion.study];
+            const std::size_t first = k * keys_.panels.size() + (k > measured_motion_ ? differences : 0);
+            const std::string panel = fmt::format("({})", letter(first));
+            if (keys_.apart)
+                labels.push_back(filled(en() ? "{} {}, {}" : "{} {}，{}", panel, motion.label,
+                                        impacts_words(motion.problem, result, end_, lang_)));
+            else if (!motion.label.empty())
+                labels.push_back(motion.label);
+            runs.emplace_back(keys_.apart ? panel : motion.label, &result);
+            pairs.emplace_back(&motion.problem, &result);
         }
         const std::string of =
             labels.empty() ? "" : filled(en() ? ": {}" : "：{}", fmt::join(labels, en() ? "; " : "；"));
-        figure.caption = fmt::format("{}{}{}{}", all, over, of, en() ? ". " : "。");
-        if (!figure.panels.front().rules.empty())
-            figure.caption += marks_collisions(*runs.front())
+        figure.caption = fmt::format("{}{}{}", words_.caption.empty() ? series_subject(keys_, lang_) : words_.caption,
+                                     of, en() ? ". " : "。");
+        if (keys_.impacts && !figure.panels.front().rules.empty())
+            figure.caption += marks_collisions(*runs.front().second)
                                   ? (en() ? "Dashed lines: series of impacts begin. " : "虚线：冲击序列开始。")
                                   : (en() ? "Dashed lines: impacts begin. " : "虚线：冲击开始。");
-        figure.caption += runs.size() == 1 ? horizon_words(runs, end_, lang_) : "";
-        if (!labels.empty()) figure.caption += filled(en() ? "Of {}: " : "{}：", labels.front());
-        figure.caption += facts(motions_.front().problem, lang_);
+        if (keys_.against == "frequency")
+            figure.caption += spectrum_words(motions_.front().problem, keys_.from, end_, lang_);
+        else
+            figure.caption += horizon_words(runs, end_, lang_);
+        const SeriesMotion& motion = motions_[measured_motion_];
+        figure.caption += agreement_words(measured_, *results[motion.study], motion.problem, lang_);
+        figure.caption += common_facts(motions_, lang_);
         figure.accuracy = accuracy(pairs, lang_);
     }
 
     SeriesKeys keys_;
+    SeriesWords words_;
     Lang lang_;
     double end_;  // [s]
-    std::vector<Motion> motions_;
+    std::vector<SeriesMotion> motions_;
+    std::vector<Measured> measured_;
+    std::size_t measured_motion_ = 0;
     std::optional<Channel> abscissa_;  // absent: time or turns
     std::vector<std::size_t> tables_;  // of each panel, side, channel and motion, in this order
 };
 
-FigureMaker prepare_series(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    FigureOutput wanted = how;
-    if (wanted.series.panels.empty()) wanted.series.panels = {{.channels = {{ChannelKind::theta, 0}}}};
-    return SeriesFigure(scene, wanted, studies);
-}
-
 }  // namespace
 
-const Recipe kSeries{"series", {"Any channels, of one motion or of several", "任意通道"}, no_refusal, prepare_series};
+FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesWords& words, Lang lang,
+                           Studies& studies) {
+    return SeriesFigure(scene, keys, words, lang, studies);
+}
 
 }  // namespace beamcam::scenes

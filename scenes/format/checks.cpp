@@ -204,9 +204,6 @@ void judge_video(ObjectReader& r, VideoOutput& video) {
 
 // ---- figures, tables, files --------------------------------------------------------------------
 
-namespace {
-
-// Labels and titles of figures are markup.
 void judge_markup(ObjectReader& r, const std::string& key, const std::string& text) {
     try {
         render::figure::parse_markup(text);
@@ -216,6 +213,8 @@ void judge_markup(ObjectReader& r, const std::string& key, const std::string& te
                            error.what()));
     }
 }
+
+namespace {
 
 void refuse_mixed_units(ObjectReader& r, const char* key, const std::vector<sim::Channel>& channels) {
     const sim::Problem& problem = r.context().scene.problem;
@@ -231,18 +230,49 @@ void refuse_mixed_units(ObjectReader& r, const char* key, const std::vector<sim:
 void judge_series(ObjectReader& r, FigureOutput& figure) {
     SeriesKeys& series = figure.series;
     if (figure.figure != "series") {
-        for (const char* key : {"channels", "panels", "x", "from", "to", "impacts", "height", "compare"})
-            if (r.has(key)) r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"series\"", r.path(key)));
+        const Recipe* recipe = recipe_named(figure.figure);
+        const bool stretch = recipe && recipe->takes_stretch;
+        const double end = series.to.value_or(r.context().scene.end_time);
+        if (stretch && !(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
+            r.fail(r.place("from"), "from",
+                   fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
+        for (const char* key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "height",
+                                "compare", "comparison", "residuals"})
+            if (r.has(key) && !(stretch && (std::string_view(key) == "from" || std::string_view(key) == "to")))
+                r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"series\"", r.path(key)));
         return;
     }
     if (series.panels.empty() && !r.findings().any())
         r.fail(
             *r.node(), "channels",
             fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]", r.what()));
+    // Lines of a spectrum differ by orders of magnitude; panels of one's own say their scale.
+    if (series.against == "frequency" && r.has("channels"))
+        for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end))
         r.fail(r.place("from"), "from",
                fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
+    if (series.x_low && series.x_high && !(*series.x_low < *series.x_high))
+        r.fail(r.place("x_high"), "x_high", fmt::format("{} must be above \"x_low\"", r.path("x_high")));
+    if (series.impacts && series.against != "t" && series.against != "turns")
+        r.fail(r.place("impacts"), "impacts",
+               fmt::format("{}: impacts are lines over \"t\" or \"turns\" alone", r.path("impacts")));
+    if (series.apart && series.compare.empty())
+        r.fail(r.place("comparison"), "comparison",
+               fmt::format("{} = \"panels\" needs motions: \"compare\"", r.path("comparison")));
+    const auto measured = [&](const SeriesPanel& panel) {
+        return std::ranges::any_of(panel.channels, [&](const sim::Channel& channel) {
+            return std::ranges::any_of(r.context().scene.data,
+                                       [&](const Measurement& m) { return m.find(channel) != nullptr; });
+        });
+    };
+    if (series.residuals && series.against != "t" && series.against != "turns")
+        r.fail(r.place("residuals"), "residuals",
+               fmt::format("{}: differences are drawn against \"t\" or \"turns\" alone", r.path("residuals")));
+    else if (series.residuals && !r.findings().failed("data") && std::ranges::none_of(series.panels, measured))
+        r.fail(r.place("residuals"), "residuals",
+               fmt::format("{}: the scene has no \"data\" of what the panels show", r.path("residuals")));
     for (std::size_t i = 0; i < series.compare.size(); ++i) {
         std::string& label = series.compare[i].label;
         if (label.empty()) label = std::to_string(i + 1);
@@ -256,6 +286,7 @@ void judge_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     refuse_mixed_units(r, "channels", panel.channels);
     refuse_mixed_units(r, "right", panel.right);
     judge_markup(r, "title", panel.title);
+    judge_markup(r, "label", panel.label);
     if (panel.low && panel.high && !(*panel.low < *panel.high))
         r.fail(r.place("high"), "high", fmt::format("{} must be above \"low\"", r.path("high")));
     if (panel.logarithmic && panel.low && !(*panel.low > 0))
@@ -270,14 +301,27 @@ void judge_figure(ObjectReader& r, FigureOutput& figure) {
         r.fail(r.place("figure"), "figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
 }
 
-void judge_table(ObjectReader& r, TrajectoryOutput& table) {
+namespace {
+
+void refuse_many_rows(ObjectReader& r, double rate, double each) {
     constexpr double kMostRows = 20'000'000;  // 160 MB a channel
-    name_after_scene(r, table.file, ".csv");
-    const double rows = table.rate * r.context().scene.end_time;
+    const double rows = rate * r.context().scene.end_time * each;
     if (r.has("rate") && rows > kMostRows)
         r.fail(r.place("rate"), "rate",
                fmt::format("{} = {} would make {:.3g} rows, more than {:.3g}; lower it", r.path("rate"),
                            shown(r.place("rate")), rows, kMostRows));
+}
+
+}  // namespace
+
+void judge_table(ObjectReader& r, TrajectoryOutput& table) {
+    name_after_scene(r, table.file, ".csv");
+    refuse_many_rows(r, table.rate, 1);
+}
+
+void judge_shapes(ObjectReader& r, ShapesOutput& shapes) {
+    name_after_scene(r, shapes.file, "-shapes.csv");
+    refuse_many_rows(r, shapes.rate, shapes.stations);
 }
 
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {

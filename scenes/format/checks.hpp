@@ -17,6 +17,8 @@ Form layout_form(std::optional<render::LayoutNode>& layout);
 
 // Of words on pictures: a formula that cannot be read.
 void judge_words(ObjectReader& r, const char* key, const std::string& text);
+// Labels and titles of figures are markup.
+void judge_markup(ObjectReader& r, const std::string& key, const std::string& text);
 void judge_physics(ObjectReader& r, const sim::Problem& problem);
 // The units in which the scene writes its angle and its speed are those of its pictures.
 void take_written_units(ObjectReader& r, render::Units& units);
@@ -29,6 +31,7 @@ void judge_video(ObjectReader& r, VideoOutput& video);
 void judge_figure(ObjectReader& r, FigureOutput& figure);
 void judge_series_panel(ObjectReader& r, const SeriesPanel& panel);
 void judge_table(ObjectReader& r, TrajectoryOutput& table);
+void judge_shapes(ObjectReader& r, ShapesOutput& shapes);
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
 void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
 

@@ -31,7 +31,7 @@ std::optional<render::Shown> shown_preset(std::string_view name);
 inline constexpr const char* kPresets[] = {"all", "talk", "paper", "clean"};
 Form channels_form(std::vector<sim::Channel>& channels);
 Form grouped_channels_form(std::vector<SeriesPanel>& panels);  // a panel for each unit
-Form abscissa_form(std::string& against);                      // of a series: "t", "turns", or a channel
+Form abscissa_form(std::string& against);                      // of a series: "t", "turns", "frequency", or a channel
 
 // A panel for each unit, in the order in which they come.
 std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem);

@@ -63,6 +63,8 @@ void visit(SceneVisitor& v, Scene& scene) {
         [&sweep](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), sweep); },
         "Many motions over one or two keys, for `beamcam sweep`; null: none.", &swept);
     if (swept) scene.sweep = std::move(sweep);
+    v.list("data", SceneVisitor::items_of(scene.data),
+           "Measured or foreign data of the motion: series show it, summaries tell how the motion agrees with it.");
     visit_outputs(v, scene);
 }
 

@@ -86,6 +86,7 @@ void visit_outputs(SceneVisitor& v, Scene& scene);
 void visit(SceneVisitor& v, Output& output);
 void visit(SceneVisitor& v, render::LayoutNode& node);
 void visit(SceneVisitor& v, Compared& motion);
+void visit(SceneVisitor& v, Measurement& data);
 void visit(SceneVisitor& v, Sweep& sweep);
 
 Node written(const Scene& scene);  // every key, defaults too

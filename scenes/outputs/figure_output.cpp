@@ -1,4 +1,7 @@
 // Output "figure": a figure for print, made by its recipe.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <stdexcept>
 
 #include "render/plot/style.hpp"
@@ -18,13 +21,37 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}}, "Of the axis at the left.");
     v.number("low", panel.low, sim::kPlainNumber, sim::kAny, "Lower end of the axis at the left, in SI units.");
     v.number("high", panel.high, sim::kPlainNumber, sim::kAny, "Its upper end.");
+    v.numbers("lines", panel.lines, sim::kPlainNumber, sim::kAny, {}, "Lines across it, at these values of that axis.");
+    v.text("label", panel.label,
+           "Of the axis at the left, its unit follows; the channels' symbols when left out; $v_{1}$ is mathematics.");
     v.text("title", panel.title, "Above the panel; $θ$ is set as mathematics.");
     v.check([&panel](ObjectReader& r) { judge_series_panel(r, panel); });
 }
 
+// Only some figures take the keys "from" and "to", only "series" the others.
+static const std::string& restriction() {
+    static const std::string kText = [] {
+        std::vector<std::string> names;
+        for (const Recipe& recipe : recipes())
+            if (recipe.takes_stretch) names.push_back(fmt::format("\"{}\"", recipe.name));
+        return fmt::format(R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}, "required": ["figure"]}},
+        "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
+        "else": {{"properties": {{"channels": false, "panels": false, "x": false, "x_low": false, "x_high": false,
+                                  "impacts": false, "height": false, "compare": false, "comparison": false,
+                                  "residuals": false}},
+                  "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
+                  "else": {{"properties": {{"from": false, "to": false}}}}}}}})",
+                           fmt::join(names, ", "));
+    }();
+    return kText;
+}
+
 // Of the figure "series"; others have content of their own.
-static void visit_series(SceneVisitor& v, SeriesKeys& series, bool written) {
-    const auto key = [written](const char* name) { return sim::written_if(written, name); };
+static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
+    const bool is_series = figure == "series";
+    const Recipe* recipe = recipe_named(figure);
+    const bool stretch = is_series || (recipe && recipe->takes_stretch);
+    const auto key = [is_series](const char* name) { return sim::written_if(is_series, name); };
     v.form("channels", grouped_channels_form(series.panels),
            "Of the figure \"series\": what it shows, a panel for each unit; or \"panels\".");
     List panels = SceneVisitor::items_of(series.panels);
@@ -33,9 +60,16 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, bool written) {
     v.list(key("panels"), panels, "Of \"series\": its panels, above each other.");
     v.exclude("channels", "panels");
     v.form(key("x"), abscissa_form(series.against),
-           "Of \"series\": what the curves are drawn against: \"t\", \"turns\" of the cam, or a channel.");
-    v.number(key("from"), series.from, dim::kTime, kFromStart, "Of \"series\": when its curves begin.");
-    v.number(key("to"), series.to, dim::kTime, kFromStart, "When they end; with the scene when left out.");
+           "Of \"series\": what the curves are drawn against: \"t\", \"turns\" of the cam, \"frequency\" (amplitudes, "
+           "by Hann's "
+           "window), or a channel.");
+    v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
+             "Of \"series\": lower end of that axis, in SI units.");
+    v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny, "Its upper end.");
+    v.number(sim::written_if(stretch, "from"), series.from, dim::kTime, kFromStart,
+             "Of \"series\", \"kymograph\", \"strobe\" and \"impact-maps\": when what they show begins.");
+    v.number(sim::written_if(stretch, "to"), series.to, dim::kTime, kFromStart,
+             "When it ends; with the scene when left out. A \"strobe\" that begins there shows that instant alone.");
     v.truth(key("impacts"), series.impacts, "Of \"series\": lines where impacts begin.");
     v.number(key("height"), series.height, dim::kLength,
              between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
@@ -43,25 +77,28 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, bool written) {
     List compare = SceneVisitor::items_of(series.compare);
     compare.least = 2, compare.most = kMostCompared, compare.of = "motions";
     compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
-    v.restrict(R"({"if": {"properties": {"figure": {"const": "series"}}, "required": ["figure"]},
-        "then": {"anyOf": [{"required": ["channels"]}, {"required": ["panels"]}]},
-        "else": {"properties": {"channels": false, "panels": false, "x": false, "from": false, "to": false,
-                                "impacts": false, "height": false, "compare": false}}})");
+    v.restrict(restriction().c_str());
     v.list(key("compare"), compare, "Of \"series\": the motions whose curves it shows, as pictures compare them.");
+    v.choice(key("comparison"), series.apart, {{false, "overlay"}, {true, "panels"}},
+             "Of \"series\": overlay: all of them in each panel; panels: each in panels of its own, of one scale.");
+    v.truth(key("residuals"), series.residuals,
+            "Of \"series\": below each panel with measured data another with what they differ by.");
 }
 
 void FigureOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".pdf", ".svg", ".png"}),
-           "Name of the file; the figure's name with .pdf when left out.");
+    v.form("file", file_form(file, kFigureEndings), "Name of the file; the figure's name with .pdf when left out.");
     v.choice(required("figure", "\"free-fall\""), figure, recipe_names(), "Its name.");
     v.choice("column", column, render::figure::column_names(),
              "The journal's column that it fits: width and size of letters.");
-    v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400), "Dots per inch of a .png.");
+    v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400),
+             "Dots per inch of a .png, .tif or .tiff; 300 or, of .tif, 600 when left out.");
+    v.choice("text", editable, {{false, "outlines"}, {true, "editable"}},
+             "Of an .svg: letters as outlines, the same everywhere, or as text in the reader's fonts.");
     v.choice("lang", lang, {{Lang::en, "en"}, {Lang::zh, "zh"}}, "Language of labels and caption.");
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Another width than the column's.");
-    visit_series(v, series, figure == "series");
+    visit_series(v, series, figure);
     v.check([this](ObjectReader& r) { judge_figure(r, *this); });
 }
 

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 // Most pictures and films carry their scene inside; these do not.
 bool carries_no_scene(const fs::path& file) {
-    static constexpr std::string_view kEndings[] = {".csv",  ".npz", ".json", ".gif", ".apng",
-                                                    ".webp", ".vtt", ".srt",  ".html"};
+    static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp",
+                                                    ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff"};
     return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
 }
 

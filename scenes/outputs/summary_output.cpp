@@ -15,12 +15,23 @@ void SummaryOutput::visit(SceneVisitor& v) {
 }
 
 void SummaryOutput::plan(Planner& planner, std::size_t output) const {
-    const auto write = [](const DataSource& from) {
+    std::vector<std::pair<Measurement, std::size_t>> data;  // with their tables
+    for (const Measurement& each : planner.scene().data) {
+        data.emplace_back(each.within(0, planner.run_end()), 0);
+        sim::TableRequest table = data.back().first.request();
+        data.back().second = planner.add_table(std::move(table.times), std::move(table.channels));
+        planner.ask_for_horizon();
+    }
+    const auto write = [data](const DataSource& from) {
+        std::vector<output::Agreement> all;
+        for (const auto& [measurement, table] : data)
+            for (output::Agreement& each : agreements(measurement, from.run.tables[table], from.run))
+                all.push_back(std::move(each));
         const std::vector<sim::Channel>& extrema = from.request.extrema;
         if (from.file)
-            output::write_summary(*from.file, from.problem, from.run, extrema, &from.work);
+            output::write_summary(*from.file, from.problem, from.run, extrema, &from.work, all);
         else
-            output::print_json(output::summary_json(from.problem, from.run, extrema, &from.work));
+            output::print_json(output::summary_json(from.problem, from.run, extrema, &from.work, all));
         return from.run.reproducibility;
     };
     planner.look_until(planner.run_end(), file);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "output/data/table_reader.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/regression/tolerance.hpp"
 #include "scenes/sweep/make_points.hpp"

@@ -28,7 +28,8 @@ std::string impacts_text(const std::vector<sim::Impact>& impacts, double until) 
     sim::Result some;
     for (sim::Impact impact : impacts) {
         if (impact.t_start > until) continue;
-        if (!impact.t_end || *impact.t_end > until) {  // the same, however long the run was
+        impact.at_touch.reset(), impact.at_release.reset();  // these states are in the motion
+        if (!impact.t_end || *impact.t_end > until) {        // the same, however long the run was
             impact.t_end = impact.v_n_after = impact.v_t_after = impact.duration = impact.restitution = std::nullopt;
             impact.force_peak = impact.penetration_peak = impact.impulse_n = impact.impulse_t = impact.energy_lost = 0;
         }

@@ -162,6 +162,9 @@ Provenance provenance_of(const std::string& file) {
     } else if (ending == ".pdf") {
         p.kind = "PDF figure";
         read_document(output::read_pdf_metadata(file), p);
+    } else if (ending == ".eps" || ending == ".tif" || ending == ".tiff") {
+        p.kind = ending == ".eps" ? "EPS figure" : "TIFF figure";
+        read_manifest(file, p);
     } else if (ending == ".webp") {  // FFmpeg does not read moving ones
         p.kind = "film";
         read_manifest(file, p);

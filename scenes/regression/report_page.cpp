@@ -51,13 +51,13 @@ figcaption { color: var(--soft); font-size: .88rem; padding: .2rem 0; }
 @keyframes blink { 50% { opacity: 0; } }
 )";
 
-struct View {
+struct Pane {
     const char *what, *caption;
 };
-constexpr View kActual = {"actual", "what was drawn now"};
-constexpr View kExpected = {"expected", "the reference picture"};
-constexpr View kBlink = {"blink", "expected and actual in turn"};
-constexpr View kDifference = {"difference", "vermilion changed, yellow antialiasing, blue frame around all of it"};
+constexpr Pane kActual = {"actual", "what was drawn now"};
+constexpr Pane kExpected = {"expected", "the reference picture"};
+constexpr Pane kBlink = {"blink", "expected and actual in turn"};
+constexpr Pane kDifference = {"difference", "vermilion changed, yellow antialiasing, blue frame around all of it"};
 
 std::string image(const std::string& entry, long frame, const char* what) {
     return fmt::format("<img alt=\"{}\" src=\"{}\">", what, report_picture(entry, frame, what).string());
@@ -65,11 +65,11 @@ std::string image(const std::string& entry, long frame, const char* what) {
 
 std::string frame_html(const EntryResult& entry, long number, const FrameResult& frame) {
     if (frame.actual.empty()) return {};
-    std::vector<View> views = {kActual};
+    std::vector<Pane> views = {kActual};
     if (frame.compared) views = {kActual, kExpected, kBlink};
     if (!frame.difference.empty()) views.push_back(kDifference);
     std::string choices, figures;
-    for (const View& view : views) {
+    for (const Pane& view : views) {
         choices += fmt::format(
             "<input type=\"radio\" class=\"pick-{0}\" name=\"{1}-{2}\" id=\"{1}-{2}-{0}\"{3}>"
             "<label for=\"{1}-{2}-{0}\">{0}</label>\n",

@@ -98,10 +98,10 @@ bool has_statistics(AttractorClass kind) { return !has_period(kind) && kind != A
 // ---- statistics -------------------------------------------------------------------------------------
 
 // A mean over blocks and its standard error.
-struct Estimate {
+struct MeanEstimate {
     double value = 0, error = 0;
 };
-Estimate estimate(const std::vector<double>& blocks) {
+MeanEstimate estimate(const std::vector<double>& blocks) {
     if (blocks.size() < kFewestBlocks) return {0, INFINITY};
     const auto n = static_cast<double>(blocks.size());
     double sum = 0, squares = 0;
@@ -120,7 +120,7 @@ class Blocks {
         }
     }
     template <class Function>
-    Estimate mean(Column samples, Function&& of) const {
+    MeanEstimate mean(Column samples, Function&& of) const {
         std::array<double, kBlocks> sum{}, count{};
         for (std::size_t i = 0; i < samples.size(); ++i) sum[block_[i]] += of(samples[i]), ++count[block_[i]];
         std::vector<double> means;
@@ -128,7 +128,7 @@ class Blocks {
             if (count[b] > 0) means.push_back(sum[b] / count[b]);
         return estimate(means);
     }
-    Estimate number() const {
+    MeanEstimate number() const {
         std::vector<double> count(kBlocks);
         for (const std::size_t block : block_) ++count[block];
         return estimate(count);
@@ -264,7 +264,7 @@ class SweepComparer {
         if (const std::string why = compared("number of samples a block", in_a.number(), in_b.number(), 1);
             !why.empty())
             return why;
-        const Estimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
+        const MeanEstimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
             after{b_.at(b, "exponent"), b_.at(b, "exponent_error")};
         if (std::isnan(before.value) != std::isnan(after.value)) return "the exponent appeared or vanished";
         // Lasting contact, which forgets every difference, may have occurred once.
@@ -274,7 +274,7 @@ class SweepComparer {
             const std::string& column = a_.values()[c];
             const Column x = a_.samples(a, c), y = b_.samples(b, c);
             const auto itself = [](double value) { return value; };
-            const Estimate mean = in_a.mean(x, itself);
+            const MeanEstimate mean = in_a.mean(x, itself);
             if (std::string why = compared("mean of " + column, mean, in_b.mean(y, itself), ranges_[c]); !why.empty())
                 return why;
             const auto square = [&](double value) { return (value - mean.value) * (value - mean.value); };
@@ -286,7 +286,7 @@ class SweepComparer {
         return {};
     }
 
-    std::string compared(const std::string& what, const Estimate& a, const Estimate& b, double range) {
+    std::string compared(const std::string& what, const MeanEstimate& a, const MeanEstimate& b, double range) {
         const double step = b.value - a.value, error = std::hypot(a.error, b.error);
         if (std::isfinite(step) && std::isfinite(error)) {
             Change& all = over_points_[what];

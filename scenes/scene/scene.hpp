@@ -4,6 +4,7 @@
 // beamcam-scene.schema.json; `reader.hpp` makes a Scene from a file.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "output/film/video_format.hpp"
 #include "render/film/film.hpp"
+#include "scenes/scene/measurement.hpp"
 #include "scenes/scene/sweep.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/problem/problem.hpp"
@@ -232,6 +234,18 @@ struct TrajectoryOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
+struct ShapesOutput {
+    static constexpr const char *kType = "shapes",
+                                *kMeaning = "The deflection along the beam in time: a row for each instant and place.";
+    static constexpr bool kIsData = true;
+    std::string file;    // .csv or .npz
+    double rate = 1000;  // [Hz], instants k/rate and the end
+    int stations = 33;   // places along the beam, both ends included
+
+    Extent extent() const { return Extent::scene; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
 struct ImpactsOutput {
     static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
     static constexpr bool kIsData = true;
@@ -256,37 +270,46 @@ struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
     bool logarithmic = false;
     std::optional<double> low = {}, high = {};  // of the axis at the left, in SI units
+    std::vector<double> lines = {};             // across the panel, at these values of that axis
+    std::string label = {};                     // of that axis, before the unit; empty: the channels' symbols
     std::string title = {};
 };
 // What the figure "series" shows; other figures have content of their own.
 struct SeriesKeys {
-    std::vector<SeriesPanel> panels;
-    std::string against = "t";      // "t", "turns" of the cam, or a channel
-    double from = 0;                // [s]
-    std::optional<double> to;       // [s]; absent: the end of the scene
-    std::vector<Compared> compare;  // absent: this motion alone
-    bool impacts = false;           // lines where impacts begin
-    std::optional<double> height;   // [m]; absent: what suits the panels
+    std::vector<SeriesPanel> panels = {};
+    std::string against = "t";                      // "t", "turns" of the cam, "frequency", or a channel
+    std::optional<double> x_low = {}, x_high = {};  // of its axis; SI units or turns
+    double from = 0;                                // [s]
+    std::optional<double> to = {};                  // [s]; absent: the end of the scene
+    std::vector<Compared> compare = {};             // absent: this motion alone
+    bool apart = false;                             // each of these in panels of its own
+    bool impacts = false;                           // lines where impacts begin
+    bool residuals = false;                         // below each panel with data, what the data differ by
+    std::optional<double> height = {};              // [m]; absent: what suits the panels
 };
+inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {
     static constexpr const char *kType = "figure",
                                 *kMeaning = "A figure for print: one of those that `beamcam figure SCENE` lists.";
     static constexpr bool kIsData = false;
-    std::string file;                 // .pdf, .svg or .png
+    std::string file;                 // of one of kFigureEndings
     std::string figure;               // its name, see figures/recipes.hpp
     std::string column = "elsevier";  // a journal's, see render/plot/style.hpp
     std::optional<double> width;      // [m]; absent: the column's
     Lang lang = Lang::en;
-    double dpi = 300;  // of .png
+    std::optional<double> dpi;  // of pixels; absent: 300 of .png, 600 of .tif
+    bool editable = false;      // text of .svg as text
     SeriesKeys series;
     std::string data_file, caption_file;  // beside it; only the command line asks for them
 
     Extent extent() const { return series.to ? Extent::keys : Extent::scene; }
+    bool is_tiff() const { return file.ends_with(".tif") || file.ends_with(".tiff"); }
+    double resolution() const { return dpi.value_or(is_tiff() ? 600 : 300); }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
 using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
-                            TrajectoryOutput, ImpactsOutput, SummaryOutput>;
+                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SummaryOutput>;
 
 // About what a thread needs to draw it [bytes], and from where on people are told.
 double memory_of(const Picture& picture);
@@ -306,6 +329,7 @@ struct Scene {
     sim::Problem problem;
     double end_time = 1.5;  // [s], > 0
     std::optional<Sweep> sweep;
+    std::vector<Measurement> data;
     std::vector<Output> outputs;
     // Where each stands, for messages: "fall.json:12:5"; none of those that a command adds.
     std::vector<std::string> output_places;

@@ -57,7 +57,9 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
             for (Eigen::Index i = 0; i < size; ++i) y += jy[i] * xi[i];
             mode.shape.push_back({x, y});
         }
-        if (mode.shape.back().y < 0)
+        Eigen::Index most = 0;
+        natural.shapes.col(j).cwiseAbs().maxCoeff(&most);
+        if (natural.shapes(most, j) < 0)
             for (Vec2& at : mode.shape) at.y = -at.y;
     }
     return modes;

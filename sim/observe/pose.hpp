@@ -33,4 +33,7 @@ struct Pose {
     std::optional<Nearest> nearest;  // absent without a cam
 };
 
+// At the stations, from the tangent at the root, along its normal: as the channel tip_deflection is at the tip [m].
+std::vector<double> deflection(const Pose& pose);
+
 }  // namespace beamcam::sim

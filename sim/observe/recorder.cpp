@@ -289,6 +289,18 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary& known) {
     largest_elastic_ = known.largest_elastic;
 }
 
+TouchState Recorder::touch_state(double t, const double* y, const ContactState& c) {
+    evaluator_.set(t, y);
+    evaluator_.set_contact(c);
+    TouchState out;
+    out.theta = evaluator_.value({ChannelKind::theta, 0});
+    out.theta_dot = evaluator_.value({ChannelKind::theta_dot, 0});
+    out.contact_s = evaluator_.value({ChannelKind::contact_s, 0});
+    const int count = problem_.beam.model == ModelKind::rigid ? 0 : problem_.beam.modes;
+    for (int i = 1; i <= count; ++i) out.q.push_back(evaluator_.value({ChannelKind::q, i}));
+    return out;
+}
+
 void Recorder::touch(double t, const double* y, const ContactState& c) {
     const double* ledger = y + evaluator_.system().controlled;
     impact_open_ = true;
@@ -303,6 +315,7 @@ void Recorder::touch(double t, const double* y, const ContactState& c) {
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);
+    impact.at_touch = touch_state(t, y, c);
     if (problem_.contact.model == ContactModel::compliant) impact.force_peak = c.force;
     std::vector<Collision>& collisions = result_.collisions;
     const bool joins = !collisions.empty() && t - collisions.back().t_end.value_or(t) < problem_.contact.collision_gap;
@@ -328,6 +341,7 @@ void Recorder::release(double t, const double* y, const ContactState& c) {
     impact.duration = t - impact.t_start;
     impact.v_n_after = c.gap_rate;
     impact.v_t_after = c.slip;
+    impact.at_release = touch_state(t, y, c);
     if (impact.v_n_before < 0) impact.restitution = -c.gap_rate / impact.v_n_before;
     settle(y);
     impact_open_ = false;

@@ -50,6 +50,7 @@ class Recorder {
     void ledger(const SegmentInterval& s);
     void note_balance();
     void settle(const double* y);
+    TouchState touch_state(double t, const double* y, const ContactState& contact);
     template <class F>
     void sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit);
 

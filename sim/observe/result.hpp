@@ -11,6 +11,13 @@
 
 namespace beamcam::sim {
 
+// Of the motion where a touch begins or ends.
+struct TouchState {
+    double theta = 0, theta_dot = 0;  // [rad], [rad/s]
+    double contact_s = 0;             // [m]
+    std::vector<double> q;            // the scene's coordinates [m]
+};
+
 // One touch, from approach to release. Speeds: v_n < 0 approaches; v_t is beam minus cam material.
 struct Impact {
     double t_start = 0;                          // [s]
@@ -26,6 +33,8 @@ struct Impact {
     std::optional<double> restitution;           // −v_n_after / v_n_before
     double energy_lost = 0;                      // contact + friction losses between touch and release [J]
     int collision = 0;                           // 0-based index into the collisions
+    std::optional<TouchState> at_touch;          // before the impulse, if there is one; absent: not kept
+    std::optional<TouchState> at_release;        // after it
 };
 
 // Impacts closer than contact.collision_gap.

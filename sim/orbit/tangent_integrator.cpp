@@ -202,7 +202,7 @@ void TangentIntegrator::saltation(double t, const double* after, const Phase& wa
     if (jumps)
         strike(t, after, was, is);
     else if (!was.touching && is.touching)
-        touch(t, was, is);
+        begin_touch(t, was, is);
     else if (was.touching && !is.touching)
         release();
     else if (was.grip != is.grip)
@@ -282,7 +282,7 @@ void TangentIntegrator::keep_on_cam(double t, const double* y) {
 }
 
 // State and force go on; what the touch keeps is its approach speed, unless that is the floor or an earlier one. (S72)
-void TangentIntegrator::touch(double t, const Phase& was, const Phase& is) {
+void TangentIntegrator::begin_touch(double t, const Phase& was, const Phase& is) {
     for (Eigen::Index first = 0; first == 0 || first < columns_; first += kFlow) {
         const JetState s = event_jets(t, was, first);
         if (first == 0 && -near_.gap_rate > kRestSpeed) touches_.push_back({t, -near_.gap_rate});

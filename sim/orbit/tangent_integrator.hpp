@@ -58,7 +58,7 @@ class TangentIntegrator final : public Integrator, private Segment {
     void value(double t, double* y) const override;
     void saltation(double t, const double* after, const Phase& was, const Phase& is);
     void strike(double t, const double* after, const Phase& was, const Phase& is);
-    void touch(double t, const Phase& was, const Phase& is);
+    void begin_touch(double t, const Phase& was, const Phase& is);
     JetState event_jets(double t, const Phase& was, Eigen::Index first);
     void change_grip(double t, const double* after, const Phase& was, const Phase& is);
     void release();

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "render/base/error.hpp"
 #include "render/plot/panel.hpp"
@@ -294,6 +295,72 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
     }
 }
 
+// Panels with what a series may have: two axes, many curves, long titles, common powers of ten, marks, rules.
+Figure random_figure(std::mt19937& random) {
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const auto chance = [&] { return below(2) == 0; };
+    Figure figure;
+    figure.name = "test";
+    const int panels = 1 + below(4);
+    figure.stack = chance(), figure.share_x = figure.stack && chance();
+    figure.aspect = 0.4 * panels + 0.3;
+    for (int k = 0; k < panels; ++k) {
+        Panel panel;
+        if (panels > 1) panel.letter = std::string(1, static_cast<char>('a' + k));
+        for (int word = below(4) == 0 ? 12 : below(6); word > 0; --word)
+            panel.title += (panel.title.empty() ? "" : " ") + std::string(chance() ? "$ω_{\\r{c}}$ =" : "vibration");
+        panel.x.label = chance() ? "$t$ / s" : "phase of the cam / (2π)";
+        panel.y.label = chance() ? "$F_{\\r{c}}$ / (kN m^{−1})" : "max |$Δθ$| of all / rad";
+        panel.legend = static_cast<Legend>(below(3));
+        const double scale = std::pow(10, below(13) - 6), from = std::pow(10, below(7) - 3);
+        if (chance()) panel.right = Axis{.label = "$δ^{2}$ / µm"};
+        for (int curve = 1 + below(5); curve > 0; --curve) {
+            Series s;
+            if (chance()) s.label = chance() ? "flexible, 2 modes" : "$q_{1}$";
+            s.right = panel.right && chance();
+            s.look = curve;
+            const double pace = 1 + below(300);
+            for (int i = 0; i <= 100; ++i)
+                s.x.push_back(from * (1 + i / 100.0)), s.y.push_back(scale * (below(3) + std::sin(i * pace / 100.0)));
+            panel.series.push_back(std::move(s));
+        }
+        if (panel.right) panel.series.front().right = false, panel.series.push_back(panel.series.front());
+        if (panel.right) panel.series.back().right = true, panel.series.back().label.clear();
+        if (chance()) panel.rules.push_back({.at = from * 1.3, .vertical = true, .label = "impact"});
+        if (chance()) panel.marks.push_back({.x = from * 1.5, .y = scale, .label = "0.369 99 s"});
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+TEST(Figure, NoTwoTextsCollideInTwoHundredRandomFigures) {
+    std::mt19937 random(1);
+    const std::span<const Column> all = columns();
+    int refused = 0;
+    for (int seed = 0; seed < 200; ++seed) {
+        const Figure figure = random_figure(random);
+        const Column& column = all[static_cast<std::size_t>(seed) % all.size()];
+        Drawn drawn;
+        try {
+            drawn = draw_png(figure, column.name);
+        } catch (const PictureError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("no room for the plot"));
+            ++refused;
+            continue;
+        }
+        const Page sheet = page_of(figure, column);
+        const Box page{0, 0, points(sheet.width), points(sheet.height)};
+        for (std::size_t i = 0; i < drawn.written.size(); ++i) {
+            const Sheet::Written& one = drawn.written[i];
+            EXPECT_TRUE(page.contains(one.box, 1.5)) << seed << " " << column.name << ": " << one.markup;
+            for (std::size_t k = 0; k < i; ++k)
+                EXPECT_FALSE(one.box.inset(0.5).overlaps(drawn.written[k].box.inset(0.5)))
+                    << seed << " " << column.name << ": " << one.markup << " over " << drawn.written[k].markup;
+        }
+    }
+    EXPECT_LT(refused, 40);
+}
+
 TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
     Figure figure = plot({0, 1}, {0, 1});
     figure.panels[0].rules = {
@@ -350,6 +417,39 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
     EXPECT_EQ(bytes(Medium::svg), bytes(Medium::svg));
     EXPECT_THAT(bytes(Medium::svg), HasSubstr("width=\"90mm\""));
     EXPECT_THAT(bytes(Medium::svg), HasSubstr("<title>a &lt; b</title>"));
+}
+
+std::string bytes_of(const Figure& figure, Medium medium, const Document& document) {
+    const Page page = page_of(figure, *column_named("elsevier"));
+    const Fonts fonts(false, Typefaces::print);
+    Sheet sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
+    draw(figure, page, sheet);
+    return sheet.bytes();
+}
+
+TEST(Figure, EpsHasItsSizeAndNoClock) {
+    Document document;
+    document.title = "θ(t)\n%%EOF", document.creator = "test", document.created = 1000000000;
+    const std::string eps = bytes_of(plot({0, 1}, {0, 1}), Medium::eps, document);
+    EXPECT_THAT(eps, ::testing::StartsWith("%!PS-Adobe-3.0 EPSF-3.0"));
+    EXPECT_THAT(eps, HasSubstr("%%CreationDate: 2001-09-09T01:46:40Z\n"));
+    EXPECT_THAT(eps, HasSubstr("%%BoundingBox: 0 0 "));
+    EXPECT_THAT(eps, HasSubstr("\n%%Title:   (t) %%EOF\n"));
+    EXPECT_EQ(eps, bytes_of(plot({0, 1}, {0, 1}), Medium::eps, document));
+}
+
+TEST(Figure, SvgHasTextOnRequest) {
+    const Figure figure = plot({0, 1}, {0, 1});
+    Document editable;
+    editable.editable = true;
+    const std::string outlines = bytes_of(figure, Medium::svg, {}), text = bytes_of(figure, Medium::svg, editable);
+    EXPECT_EQ(outlines.find("<text"), std::string::npos);
+    EXPECT_THAT(outlines, HasSubstr("<use xlink:href=\"#glyph"));
+    EXPECT_EQ(text.find("<use xlink:href=\"#glyph"), std::string::npos);
+    EXPECT_THAT(text, HasSubstr(">θ</text>"));
+    EXPECT_THAT(text, HasSubstr(" rotate(-90.000)"));
+    EXPECT_THAT(text, HasSubstr("font-style=\"italic\""));
+    EXPECT_THAT(text, ::testing::EndsWith("</text>\n</svg>\n"));
 }
 
 TEST(Figure, LongSeriesMakeSmallFiles) {

@@ -84,7 +84,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "figure s.json -o a.pdf",
                                   "figure s.json schematic",
                                   "figure s.json shematic -o a.pdf",
-                                  "figure s.json schematic -o a.eps",
+                                  "figure s.json schematic -o a.bmp",
                                   "figure s.json schematic -o a.pdf --column brill",
                                   "figure s.json schematic -o a.pdf --width 3",
                                   "figure s.json schematic -o a.pdf --data a.txt",

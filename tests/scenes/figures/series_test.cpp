@@ -1,4 +1,5 @@
 // The figure "series": any channels, of one motion or of several.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "render/base/error.hpp"
 #include "render/plot/text.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "sim/beam/modes.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -45,7 +47,7 @@ TEST(Series, HasAPanelForEachUnit) {
     EXPECT_EQ(figure.panels[1].y.label, "$F$ / N");
     EXPECT_EQ(figure.panels[2].y.label, "$w$, $q_{1}$ / mm");
     EXPECT_EQ(figure.panels[2].series.size(), 2u);
-    EXPECT_EQ(figure.panels[2].x.label, "$t$ / ms");
+    EXPECT_EQ(figure.panels[2].x.label, "$t$ / s");
     for (const auto& panel : figure.panels) EXPECT_NO_THROW(render::figure::parse_markup(panel.y.label));
 }
 
@@ -98,7 +100,7 @@ TEST(Series, PanelsShareOneAxis) {
         figure_of(R"("panels": [{"channels": ["theta"]}, {"channels": ["contact_force"], "scale": "log"}])");
     for (const auto& panel : figure.panels) {
         EXPECT_EQ(panel.x.from, 0);
-        EXPECT_NEAR(*panel.x.to, 400, 1e-9);
+        EXPECT_NEAR(*panel.x.to, 0.4, 1e-12);
     }
 }
 
@@ -115,9 +117,115 @@ TEST(Series, CountsPotentialEnergyFromItsLeast) {
 TEST(Series, MarksImpacts) {
     const Figure figure = figure_of(R"("channels": ["theta"], "impacts": true)");
     ASSERT_EQ(figure.panels[0].rules.size(), 1u);
-    EXPECT_NEAR(figure.panels[0].rules[0].at, 277.394, 1e-3);  // [ms]
+    EXPECT_NEAR(figure.panels[0].rules[0].at, 0.277394, 1e-6);
     EXPECT_THAT(figure.caption, HasSubstr("Dashed lines: impacts begin."));
     EXPECT_THAT(figure_of(R"("channels": ["theta"])").caption, Not(HasSubstr("Dashed")));
+}
+
+TEST(Series, ShowsMotionsApartOnOneScale) {
+    const Figure figure = figure_of(
+        R"("panels": [{"channels": ["theta"], "lines": [0.4], "label": "angle"}], "comparison": "panels",
+           "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}])");
+    ASSERT_EQ(figure.panels.size(), 2u);
+    for (const auto& panel : figure.panels) {
+        EXPECT_EQ(panel.series.size(), 1u);
+        EXPECT_EQ(panel.y.label, "angle / rad");
+        EXPECT_EQ(panel.rules.front().at, 0.4);
+        EXPECT_EQ(panel.y.from, figure.panels.front().y.from);
+        EXPECT_EQ(panel.y.to, figure.panels.front().y.to);
+    }
+    EXPECT_EQ(figure.panels[1].title, "fast");
+    // One unit, however much smaller the values of one motion are.
+    const Figure forces = figure_of(R"("channels": ["contact_force"], "comparison": "panels",
+           "compare": [{"label": "flexible"}, {"label": "rigid", "set": {"beam.model": "rigid"}}])");
+    EXPECT_EQ(forces.panels[0].y.label, "$F$ / kN");
+    EXPECT_EQ(forces.panels[1].y.label, "$F$ / kN");
+    EXPECT_LT(largest(forces.panels[0].series[0].y), 0.5);
+    EXPECT_THAT(figure.caption, HasSubstr("(a) slow, 1 impact; (b) fast, 1 impact."));
+    EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "channels": ["theta"],
+                                 "comparison": "panels"}]})")
+                    .report(),
+                HasSubstr("needs motions"));
+}
+
+// Without a cam the tip swings in its natural frequencies alone.
+TEST(Series, SpectraHaveTheirPeaksAtTheNaturalFrequencies) {
+    const Figure figure =
+        figure_of(R"("x": "frequency", "x_high": 600, "panels": [{"channels": ["tip_deflection"], "scale": "log"}])",
+                  R"("cam": null,)");
+    const auto& s = figure.panels[0].series[0];
+    EXPECT_EQ(figure.panels[0].x.label, "$f$ / Hz");
+    EXPECT_LE(s.x.back(), 600);
+    const double bin = s.x[1] - s.x[0];
+    EXPECT_NEAR(bin, 1 / 0.4, 1e-9);
+    for (const sim::Mode& mode : sim::natural_modes(testing::read("{}").scene->problem)) {
+        const auto at = static_cast<std::size_t>(std::lround(mode.omega / (2 * M_PI) / bin));
+        const double peak = std::max({s.y[at - 1], s.y[at], s.y[at + 1]});
+        EXPECT_GT(peak, 20 * std::max(s.y[at - 12], s.y[at + 12])) << mode.omega;
+    }
+    EXPECT_THAT(figure.caption, HasSubstr("Hann window, resolution 3.8 Hz"));
+}
+
+// A scene of a folder with measurements: of θ, shifted, in degrees and milliseconds.
+constexpr const char* kRig = R"({"time": {"end": 0.4}, "data": [{"file": "rig.csv", "label": "rig", "t": "time",
+    "theta": "angle", "units": {"angle": "deg", "time": "ms"}, "offset": "-100 ms"}], "outputs": [
+    {"type": "figure", "figure": "series", "channels": ["theta"], "residuals": true, "file": "f.svg"},
+    {"type": "summary", "file": "s.json"}]})";
+
+TEST(Measured, DataAreDrawnAndJudged) {
+    const Folder folder;
+    folder.write("base.json", R"({"time": {"end": 0.4}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM simulate base.json --times 0,0.1,0.2,0.3,0.35 --channels theta > a.csv").code, 0);
+    std::istringstream rows(testing::slurp(folder / "a.csv"));
+    std::string line, rig = "time,angle,other\n";
+    std::getline(rows, line);
+    while (std::getline(rows, line)) {
+        const double t = std::stod(line), theta = std::stod(line.substr(line.find(',') + 1));
+        rig += fmt::format("{},{:.12f},1\n", t * 1e3 + 100, (theta + (t < 0.25 ? 0.01 : -0.03)) * 180 / M_PI);
+    }
+    folder.write("rig.csv", rig);
+    folder.write("m.json", kRig);
+    const Finished made = shell(folder, "$BEAMCAM run m.json -o . -q");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const std::string summary = testing::slurp(folder / "s.json");
+    const auto number = [&](const std::string& key) {
+        const std::size_t at = summary.find("\"" + key + "\": ", summary.find("\"data\""));
+        return at == std::string::npos ? -1 : std::stod(summary.substr(at + key.size() + 4));
+    };
+    EXPECT_EQ(number("rows"), 5);
+    EXPECT_NEAR(number("rms"), std::sqrt((3 * 1e-4 + 2 * 9e-4) / 5), 1e-9);
+    EXPECT_NEAR(number("largest"), -0.03, 1e-9);
+    EXPECT_EQ(number("collision"), 1);
+    // The same with data that changed is not up to date.
+    EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, Not(HasSubstr("wrote")));
+    folder.write("rig.csv", rig + "490,20,1\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, HasSubstr("wrote"));
+    const Finished drawn = shell(folder, "$BEAMCAM figure m.json angle -o a.svg --data d.csv --caption c.txt");
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_THAT(testing::slurp(folder / "d.csv"), HasSubstr("1,rig,t / s,0.100000000"));
+    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Data “rig”: at 6 instants θ differs by 0.0"));
+}
+
+TEST(Measured, BadFilesAreToldWithTheirPlace) {
+    const Folder folder;
+    folder.write("m.json", kRig);
+    const auto told = [&](const std::string& rig) {
+        folder.write("rig.csv", rig);
+        const Finished checked = shell(folder, "$BEAMCAM check m.json");
+        EXPECT_EQ(checked.code, 3);
+        return checked.out + checked.err;
+    };
+    EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err, HasSubstr("rig.csv\": No such file"));
+    EXPECT_THAT(told("time,angle\n100,45\n200,x\n"), HasSubstr("rig.csv:3:5: \"x\" is not a number"));
+    EXPECT_THAT(told("time,angle\n100,45\n90,44\n"), HasSubstr("line 3: the time does not increase"));
+    EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("there is no column \"angle\"; did you mean \"angel\"?"));
+    EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row is between 0 and 0.4 s"));
+    EXPECT_THAT(told(""), HasSubstr("the file is empty"));
+    folder.write("rig.csv", "time,angle\n100,45\n");
+    EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
+                HasSubstr("\"mm\" is no unit of theta, which is in rad"));
+    EXPECT_THAT(shell(folder, R"(sed 's/rig.csv/./' m.json > n.json; $BEAMCAM check n.json)").err,
+                HasSubstr("not a regular file"));
 }
 
 TEST(Series, OptionsAreKeysOfTheScene) {

@@ -174,6 +174,7 @@ std::vector<SortedJson> alternatives(const SortedJson& value, const std::set<std
         ++others.back().get_ref<std::string&>()[digit];
     }
     others.emplace_back("other " + text);
+    if (text == "deg") others.emplace_back("rad");
     for (const auto& entry : fs::directory_iterator(folder)) others.emplace_back(entry.path().filename().string());
     return others;
 }
@@ -209,7 +210,7 @@ Identities identities(const Scene& scene) {
 
 bool is_mechanics(const std::string& section) {
     return section != "$schema" && section != "title" && section != "time" && section != "units" &&
-           section != "sweep" && section != "outputs";
+           section != "sweep" && section != "data" && section != "outputs";
 }
 
 // Whether another value of the leaf is another motion, or is only drawn or written.
@@ -228,7 +229,9 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (place.starts_with("/outputs/")) return place.starts_with(fmt::format("/outputs/{}/", output));
     const Output& any = scene.outputs[output];
     const bool data = std::holds_alternative<TrajectoryOutput>(any) || std::holds_alternative<ImpactsOutput>(any) ||
-                      std::holds_alternative<SummaryOutput>(any);
+                      std::holds_alternative<SummaryOutput>(any) || std::holds_alternative<ShapesOutput>(any);
+    if (place.starts_with("/data/"))
+        return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any);
     if (place == "/$schema" || place.starts_with("/sweep/")) return false;
     if (place == "/title") return !data;
     if (place.starts_with("/units/")) return is_picture(any);

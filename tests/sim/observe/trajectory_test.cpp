@@ -29,6 +29,11 @@ struct Collector {
         (*this)(i.v_t_before), (*this)(i.v_n_after), (*this)(i.v_t_after), (*this)(i.duration), (*this)(i.force_peak);
         (*this)(i.penetration_peak), (*this)(i.impulse_n), (*this)(i.impulse_t), (*this)(i.restitution);
         (*this)(i.energy_lost), (*this)(i.collision);
+        for (const auto* state : {&i.at_touch, &i.at_release}) {
+            if (!*state) continue;
+            (*this)((*state)->theta), (*this)((*state)->theta_dot), (*this)((*state)->contact_s);
+            for (double q : (*state)->q) (*this)(q);
+        }
     }
     void operator()(const Collision& c) {
         (*this)(c.t_start), (*this)(c.t_end), (*this)(c.count), (*this)(c.x), (*this)(c.v_n_before);

@@ -1,0 +1,65 @@
+#include "scenes/figures/measured.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/plot/channel_label.hpp"
+
+namespace beamcam::scenes {
+
+std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channel>& channels, double from, double to,
+                               std::size_t study, Studies& studies) {
+    std::vector<Measured> out;
+    for (const Measurement& each : scene.data) {
+        Measurement data = each.of(channels).within(from, to);
+        if (data.columns.empty() || data.times.empty()) continue;
+        std::vector<sim::TableRequest>& tables = studies.request(study).tables;
+        tables.push_back(data.request());
+        out.push_back({std::move(data), tables.size() - 1});
+    }
+    return out;
+}
+
+render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y,
+                                       int look) {
+    constexpr std::size_t kManyPoints = 300;  // beyond, marks are a band
+    render::figure::Series s;
+    s.label = data.label;
+    s.look = look;
+    s.weight = 0.7;
+    s.line = data.drawn == Measurement::Drawn::line ||
+             (data.drawn == Measurement::Drawn::automatic && x.size() > kManyPoints);
+    s.every_point = !s.line;
+    s.x = std::move(x), s.y = std::move(y);
+    return s;
+}
+
+std::string agreement_words(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
+                            Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string text;
+    for (const Measured& each : all)
+        for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
+            const std::string symbol = render::print_symbol(a.channel), unit = sim::unit(a.channel, problem);
+            if (a.whole.rows > 0)
+                text +=
+                    filled(en ? "Data “{}”: at {} instants {} differs by {} {} (root mean square), at most by {} {} at "
+                                "{} s. "
+                              : "{}，{} 个时刻：{} 的均方根差为 {} {}，最大差 {} {}（{} s）。",
+                           a.label, a.whole.rows, symbol, number(a.whole.rms, 2), unit, number(a.whole.largest, 2),
+                           unit, number(a.whole.t_largest, 4));
+            if (!a.beyond) continue;
+            const auto& [rows, m, c] = *a.beyond;
+            text +=
+                filled(en ? "Data “{}”: at {} instants $θ$ is not reproducible and single values mean nothing: "
+                            "mean {} {} and standard deviation {} {}, computed {} {} and {} {}. "
+                          : "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {} {}、标准差 {} {}，计算值为 {} {}、{} "
+                            "{}。",
+                       a.label, rows, number(m.mean, 3), unit, number(m.deviation, 3), unit, number(c.mean, 3), unit,
+                       number(c.deviation, 3), unit);
+        }
+    return text;
+}
+
+}  // namespace beamcam::scenes

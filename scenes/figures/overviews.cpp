@@ -1,0 +1,229 @@
+// A motion at a glance: the deflection along the beam in time, the mechanism at several instants, impacts as maps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/plot/ticks.hpp"
+#include "scenes/figures/recipes.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Series;
+using render::figure::Shape;
+using sim::Vec2;
+
+constexpr int kColumns = 600, kStations = 65;  // of a kymograph: a printed column resolves no more
+constexpr int kShownPoses = 9;
+
+// The stretch of the scene that a figure shows, and its poses.
+struct Stretch {
+    double from, to;
+    std::size_t study, poses;
+};
+Stretch stretch(const Scene& scene, const FigureOutput& how, const char* name, int count, int stations,
+                Studies& studies) {
+    Stretch out{how.series.from, how.series.to.value_or(scene.end_time), 0, 0};
+    out.study = studies.of(scene.problem, out.to, name);
+    std::vector<sim::PoseRequest>& poses = studies.request(out.study).poses;
+    out.poses = poses.size();
+    poses.push_back({.times = instants({out.from, out.to, count}), .stations = stations});
+    return out;
+}
+
+// ---- deflection along the beam in time --------------------------------------------------------------
+
+FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const Stretch shown = stretch(scene, how, "kymograph", kColumns, kStations, studies);
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[shown.study];
+        std::vector<double> v;  // by instants
+        for (const sim::Pose& pose : result.poses[shown.poses])
+            for (const double each : sim::deflection(pose)) v.push_back(each);
+        const auto [least, most] = std::ranges::minmax(v);
+        const render::Prefix prefix = render::prefix_for(std::max(-least, most));
+        const double range = most > least ? most - least : 1;
+        Panel panel;
+        panel.x.label = "$t$ / s";
+        panel.y.label = "$x$ / m";
+        panel.y.tight = true;
+        panel.legend = Legend::none;
+        panel.color_bar = render::figure::ColorBar{.label = fmt::format("$v$($x$, $t$) / {}m", prefix.symbol),
+                                                   .from = least / prefix.factor,
+                                                   .to = (least + range) / prefix.factor};
+        render::figure::Cells cells;
+        for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
+        for (int i = 0; i <= kStations; ++i) cells.y.push_back(problem.beam.length * i / kStations);
+        for (std::size_t i = 0; i < kStations; ++i)
+            for (std::size_t k = 0; k < kColumns; ++k)
+                cells.colors.push_back(render::figure::map_color((v[k * kStations + i] - least) / range));
+        panel.cells.push_back(std::move(cells));
+        int hits = 0;
+        for (const sim::Impact& hit : result.impacts)
+            if (hit.t_start >= shown.from && hit.t_start <= shown.to)
+                panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true}), ++hits;
+        Figure figure;
+        figure.name = "kymograph";
+        figure.title = en ? "Deflection along the beam in time" : "梁挠度的时空图";
+        figure.panels.push_back(std::move(panel));
+        figure.caption = filled(en ? "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
+                                     "time, a column each {} s. "
+                                   : "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
+                                number((shown.to - shown.from) / (kColumns - 1), 2));
+        if (hits > 0) figure.caption += en ? "Marks: impacts. " : "标记：冲击。";
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+// ---- the mechanism at several instants --------------------------------------------------------------
+
+void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, std::vector<Shape>& out) {
+    out.push_back({.kind = Shape::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
+    if (!problem.cam) return;
+    out.push_back({.kind = Shape::Kind::circle,
+                   .centre = pose.disc_centre,
+                   .radius = problem.cam->radius,
+                   .color = color,
+                   .width = 0.9});
+    const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
+    out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = color, .width = 0.6});
+}
+
+FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const bool one = how.series.to && *how.series.to == how.series.from;
+    const Stretch shown = stretch(scene, how, "strobe", one ? 2 : kShownPoses, kStations, studies);
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[shown.study];
+        std::vector<sim::Pose> poses = result.poses[shown.poses];
+        if (one) poses.resize(1);
+        Panel panel;
+        for (std::size_t k = 0; k < poses.size(); ++k) {
+            const double share = one ? 1 : 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
+            add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes);
+        }
+        const render::Color ink = render::rgb(0x000000);
+        panel.shapes.push_back({.kind = Shape::Kind::disc, .radius_points = 2, .color = ink});
+        if (problem.hub.radius > 0)
+            panel.shapes.push_back(
+                {.kind = Shape::Kind::circle, .radius = problem.hub.radius, .color = ink, .width = 0.9});
+        if (problem.cam)
+            panel.shapes.push_back(
+                {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
+        // First and last beside the tips; together they would stand on each other.
+        const auto at_tip = [&](const sim::Pose& pose) {
+            const bool right = std::cos(pose.theta) >= 0;  // within the page, whose room is for the shapes
+            panel.shapes.push_back({.kind = Shape::Kind::label,
+                                    .points = {pose.centreline.back()},
+                                    .color = ink,
+                                    .markup = number(pose.t, 3) + " s",
+                                    .shift = {right ? -0.2 : 0.2, std::sin(pose.theta) >= 0 ? 0.9 : -0.9},
+                                    .align = right ? render::HAlign::right : render::HAlign::left});
+        };
+        at_tip(poses.front());
+        constexpr double kApart = 0.12;  // [rad]
+        if (std::abs(poses.back().theta - poses.front().theta) > kApart) at_tip(poses.back());
+        Figure figure;
+        figure.name = "strobe";
+        figure.title = en ? "The mechanism at several instants" : "机构的多时刻叠加";
+        figure.panels.push_back(std::move(panel));
+        figure.aspect = 0.9;
+        figure.caption =
+            one ? filled(en ? "The mechanism at {} s, deflection to scale. " : "{} s 时的机构，挠度按比例。",
+                         number(shown.from, 4))
+                : filled(
+                      en ? "The mechanism at {} instants from {} s (pale) to {} s (dark), equally spaced, deflection "
+                           "to scale. "
+                         : "机构在 {} 个等距时刻的位置，自 {} s（浅）至 {} s（深），挠度按比例。",
+                      poses.size(), number(shown.from, 4), number(shown.to, 4));
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+// ---- impacts as maps --------------------------------------------------------------------------------
+
+Panel map_panel(std::string x_label, std::string y_label) {
+    Panel panel;
+    panel.legend = Legend::none;
+    panel.x.label = std::move(x_label), panel.y.label = std::move(y_label);
+    panel.x.tight = false;
+    panel.x.from = panel.y.from = 0;
+    Series& points = panel.series.emplace_back();
+    points.line = false, points.every_point = true;
+    return panel;
+}
+void add(Panel& panel, double x, double y) { panel.series.front().x.push_back(x), panel.series.front().y.push_back(y); }
+
+FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
+    const std::size_t study = studies.of(scene.problem, to, "impact-maps");
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[study];
+        Panel loss = map_panel("|$v_{\\r{n}}$| before / (m s^{−1})", "|$v_{\\r{n}}$| after / |$v_{\\r{n}}$| before"),
+              next = map_panel("|$v_{\\r{n}}$| of collision $k$ / (m s^{−1})",
+                               "|$v_{\\r{n}}$| of collision $k$ + 1 / (m s^{−1})"),
+              phase = map_panel("phase of the cam / (2π)", "|$v_{\\r{n}}$| before / (m s^{−1})");
+        const auto shown = [&](const auto& touch) {
+            return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
+        };
+        for (const sim::Impact& hit : result.impacts) {
+            if (!shown(hit)) continue;
+            if (hit.restitution) add(loss, std::abs(hit.v_n_before), *hit.restitution);
+            const double turns = hit.cam_angle / (2 * std::numbers::pi);
+            add(phase, turns - std::floor(turns), std::abs(hit.v_n_before));
+        }
+        const std::vector<sim::Collision>& all = result.collisions;
+        for (std::size_t k = 0; k + 1 < all.size(); ++k)
+            if (shown(all[k]) && shown(all[k + 1]))
+                add(next, std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
+        phase.x.to = 1;
+        Figure figure;
+        figure.name = "impact-maps";
+        figure.title = en ? "Maps of the impacts" : "冲击映射";
+        std::string words;
+        const std::pair<Panel*, Words> panels[] = {
+            {&loss, {"ratio of the normal speeds of each impact against its speed", "各次冲击的恢复比与速度"}},
+            {&next, {"normal speed of each collision against that of the one before", "相邻碰撞的法向速度"}},
+            {&phase, {"normal speed of each impact against the phase of the cam", "各次冲击的法向速度与凸轮相位"}}};
+        for (const auto& [panel, what] : panels) {
+            if (panel->series.front().x.empty()) continue;
+            panel->letter = std::string(1, static_cast<char>('a' + figure.panels.size()));
+            words += fmt::format("{}({}) {}", words.empty() ? "" : en ? "; " : "；", panel->letter, what.in(lang));
+            figure.panels.push_back(std::move(*panel));
+        }
+        if (figure.panels.empty())
+            throw render::PictureError(fmt::format(
+                "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
+        figure.aspect = 0.7 * static_cast<double>(figure.panels.size());
+        figure.caption = words + (en ? ". " : "。") + facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+std::optional<std::string> needs_bending(const Scene& scene) {
+    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
+    return "a rigid beam does not bend; choose another beam.model";
+}
+
+}  // namespace
+
+const Recipe kKymograph{
+    "kymograph", {"Deflection along the beam in time", "梁挠度的时空图"}, needs_bending, prepare_kymograph, true};
+const Recipe kStrobe{
+    "strobe", {"The mechanism at several instants", "机构的多时刻叠加"}, no_refusal, prepare_strobe, true};
+const Recipe kImpactMaps{"impact-maps", {"Maps of the impacts", "冲击映射"}, needs_cam, prepare_maps, true};
+
+}  // namespace beamcam::scenes

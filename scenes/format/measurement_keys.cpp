@@ -1,0 +1,160 @@
+// The keys of measured or foreign data, and reading its file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "output/data/table_reader.hpp"
+#include "output/files/sha256.hpp"
+#include "render/plot/text.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/suggest.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What can be measured: no coordinates of a model.
+const std::vector<std::pair<std::string, sim::Channel>>& measurable() {
+    static const auto kAll = [] {
+        std::vector<std::pair<std::string, sim::Channel>> all;
+        for (const sim::Channel& channel : sim::all_channels({}))
+            if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q)
+                all.emplace_back(name(channel), channel);
+        return all;
+    }();
+    return kAll;
+}
+
+Form column_units_form(std::vector<std::pair<std::string, std::string>>& units) {
+    const auto read = [&units](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::object)
+            return r.fail(
+                node, key,
+                fmt::format("{} must be an object such as {{\"angle\": \"deg\"}}, not {}", r.path(key), shown(node)));
+        for (const Member& member : node.members)
+            if (member.value.kind == Node::Kind::string)
+                units.emplace_back(member.key, member.value.text);
+            else
+                r.fail(member.value, key + "." + member.key,
+                       fmt::format("{} must be a unit in quotes, such as \"deg\"", r.path(key + "." + member.key)));
+    };
+    const auto write = [&units]() -> std::optional<Node> {
+        if (units.empty()) return std::nullopt;
+        Node out = object_node();
+        for (const auto& [column, unit] : units) add(out, column, text_node(unit));
+        return out;
+    };
+    return {"object of units", R"({"type": "object", "additionalProperties": {"type": "string"}})", read, write};
+}
+
+// Reads the file's columns in SI units.
+class MeasurementReader {
+  public:
+    MeasurementReader(ObjectReader& r, Measurement& m) : r_(r), m_(m) {}
+
+    void read() {
+        const fs::path path = fs::path(r_.context().source.name).parent_path() / m_.file;
+        if (std::error_code error; !fs::is_regular_file(path, error))
+            return fail("file", error ? error.message() : "it is not a regular file");
+        output::NamedTable table;
+        try {
+            table = output::read_table(path);
+            m_.digest = output::sha256_of_file(path);
+        } catch (const output::IoError& error) {
+            return fail("file", error.what());
+        }
+        if (m_.label.empty()) m_.label = render::figure::escaped(path.stem().string());
+        judge_markup(r_, "label", m_.label);
+        if (m_.columns.empty())
+            for (const auto& [known, channel] : measurable())
+                if (table.find(known)) m_.columns.emplace_back(channel, known);
+        if (m_.columns.empty())
+            return fail("file", fmt::format("no column is named like a channel; say which is which: \"theta\": {}",
+                                            in_quotes(table.names.front())));
+        for (const auto& [column, unit] : m_.units)
+            if (!table.find(column))
+                return fail("units", fmt::format("there is no column {}{}", in_quotes(column),
+                                                 suggestion_or_list(column, table.names)));
+        m_.times = column(table, "t", m_.time_column, "s");
+        for (double& t : m_.times) t += m_.offset;
+        for (const auto& [channel, from] : m_.columns)
+            m_.values.push_back(column(table, name(channel), from, unit(channel, r_.context().scene.problem)));
+        judge_times();
+    }
+
+  private:
+    void fail(const std::string& key, const std::string& why) {
+        failed_ = true;
+        r_.fail(r_.place(key), key, fmt::format("{} = {}: {}", r_.path(key), shown(r_.place(key)), why));
+    }
+
+    std::vector<double> column(const output::NamedTable& table, const std::string& key, const std::string& from,
+                               const std::string& si) {
+        const std::vector<double>* found = table.find(from);
+        const std::string at = r_.has(key) ? key : "file";
+        if (!found) {
+            fail(at, fmt::format("there is no column {}{}", in_quotes(from), suggestion_or_list(from, table.names)));
+            return {};
+        }
+        std::vector<double> out = *found;
+        const auto named = std::ranges::find(m_.units, from, &std::pair<std::string, std::string>::first);
+        if (named == m_.units.end()) return out;
+        const QuantityText measured = parse_quantity("1 " + named->second), wanted = parse_quantity("1 " + si);
+        if (!measured.quantity || !wanted.quantity || !same(measured.quantity->dimension, wanted.quantity->dimension)) {
+            fail("units", fmt::format("{} is no unit of {}, which is in {}{}", in_quotes(named->second), key, si,
+                                      measured.quantity ? "" : ": " + measured.problem));
+            return {};
+        }
+        for (double& value : out) value *= measured.quantity->value;
+        return out;
+    }
+
+    void judge_times() {
+        if (failed_) return;
+        for (std::size_t i = 0; i < m_.times.size(); ++i)
+            if (!std::isfinite(m_.times[i]) || (i > 0 && !(m_.times[i] > m_.times[i - 1])))
+                // Below a line of names, in CSV.
+                return fail("file", fmt::format("{} {}: the time does not increase; sort the rows, each instant once",
+                                                m_.file.ends_with(".csv") ? "line" : "row",
+                                                m_.file.ends_with(".csv") ? i + 2 : i));
+        const double end = r_.context().scene.end_time;
+        if (m_.times.empty() || m_.times.back() < 0 || m_.times.front() > end)
+            fail("file", fmt::format("no row is between 0 and {:g} s; see \"offset\" and the unit of its time", end));
+    }
+
+    ObjectReader& r_;
+    Measurement& m_;
+    bool failed_ = false;
+};
+
+}  // namespace
+
+void visit(SceneVisitor& v, Measurement& m) {
+    using Drawn = Measurement::Drawn;
+    v.text(sim::required("file", "\"rig.csv\""), m.file,
+           "A table with a line of names, .csv, or arrays by name, .npz; from the scene's folder.");
+    v.text("label", m.label, "Its name in pictures; the file's name when left out.");
+    v.text("t", m.time_column, "The column with the time.");
+    v.number("offset", m.offset, sim::dimension::kTime, sim::kAny, "The motion's time at the file's zero.");
+    v.form("units", column_units_form(m.units),
+           "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; SI units when left out.");
+    v.choice("draw", m.drawn, {{Drawn::automatic, "auto"}, {Drawn::points, "points"}, {Drawn::line, "line"}},
+             "How: points where they are few, or a line.");
+    for (const auto& [known, channel] : measurable()) {
+        const auto found = std::ranges::find(m.columns, channel, &std::pair<sim::Channel, std::string>::first);
+        std::string column = found == m.columns.end() ? "" : found->second;
+        v.text(sim::written_if(!column.empty(), known.c_str()), column, "The column with this channel.");
+        if (found != m.columns.end())
+            found->second = column;
+        else if (!column.empty())
+            m.columns.emplace_back(channel, column);
+    }
+    v.check([&m](ObjectReader& r) {
+        if (!r.findings().failed(r.path("file")) && r.has("file")) MeasurementReader(r, m).read();
+    });
+}
+
+}  // namespace beamcam::scenes

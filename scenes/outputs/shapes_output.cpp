@@ -1,0 +1,45 @@
+// Output "shapes": the deflection along the beam in time, as CSV or NPZ: t, x, v in rows.
+#include <fmt/format.h>
+
+#include "output/data/tables.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/plan/planner.hpp"
+#include "scenes/scene/film_times.hpp"
+
+namespace beamcam::scenes {
+
+void ShapesOutput::visit(SceneVisitor& v) {
+    v.form("file", file_form(file, {".csv", ".npz"}),
+           "Name of the file; the scene's name with -shapes.csv when left out.");
+    v.number("rate", rate, sim::dimension::kFrequency, sim::kPositive, "Instants at k/rate, and at the end.");
+    v.whole("stations", stations, 2, 1001, "Places along the beam, equally spaced from its root to its tip.");
+    v.check([this](ObjectReader& r) { judge_shapes(r, *this); });
+}
+
+void ShapesOutput::plan(Planner& planner, std::size_t output) const {
+    const Scene& scene = planner.scene();
+    planner.look_until(scene.end_time, file);
+    std::vector<sim::PoseRequest>& poses = planner.request().poses;
+    poses.push_back({.times = rows(0, scene.end_time, rate), .stations = stations});
+    DataFile data{output, file, "shapes", {}};
+    data.content = fmt::format("{} places at {} instants", stations, poses.back().times.size());
+    data.numbers = 3 * static_cast<std::size_t>(stations) * poses.back().times.size();
+    data.write = [index = poses.size() - 1](const DataSource& from) {
+        output::NamedTable table{{"t", "x", "v"}, {{}, {}, {}}};
+        for (const sim::Pose& pose : from.run.poses[index]) {
+            const std::vector<double> v = deflection(pose);
+            for (std::size_t k = 0; k < v.size(); ++k) {
+                table.columns[0].push_back(pose.t);
+                table.columns[1].push_back(from.problem.beam.length * static_cast<double>(k) /
+                                           static_cast<double>(v.size() - 1));
+                table.columns[2].push_back(v[k]);
+            }
+        }
+        output::write_table(*from.file, table);
+        return fmt::format("{} rows", table.rows());
+    };
+    planner.add(std::move(data));
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,169 @@
+// Kymograph, strobe, maps of impacts; and the exports of the same: shapes, states at impacts, TIFF.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "output/data/table_reader.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "sim/beam/modes.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+
+render::figure::Figure overview_of(const std::string& name, const std::string& keys) {
+    const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": ")" +
+                                          name + "\"" + keys + "}]}");
+    if (!reading.scene) throw std::runtime_error(reading.report());
+    Studies studies;
+    const FigureMaker make =
+        recipe_named(name)->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs.front()), studies);
+    std::vector<sim::Result> runs;
+    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
+    Results results;
+    for (const sim::Result& run : runs) results.push_back(&run);
+    return make(results);
+}
+
+TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
+    const auto figure = overview_of("kymograph", R"(, "from": 0.2, "to": 0.3)");
+    const auto& cells = figure.panels[0].cells.at(0);
+    EXPECT_EQ(cells.colors.size(), (cells.x.size() - 1) * (cells.y.size() - 1));
+    EXPECT_NEAR(cells.x.front(), 0.2, 1e-12);
+    EXPECT_NEAR(cells.x.back(), 0.3, 1e-12);
+    EXPECT_EQ(cells.y.back(), 1);
+    ASSERT_EQ(figure.panels[0].marks.size(), 1u);
+    EXPECT_NEAR(figure.panels[0].marks[0].x, 0.277394, 1e-6);
+}
+
+TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
+    const auto beams = [](const render::figure::Figure& figure) {
+        return std::ranges::count_if(figure.panels[0].shapes, [](const auto& s) { return s.points.size() > 2; });
+    };
+    EXPECT_EQ(beams(overview_of("strobe", "")), 9);
+    const auto one = overview_of("strobe", R"(, "from": 0.3, "to": 0.3)");
+    EXPECT_EQ(beams(one), 1);
+    EXPECT_THAT(one.caption, HasSubstr("The mechanism at 0.3 s"));
+}
+
+TEST(Overviews, MapsHaveAPointForEachImpact) {
+    const auto figure = overview_of("impact-maps", "");
+    ASSERT_EQ(figure.panels.size(), 2u);  // one collision has no next
+    EXPECT_EQ(figure.panels[1].series[0].x.size(), 1u);
+    EXPECT_NEAR(figure.panels[1].series[0].x[0], 1 - 0.277394 / (2 * M_PI), 1e-6);  // clockwise
+    EXPECT_THROW(overview_of("impact-maps", R"(, "to": 0.1)"), render::PictureError);
+}
+
+TEST(Overviews, TakeAStretchAndNoOtherKeysOfSeries) {
+    const auto report = [](const std::string& keys) {
+        return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
+    };
+    EXPECT_THAT(report(R"("figure": "strobe", "channels": ["theta"])"), HasSubstr("belongs to the figure"));
+    EXPECT_THAT(report(R"("figure": "phase", "from": 0.1)"), HasSubstr("belongs to the figure"));
+    EXPECT_THAT(report(R"("figure": "kymograph", "from": 0.1, "to": 0.1)"), HasSubstr("is not before the end"));
+}
+
+// The same pixels as of PNG, at 600 dpi when nothing else is said.
+TEST(Exports, TiffHasThePixelsOfPng) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    const Finished made = shell(folder,
+                                "$BEAMCAM figure s.json angle -o a.tif --column ieee -q; "
+                                "$BEAMCAM figure s.json angle -o a.png --column ieee --dpi 600 -q; "
+                                "ffmpeg -v error -i a.tif -pix_fmt rgb24 b.png && $BEAMCAM diff a.png b.png");
+    EXPECT_EQ(made.code, 0) << made.err << made.out;
+    EXPECT_THAT(made.out, HasSubstr("identical"));
+    const Finished facts = shell(folder, "$BEAMCAM info a.tif");
+    EXPECT_THAT(facts.out, HasSubstr("TIFF figure"));
+    const std::string bytes = testing::slurp(folder / "a.tif");
+    const std::string ratio("\xC0\x27\x09\x00\xE8\x03\x00\x00", 8);  // 600 000 / 1000 dots an inch
+    EXPECT_NE(bytes.find(ratio), std::string::npos);
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.eps -q").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.svg --text editable -q").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("rad</text>"));
+}
+
+TEST(Exports, ShapesEndWithTheTipsDeflection) {
+    for (const char* ending : {"csv", "npz"}) {
+        const Folder folder;
+        folder.write("s.json", R"({"time": {"end": 0.3}})");
+        const std::string file = std::string("v.") + ending;
+        const Finished made = shell(folder, "$BEAMCAM simulate s.json --rate 10 --shapes " + file + " -q && " +
+                                                "$BEAMCAM simulate s.json --rate 10 --channels tip_deflection > t.csv");
+        ASSERT_EQ(made.code, 0) << made.err;
+        const output::NamedTable shapes = output::read_table(folder / file), tip = output::read_table(folder / "t.csv");
+        ASSERT_EQ(shapes.rows(), 4 * 33u);
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_EQ((*shapes.find("x"))[33 * k + 32], 1);
+            EXPECT_NEAR((*shapes.find("v"))[33 * k + 32], (*tip.find("tip_deflection"))[k], 1e-14);
+        }
+    }
+}
+
+// The shape of `modes --json` is the deflection by its own coordinate q alone, in sign and form.
+TEST(Exports, CoordinatesHaveTheSignOfTheModes) {
+    for (const char* basis : {"cantilever", "hub-beam"}) {
+        const Reading reading = testing::read(std::string(R"({"cam": null, "beam": {"modes": 3, "basis": ")") + basis +
+                                              R"("}, "time": {"end": 0.02}})");
+        ASSERT_TRUE(reading.scene) << reading.report();
+        const sim::Problem& problem = reading.scene->problem;
+        sim::Request request;
+        request.end_time = 0.02;
+        request.tables.push_back({{0.0003, 0.003, 0.005, 0.02},
+                                  {{sim::ChannelKind::tip_deflection, 0},
+                                   {sim::ChannelKind::q, 1},
+                                   {sim::ChannelKind::q, 2},
+                                   {sim::ChannelKind::q, 3}}});
+        const sim::Result result = sim::simulate(problem, request);
+        const bool held = std::string(basis) == "cantilever";
+        const std::vector<sim::Mode> modes = sim::natural_modes(problem, held ? std::optional(0.0) : std::nullopt);
+        ASSERT_EQ(modes.size(), 3u);
+        const sim::Table& table = result.tables[0];
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            double tip = 0;  // from the tangent at the root; shapes of unit mass times the root of the beam's
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::vector<sim::Vec2>& s = modes[k].shape;
+                const double h = s[1].x, slope = (-11 * s[0].y + 18 * s[1].y - 9 * s[2].y + 2 * s[3].y) / (6 * h);
+                const double mass = problem.beam.line_density() * problem.beam.length;
+                tip += table.values[k + 1][row] * std::sqrt(mass) * (s.back().y - s.front().y - slope);
+            }
+            EXPECT_NEAR(tip, table.values[0][row], 1e-3 * std::abs(table.values[0][row])) << basis << " " << row;
+        }
+    }
+}
+
+TEST(Exports, ImpactsCarryTheirStates) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM simulate s.json --impacts i.csv -q").code, 0);
+    const output::NamedTable impacts = output::read_table(folder / "i.csv");
+    ASSERT_GE(impacts.rows(), 1u);
+    const auto at = [&](const char* name) { return impacts.find(name)->front(); };
+    const Reading reading = testing::read(R"({"time": {"end": 0.4}})");
+    sim::Request request;
+    request.end_time = 0.4;
+    const std::vector<sim::Channel> channels = {{sim::ChannelKind::theta, 0},
+                                                {sim::ChannelKind::theta_dot, 0},
+                                                {sim::ChannelKind::contact_s, 0},
+                                                {sim::ChannelKind::q, 1},
+                                                {sim::ChannelKind::q, 2}};
+    request.tables.push_back({{at("t_start"), at("t_end")}, channels});
+    const sim::Result result = sim::simulate(reading.scene->problem, request);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const std::string key = name(channels[c]);
+        const std::vector<double>& values = result.tables[0].values[c];
+        EXPECT_NEAR(at(key.c_str()), values[0], 1e-9 * std::abs(values[0])) << key;
+        EXPECT_NEAR(at((key + "_after").c_str()), values[1], 1e-9 * std::abs(values[1])) << key;
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
