@@ -99,6 +99,9 @@ void AxisMap::linear(const Axis& axis, int most) {
     // Numbers that are counted have ticks where they are.
     const bool whole = axis.counts && shift == 0 && offset == 0 && scaled_high_ - scaled_low_ >= 1;
     Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
+    // One mark alone tells no scale.
+    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8; ++more)
+        marks = render::ticks(scaled_low_, scaled_high_, more);
     if (whole && marks.step < 1) {
         marks = {.step = 1, .decimals = 0, .values = {}};
         const double lowest = std::ceil(scaled_low_);

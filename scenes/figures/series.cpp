@@ -268,14 +268,16 @@ class SeriesFigure {
         if (!values || !along || keys_.against == "frequency") return;
         sim::Table rows;
         rows.values = {each.data.times, *along};
-        out.series.push_back(measured_series(each.data, abscissa(rows, motion.problem),
-                                             scaled(above_zero(*values, channel), measure.factor), look++));
-        out.series.back().right = right;
+        // Beneath the computed curves.
+        Series& points = *out.series.insert(
+            out.series.begin(), measured_series(each.data, abscissa(rows, motion.problem),
+                                                scaled(above_zero(*values, channel), measure.factor), look++));
+        points.right = right;
         if (!keys_.residuals || right) return;
         const sim::Table& computed = results[motion.study]->tables[each.table];
         std::vector<double> difference = *values;
         for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= column(computed, channel.kind)[i];
-        Series whole = measured_series(each.data, out.series.back().x, std::move(difference), out.series.back().look);
+        Series whole = measured_series(each.data, points.x, std::move(difference), points.look);
         auto [sure, unsure] = split(whole, each.data.times, lost(*results[motion.study]));
         unsure.faded = true;
         for (Series* part : {&unsure, &sure})
