@@ -119,8 +119,10 @@ class Parser {
     }
 
     std::vector<Run> inside() {
+        if (++depth_ > kDeepest) fail("fractions and roots stand in one another at most six deep");
         std::vector<Run> before = std::exchange(runs_, {});
         group({});
+        --depth_;
         return std::exchange(runs_, std::move(before));
     }
 
@@ -191,6 +193,8 @@ class Parser {
 
     std::string_view text_;
     std::size_t at_ = 0;
+    static constexpr int kDeepest = 6;  // smaller ones cannot be read
+    int depth_ = 0;
     bool math_ = false, upright_ = false;
     std::vector<Run> runs_;
 };

@@ -186,6 +186,17 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
         return StillOutput{film, args.file, instant_argument("--at", *args.at)};
     }
     if (ending == ".html" || ending == ".glb") {  // they play the motion itself
+        if (!args.others.empty()) throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
+        for (const auto& [given, name] : {std::pair{&args.size, "--size"},
+                                          {&args.speed, "--speed"},
+                                          {&args.codec, "--codec"},
+                                          {&args.comparison, "--comparison"},
+                                          {&args.frames, "--frames"},
+                                          {&args.shard, "--shard"},
+                                          {&args.poster, "--poster"},
+                                          {&args.duration, "--duration"}})
+            if (*given)
+                throw UsageError(fmt::format("{} belongs to films and pictures; -o {} is none", name, args.file));
         film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
         film.compare.clear();
         if (ending == ".glb") return ModelOutput{film, args.file, film.span};

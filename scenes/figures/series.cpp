@@ -391,7 +391,8 @@ class SeriesFigure {
         else
             figure.caption += horizon_words(runs, end_, lang_);
         const SeriesMotion& motion = motions_[measured_motion_];
-        figure.caption += agreement_words(measured_, *results[motion.study], motion.problem, lang_);
+        if (keys_.against != "frequency")  // which shows no data
+            figure.caption += agreement_words(measured_, *results[motion.study], motion.problem, lang_);
         figure.caption += common_facts(motions_, lang_);
         figure.accuracy = accuracy(pairs, lang_);
     }

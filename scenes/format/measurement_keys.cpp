@@ -82,6 +82,7 @@ class MeasurementReader {
         for (double& t : m_.times) t += m_.offset;
         for (const auto& [channel, from] : m_.columns)
             m_.values.push_back(column(table, name(channel), from, unit(channel, r_.context().scene.problem)));
+        judge_values();
         judge_times();
     }
 
@@ -110,6 +111,12 @@ class MeasurementReader {
         }
         for (double& value : out) value *= measured.quantity->value;
         return out;
+    }
+
+    void judge_values() {
+        for (std::size_t i = 0; i < m_.values.size() && !failed_; ++i)
+            if (std::ranges::none_of(m_.values[i], [](double value) { return std::isfinite(value); }))
+                fail("file", fmt::format("the column {} has no number", in_quotes(m_.columns[i].second)));
     }
 
     void judge_times() {

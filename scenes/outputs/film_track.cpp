@@ -73,7 +73,8 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});
     }
     for (const render::Callout& c : film.callouts)
-        out.subtitles.push_back({c.first / film.fps, (c.last + 1) / film.fps, render::plain_words(c.text)});
+        out.subtitles.push_back(
+            {c.first / film.fps, std::min(end, (c.last + 1) / film.fps), render::plain_words(c.text)});
     std::erase_if(out.subtitles, [](const Cue& cue) { return !(cue.to > cue.from); });
     std::ranges::stable_sort(out.subtitles, {}, &Cue::from);
     return out;
@@ -84,8 +85,8 @@ std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format) {
     std::string out = vtt ? "WEBVTT\n\n" : "";
     for (std::size_t i = 0; i < cues.size(); ++i) {
         std::string text = cues[i].text;
-        for (std::size_t at = 0; vtt && (at = text.find_first_of("&<", at)) != std::string::npos; ++at)
-            text.replace(at, 1, text[at] == '&' ? "&amp;" : "&lt;");
+        for (std::size_t at = 0; vtt && (at = text.find_first_of("&<>", at)) != std::string::npos; ++at)
+            text.replace(at, 1, text[at] == '&' ? "&amp;" : text[at] == '<' ? "&lt;" : "&gt;");
         if (!vtt) out += fmt::format("{}\n", i + 1);
         const char point = vtt ? '.' : ',';
         out += fmt::format("{} --> {}\n{}\n\n", stamp(cues[i].from, point), stamp(cues[i].to, point), text);

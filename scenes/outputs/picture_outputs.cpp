@@ -141,6 +141,11 @@ static void visit(SceneVisitor& v, SpeedInterval& interval) {
     v.form(required("from", "\"impact:1\""), instant_form(interval.from), "Its first instant.");
     v.form(required("to", "\"0.4 s\""), instant_form(interval.to), "Its last.");
     v.number("factor", interval.factor, dim::kNone, kSpeedRange, "Speed there.");
+    v.check([&interval](ObjectReader& r) {
+        const bool times = interval.from.kind == Instant::Kind::time && interval.to.kind == Instant::Kind::time;
+        if (times && !(interval.from.t < interval.to.t))
+            r.fail(r.place("to"), "to", fmt::format("{} must be after \"from\"", r.path("to")));
+    });
 }
 
 static void visit(SceneVisitor& v, Speed& speed) {

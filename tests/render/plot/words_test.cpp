@@ -40,6 +40,9 @@ TEST_F(Words, FormulasAreSetAsMathematics) {
     EXPECT_EQ(words(canvas_, "$\\frac{a}{2}$"), fraction(math("a"), "2"));
     EXPECT_EQ(words(canvas_, "$\\sqrt{a}$"), root(math("a")));
     EXPECT_EQ(words(canvas_, "$\\lambda_1^2$"), math("λ") + scripts("1", "2"));
+    std::string deep = "x";
+    for (int k = 0; k < 200; ++k) deep = "\\frac{1}{" + deep + "}";
+    EXPECT_NE(problem_with_words("$" + deep + "$"), "");
 }
 
 // A fraction is as wide as the wider of its parts and a gap; its line lies between them.

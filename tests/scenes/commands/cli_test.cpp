@@ -65,6 +65,8 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "run s.json --what",
                                   "render s.json",
                                   "render s.json -o a.avi",
+                                  "render s.json s.json -o a.glb",
+                                  "render s.json -o a.html --frames 0:1",
                                   "render s.json -o a.png",
                                   "render s.json -o a.mp4 --at 0.1",
                                   "render s.json -o a.mp4 --size 641x360",

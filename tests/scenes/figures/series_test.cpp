@@ -221,6 +221,8 @@ TEST(Measured, BadFilesAreToldWithTheirPlace) {
     EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("there is no column \"angle\"; did you mean \"angel\"?"));
     EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row is between 0 and 0.4 s"));
     EXPECT_THAT(told(""), HasSubstr("the file is empty"));
+    EXPECT_THAT(told("time,angle\n"), HasSubstr("the column \"angle\" has no number"));
+    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" has no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("\"mm\" is no unit of theta, which is in rad"));

@@ -448,7 +448,7 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
     for (int k = 0; k < 40; ++k) film.poses.emplace_back().t = k / 10.0;
     for (const double t : {1.0, 1.05, 3.0}) film.impacts.emplace_back().t_start = t;
     film.impacts[1].force_peak = 250;
-    film.callouts = {{20, 24, "a < b"}};
+    film.callouts = {{20, 24, "a < b --> c"}};
     const FilmTrack track = film_track(film, Lang::en);
     ASSERT_EQ(track.chapters.size(), 3u);
     EXPECT_EQ(track.chapters[0].title, "Start");
@@ -458,7 +458,7 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
     EXPECT_EQ(track.chapters[2].title, "Impact 3");
     EXPECT_EQ(subtitle_file(track.subtitles, Subtitles::vtt),
               "WEBVTT\n\n00:00:01.000 --> 00:00:03.000\nImpacts 1–2 · t = 1.0000 s · up to 250\u00A0N\n\n"
-              "00:00:02.000 --> 00:00:02.500\na &lt; b\n\n"
+              "00:00:02.000 --> 00:00:02.500\na &lt; b --&gt; c\n\n"
               "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
     EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
                 ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次碰撞"));
