@@ -326,10 +326,7 @@ class Exponential final : public Integrator {
 
 }  // namespace
 
-bool exponential_in_contact(System& system) {
-    const auto form = ModalForm::of(system);
-    return form && form->by_arrays();
-}
+bool exponential_in_contact(System& system) { return ModalForm::by_arrays_of(system) != nullptr; }
 
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol) {
     return std::make_unique<Exponential>(system, rtol, atol);

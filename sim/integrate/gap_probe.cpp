@@ -13,8 +13,9 @@ constexpr double kSettled = 3e-3;  // of the length: corrections that move the f
 }  // namespace
 
 GapProbe::GapProbe(System& system) : system_(system) {
-    auto form = ModalForm::of(system);
-    if (!form || !form->by_arrays() || !system.has_cam()) return;
+    if (!system.has_cam()) return;
+    auto form = ModalForm::by_arrays_of(system);
+    if (!form) return;
     hq_.resize(static_cast<std::size_t>(form->n));
     expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
 }

@@ -42,10 +42,23 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
     return form;
 }
 
-std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
+namespace {
+
+bool told_by_arrays(System& system) {
     const auto* model = dynamic_cast<const ModalModel*>(&system.model());
-    const bool prescribed = system.drive().prescribed();
-    if (!model || (model->coupled() && !prescribed)) return prescribed ? nullptr : of_natural_modes(system);
+    return model && (!model->coupled() || system.drive().prescribed());
+}
+
+}  // namespace
+
+std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
+    if (told_by_arrays(system)) return by_arrays_of(system);
+    return system.drive().prescribed() ? nullptr : of_natural_modes(system);
+}
+
+std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
+    if (!told_by_arrays(system)) return nullptr;
+    const auto* model = static_cast<const ModalModel*>(&system.model());
     if (model->damped() && !model->diagonal_damping()) return nullptr;
 
     auto form = begin(system, *model);

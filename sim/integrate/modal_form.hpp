@@ -17,6 +17,8 @@ struct ModalForm {
     // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub
     // of other models.
     static std::shared_ptr<const ModalForm> of(System& system);
+    // Null also where the coupling is not told by arrays: nothing is worked out to find that.
+    static std::shared_ptr<const ModalForm> by_arrays_of(System& system);
 
     int n = 0;  // modes
     // Natural modes of the straight beam with its hub, in columns: ξ = natural z, z = to_natural ξ, z₀ the rigid turn.

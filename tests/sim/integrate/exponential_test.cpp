@@ -216,78 +216,73 @@ struct Flights : std::vector<Flight> {
 
 Flights flights() {
     Flights all;
-    const auto add = [&](const std::string& name, ModelKind kind, int modes, auto&& change) {
-        all.add(name, kind, modes, change);
-    };
     const auto nothing = [](Problem&) {};
-    add("rigid", ModelKind::rigid, 2, nothing);
-    add("zeroth-order", ModelKind::zeroth_order, 3, nothing);
-    add("first-order", ModelKind::first_order, 6, nothing);
-    add("hub", ModelKind::first_order, 3, [](Problem& p) {
+    all.add("rigid", ModelKind::rigid, 2, nothing);
+    all.add("zeroth-order", ModelKind::zeroth_order, 3, nothing);
+    all.add("first-order", ModelKind::first_order, 6, nothing);
+    all.add("hub", ModelKind::first_order, 3, [](Problem& p) {
         p.hub.radius = 0.15;
         p.hub.inertia = 0.02;
         p.initial.angular_velocity = -3;
     });
-    add("static start", ModelKind::first_order, 4,
-        [](Problem& p) { p.initial.shape = InitialShape::static_equilibrium; });
-    add("damped", ModelKind::first_order, 5, [](Problem& p) { p.beam.damping_ratio = {0.02, 0.1, 0.45, 0.3, 0}; });
-    add("overdamped", ModelKind::first_order, 6, [](Problem& p) { p.beam.damping_ratio = {0.6, 1, 1.2, 30, 0, 3}; });
-    add("overdamped spin-up", ModelKind::first_order, 3, [](Problem& p) {
+    all.add("static start", ModelKind::first_order, 4,
+            [](Problem& p) { p.initial.shape = InitialShape::static_equilibrium; });
+    all.add("damped", ModelKind::first_order, 5, [](Problem& p) { p.beam.damping_ratio = {0.02, 0.1, 0.45, 0.3, 0}; });
+    all.add("overdamped", ModelKind::first_order, 6,
+            [](Problem& p) { p.beam.damping_ratio = {0.6, 1, 1.2, 30, 0, 3}; });
+    all.add("overdamped spin-up", ModelKind::first_order, 3, [](Problem& p) {
         p.hub.drive = SpinUp{6, 0.2};
         p.beam.damping_ratio = {2, 50, 5};
     });
-    add("overdamped torque", ModelKind::first_order, 3, [](Problem& p) {
+    all.add("overdamped torque", ModelKind::first_order, 3, [](Problem& p) {
         p.hub.drive = HarmonicTorque{1, 4, 0.3};
         p.beam.damping_ratio = {1.5, 20, 4};
     });
-    add("creeping", ModelKind::first_order, 2, [](Problem& p) { p.beam.kelvin_voigt = 0.3; });
-    add("Kelvin–Voigt", ModelKind::first_order, 4, [](Problem& p) { p.beam.kelvin_voigt = 1e-5; });
-    add("torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = ConstantTorque{0.8}; });
-    add("swinging torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = HarmonicTorque{1, 4, 0.3}; });
-    add("torque table", ModelKind::first_order, 3, [](Problem& p) {
+    all.add("creeping", ModelKind::first_order, 2, [](Problem& p) { p.beam.kelvin_voigt = 0.3; });
+    all.add("Kelvin–Voigt", ModelKind::first_order, 4, [](Problem& p) { p.beam.kelvin_voigt = 1e-5; });
+    all.add("torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = ConstantTorque{0.8}; });
+    all.add("swinging torque", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = HarmonicTorque{1, 4, 0.3}; });
+    all.add("torque table", ModelKind::first_order, 3, [](Problem& p) {
         p.hub.drive = TorqueTable{{0, 0.11, 0.2}, {1, -1, 2}};
     });
-    add("spin-up", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
-    add("damped spin-up", ModelKind::zeroth_order, 3, [](Problem& p) {
+    all.add("spin-up", ModelKind::first_order, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
+    all.add("damped spin-up", ModelKind::zeroth_order, 3, [](Problem& p) {
         p.hub.drive = SpinUp{3, 0.2};
         p.beam.damping_ratio = {0.05};
     });
-    add("constant speed", ModelKind::first_order, 4, [](Problem& p) { p.hub.drive = ConstantSpeed{2}; });
-    add("angle table", ModelKind::first_order, 2, [](Problem& p) {
+    all.add("constant speed", ModelKind::first_order, 4, [](Problem& p) { p.hub.drive = ConstantSpeed{2}; });
+    all.add("angle table", ModelKind::first_order, 2, [](Problem& p) {
         p.hub.drive = AngleTable{{0, 0.1, 0.25}, {0.5, 0.7, 0.4}};
     });
-    add("paper, prescribed", ModelKind::paper, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
+    all.add("paper, prescribed", ModelKind::paper, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
     return all;
 }
 
 // Those whose coupling only the right-hand side tells.
 Flights flights_of_other_models() {
     Flights all;
-    const auto add = [&](const std::string& name, ModelKind kind, int modes, auto&& change) {
-        all.add(name, kind, modes, change);
-    };
     const auto stiff = [](Problem& p) { p.beam.youngs_modulus = 68.952e9; };
     for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
         const std::string model = kind == ModelKind::exact ? "exact" : "second-order";
-        add(model, kind, 4, stiff);
-        add(model + ", damped", kind, 3, [&](Problem& p) {
+        all.add(model, kind, 4, stiff);
+        all.add(model + ", damped", kind, 3, [&](Problem& p) {
             stiff(p);
             p.beam.damping_ratio = {0.02};
         });
-        add(model + ", torque", kind, 3, [&](Problem& p) {
+        all.add(model + ", torque", kind, 3, [&](Problem& p) {
             stiff(p);
             p.hub.drive = HarmonicTorque{1, 4, 0.3};
             p.beam.kelvin_voigt = 1e-5;
         });
-        add(model + ", bending far", kind, 2, [](Problem& p) { p.beam.youngs_modulus = 5e8; });
+        all.add(model + ", bending far", kind, 2, [](Problem& p) { p.beam.youngs_modulus = 5e8; });
         all.back().spans_vibration = false;
     }
     const auto clamped = [&](Problem& p) {
         stiff(p);
         p.beam.basis = Basis::cantilever;
     };
-    add("clamped shapes", ModelKind::first_order, 5, clamped);
-    add("clamped shapes, damped torque", ModelKind::first_order, 3, [&](Problem& p) {
+    all.add("clamped shapes", ModelKind::first_order, 5, clamped);
+    all.add("clamped shapes, damped torque", ModelKind::first_order, 3, [&](Problem& p) {
         clamped(p);
         p.hub.drive = ConstantTorque{0.8};
         p.beam.kelvin_voigt = 1e-4;
