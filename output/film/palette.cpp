@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -43,6 +45,70 @@ std::size_t nearest(const std::vector<std::uint32_t>& colors, PaletteColor c) {
 std::size_t cell_of(PaletteColor c, int bits) {
     const int drop = 8 - bits;
     return static_cast<std::size_t>(((c.r >> drop) << 2 * bits) | ((c.g >> drop) << bits) | (c.b >> drop));
+}
+
+// A cell of the colour cube: its place, the weight of its pixels, and their weighted sums.
+struct CutItem {
+    int at[3];
+    double count, r, g, b;
+};
+using CutBox = std::span<CutItem>;
+
+// The longest side, and how long it is.
+std::pair<int, int> longest_side(CutBox box) {
+    int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
+    for (const CutItem& item : box)
+        for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], item.at[k]), high[k] = std::max(high[k], item.at[k]);
+    int channel = 1;  // green first where equal: the eye sees it best
+    for (int k : {0, 2})
+        if (high[k] - low[k] > high[channel] - low[channel]) channel = k;
+    return {channel, high[channel] - low[channel]};
+}
+
+double weight_of(CutBox box) {
+    double sum = 0;
+    for (const CutItem& item : box) sum += item.count;
+    return sum;
+}
+
+// At the median of the longest side; both parts hold something.
+std::pair<CutBox, CutBox> halves(CutBox box) {
+    const int channel = longest_side(box).first;
+    std::ranges::stable_sort(box, {}, [&](const CutItem& item) { return item.at[channel]; });
+    const double all = weight_of(box);
+    double part = 0;
+    std::size_t middle = 1;
+    for (std::size_t k = 0; k + 1 < box.size(); ++k) {
+        part += box[k].count;
+        middle = k + 1;
+        if (part >= all / 2) break;
+    }
+    return {box.first(middle), box.subspan(middle)};
+}
+
+// Median cut: the box with the most (weight × extent) is halved until there are `count`; the mean colour of each.
+std::vector<std::uint32_t> median_cut(std::vector<CutItem> items, std::size_t count) {
+    std::vector<CutBox> boxes{items};
+    while (boxes.size() < count) {
+        CutBox* best = nullptr;
+        double most = 0;
+        for (CutBox& box : boxes) {
+            const double size = weight_of(box) * longest_side(box).second;
+            if (size > most) most = size, best = &box;
+        }
+        if (!best) break;
+        const auto [first, second] = halves(*best);
+        *best = first;
+        boxes.push_back(second);
+    }
+    std::vector<std::uint32_t> colors;
+    for (const CutBox& box : boxes) {
+        double weight = 0, r = 0, g = 0, b = 0;
+        for (const CutItem& item : box) weight += item.count, r += item.r, g += item.g, b += item.b;
+        const auto mean = [&](double sum) { return static_cast<int>(std::lround(sum / weight)); };
+        colors.push_back(packed({mean(r), mean(g), mean(b)}));
+    }
+    return colors;
 }
 
 }  // namespace
@@ -85,74 +151,17 @@ std::vector<std::uint32_t> PaletteMaker::frequent() const {
 }
 
 std::vector<std::uint32_t> PaletteMaker::colors() const {
-    struct Item {
-        int r, g, b;
-        Cell cell;
-    };
-    std::vector<Item> items;
+    std::vector<CutItem> items;
     for (int r = 0; r < kSide; ++r)
         for (int g = 0; g < kSide; ++g)
             for (int b = 0; b < kSide; ++b) {
                 const Cell& cell = cells_[static_cast<std::size_t>((r << 2 * kBits) | (g << kBits) | b)];
-                if (cell.count > 0) items.push_back({r, g, b, cell});
+                if (cell.count > 0) items.push_back({{r, g, b}, cell.count, cell.r, cell.g, cell.b});
             }
     std::vector<std::uint32_t> out = frequent();
     if (items.empty()) return {0xff000000U};
     const std::size_t fixed = out.size();
-    // Median cut: the box with the most (weight × extent) is halved at the median of its longest side.
-    struct Cut {
-        std::size_t from, to;
-    };
-    const auto extent = [&](const Cut& c, int& channel) {
-        int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
-        for (std::size_t i = c.from; i < c.to; ++i) {
-            const int v[3] = {items[i].r, items[i].g, items[i].b};
-            for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], v[k]), high[k] = std::max(high[k], v[k]);
-        }
-        channel = 1;  // green first where equal: the eye sees it best
-        for (int k : {0, 2})
-            if (high[k] - low[k] > high[channel] - low[channel]) channel = k;
-        return high[channel] - low[channel];
-    };
-    std::vector<Cut> cuts{{0, items.size()}};
-    while (cuts.size() + out.size() < kColors) {
-        std::size_t best = cuts.size();
-        double most = 0;
-        for (std::size_t i = 0; i < cuts.size(); ++i) {
-            int channel = 0;
-            double weight = 0;
-            const int side = extent(cuts[i], channel);
-            for (std::size_t k = cuts[i].from; k < cuts[i].to; ++k) weight += items[k].cell.count;
-            if (side > 0 && weight * side > most) most = weight * side, best = i;
-        }
-        if (best == cuts.size()) break;
-        const Cut cut = cuts[best];
-        int channel = 0;
-        extent(cut, channel);
-        const auto value = [&](const Item& item) { return channel == 0 ? item.r : channel == 1 ? item.g : item.b; };
-        std::stable_sort(items.begin() + static_cast<std::ptrdiff_t>(cut.from),
-                         items.begin() + static_cast<std::ptrdiff_t>(cut.to),
-                         [&](const Item& a, const Item& b) { return value(a) < value(b); });
-        double all = 0, part = 0;
-        for (std::size_t k = cut.from; k < cut.to; ++k) all += items[k].cell.count;
-        std::size_t middle = cut.from + 1;
-        for (std::size_t k = cut.from; k + 1 < cut.to; ++k) {
-            part += items[k].cell.count;
-            middle = k + 1;
-            if (part >= all / 2) break;
-        }
-        cuts[best] = {cut.from, middle};
-        cuts.push_back({middle, cut.to});
-    }
-    for (const Cut& cut : cuts) {
-        Cell sum;
-        for (std::size_t k = cut.from; k < cut.to; ++k) {
-            const Cell& c = items[k].cell;
-            sum.count += c.count, sum.r += c.r, sum.g += c.g, sum.b += c.b;
-        }
-        const auto mean = [&](double v) { return static_cast<int>(std::lround(v / sum.count)); };
-        out.push_back(packed({mean(sum.r), mean(sum.g), mean(sum.b)}));
-    }
+    std::ranges::copy(median_cut(std::move(items), kColors - fixed), std::back_inserter(out));
     refine(out, fixed);
     std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());

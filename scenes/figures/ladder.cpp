@@ -21,9 +21,19 @@ using sim::ModelKind;
 constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
 constexpr int kModelsPoints = 4001;
 
-// The first apex after the first collision began.
-std::optional<double> rebound(const sim::Result& result) {
+// Steps that the figure `models` spends on a motion: about a second of computing, of which a Runge–Kutta step of N
+// shapes takes so many microseconds.
+int affordable_steps(ModelKind model, int modes) {
+    const bool nonlinear = model == ModelKind::second_order || model == ModelKind::exact;
+    const double microseconds = 40 + (nonlinear ? 2.0 : 0.5) * modes * modes;
+    return static_cast<int>(1.2e6 / microseconds);
+}
+
+// The first apex after the first collision began; of a motion cut short before `end` only where a second one ends the
+// search.
+std::optional<double> rebound(const sim::Result& result, double end) {
     if (result.collisions.empty()) return std::nullopt;
+    if (result.collisions.size() == 1 && result.end_time < end) return std::nullopt;
     const double after = result.collisions.front().t_end.value_or(result.end_time);
     // Ripple makes small maxima; the rebound is the highest of those before the next collision.
     const double until = result.collisions.size() > 1 ? result.collisions[1].t_start : result.end_time;
@@ -55,7 +65,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
             studies.turning_points(runs.back().study);
             studies.may_fail(runs.back().study);
         }
-    return [runs, lang, problem = scene.problem](const Results& results) {
+    return [runs, lang, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
         Figure figure;
         figure.name = "apex-modes";
@@ -72,7 +82,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         series[1].look = 1;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> used;
         for (const Run& run : runs) {
-            const std::optional<double> apex = rebound(*results[run.study]);
+            const std::optional<double> apex = rebound(*results[run.study], end);
             if (!apex) continue;  // none, or no such motion
             Series& s = series[run.basis == Basis::hub_beam ? 0 : 1];
             s.x.push_back(run.modes);
@@ -130,10 +140,13 @@ std::vector<Rung> rungs(const Scene& scene, Lang lang) {
         sim::Beam& beam = rung.problem.beam;
         beam.model = rung.model;
         beam.basis = rung.basis;
-        if (rung.model != ModelKind::exact) continue;
-        // The elastica's own shapes resolve what the scene's modes do with about twice as many.
-        beam.modes = std::min(2 * beam.modes + 1, 40);
-        if (beam.damping_ratio.size() > 1) beam.damping_ratio.resize(static_cast<std::size_t>(beam.modes), 0);
+        if (rung.model == ModelKind::exact) {
+            // The elastica's own shapes resolve what the scene's modes do with about twice as many.
+            beam.modes = std::min(2 * beam.modes + 1, 40);
+            if (beam.damping_ratio.size() > 1) beam.damping_ratio.resize(static_cast<std::size_t>(beam.modes), 0);
+        }
+        int& steps = rung.problem.solver.max_steps;
+        if (rung.model != ModelKind::rigid) steps = std::min(steps, affordable_steps(beam.model, beam.modes));
     }
     return all;
 }
@@ -144,12 +157,31 @@ const Rung* found(const std::vector<Rung>& all, ModelKind model, bool same_shape
     return it == all.end() ? nullptr : &*it;
 }
 
+// Which curves end before the scene does.
+std::string cut_short(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string list;
+    for (const Rung& rung : all)
+        if (const sim::Result& result = *results[rung.study]; is_there(result) && result.end_time < end)
+            list += filled(en ? "{}{} ends at {} s" : "{}{} 止于 {} s",
+                           list.empty() ? ""
+                           : en         ? ", "
+                                        : "，",
+                           rung.label, number(result.end_time, 3));
+    if (list.empty()) return list;
+    return filled(
+        en ? "Curves end where the work that this figure spends on a model does, or where the model cannot go "
+             "on: {}. "
+           : "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
+        list);
+}
+
 // What equation and shapes change of the first rebound, each by itself.
-std::string models_caption(const std::vector<Rung>& all, const Results& results, Lang lang) {
+std::string models_caption(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
     const bool en = lang == Lang::en;
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
-        return rung ? rebound(*results[rung->study]) : std::nullopt;
+        return rung ? rebound(*results[rung->study], end) : std::nullopt;
     };
     const Rung& reference = all.front();
     std::string text = filled(
@@ -182,12 +214,36 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
     return text;
 }
 
+// The hub angle of a motion that may have been cut short: what follows is not a number.
+Series reached(const sim::Table& table) {
+    Series s;
+    s.x = column(table, ChannelKind::t);
+    s.y = column(table, ChannelKind::theta);
+    const auto end = std::ranges::find_if(s.x, [](double t) { return std::isnan(t); });
+    s.x.erase(end, s.x.end());
+    s.y.resize(s.x.size());
+    return s;
+}
+
+// From each instant's reference, so far; empty where there is none.
+Series largest_difference(Series s, const std::vector<double>& reference) {
+    s.x.resize(std::min(s.x.size(), reference.size()));
+    s.y.resize(s.x.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < s.y.size(); ++i) {
+        largest = std::max(largest, std::abs(s.y[i] - reference[i]));
+        s.y[i] = largest > 0 ? largest : std::nan("");
+    }
+    if (largest == 0) s.x.clear(), s.y.clear();
+    return s;
+}
+
 FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     std::vector<Rung> all = rungs(scene, lang);
     for (Rung& rung : all) {
         rung.study = studies.of(rung.problem, scene.end_time, "models");
-        if (&rung != &all.front()) studies.may_fail(rung.study);  // what the others are compared with
+        studies.may_fail(rung.study);
         studies.turning_points(rung.study);
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
@@ -208,39 +264,39 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
             panel->y.scale = Scale::logarithmic;
         }
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
-        const std::vector<double>& reference = column(results[all[0].study]->tables[all[0].table], ChannelKind::theta);
+        if (!is_there(*results[all[0].study]))
+            throw render::PictureError(
+                "figure models: the model second-order, with which the others are compared, "
+                "cannot be integrated; its warning says why");
+        // Until the last of the flexible beams is cut short: what the rigid one does beyond compares with nothing.
+        double shown = 0;
+        for (const Rung& rung : all)
+            if (rung.model != ModelKind::rigid) shown = std::max(shown, results[rung.study]->end_time);
+        std::vector<double> reference;
         for (std::size_t k = 0; k < all.size(); ++k) {
             const Rung& rung = all[k];
             if (!is_there(*results[rung.study])) continue;
-            const sim::Table& t = results[rung.study]->tables[rung.table];
-            Series s;
+            Series s = reached(results[rung.study]->tables[rung.table]);
             s.label = rung.label;
             s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
             s.solid = k == 0;
             s.weight = 0.85;
-            s.x = column(t, ChannelKind::t);
-            s.y = column(t, ChannelKind::theta);
-            if (k > 0) {
-                Series d = s;
-                double largest = 0;
-                for (std::size_t i = 0; i < d.y.size(); ++i) {
-                    largest = std::max(largest, std::abs(d.y[i] - reference[i]));
-                    d.y[i] = largest > 0 ? largest : std::nan("");
-                }
-                if (largest > 0) (rung.same_shapes ? models : bases).series.push_back(std::move(d));
-            }
+            if (k == 0) reference = s.y;
+            if (Series d = largest_difference(s, reference); k > 0 && !d.x.empty())
+                (rung.same_shapes ? models : bases).series.push_back(std::move(d));
             angle.series.push_back(std::move(s));
             runs.emplace_back(&rung.problem, results[rung.study]);
         }
         for (Panel* panel : {&angle, &models, &bases}) {
             panel->x.label = "$t$ / s";
-            panel->x.from = 0, panel->x.to = end;
+            panel->x.from = 0, panel->x.to = shown;
             if (!panel->series.empty()) figure.panels.push_back(std::move(*panel));
         }
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.5;
-        figure.caption = models_caption(all, results, lang) + facts(problem, lang, {.model = true, .modes = true});
+        figure.caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
+                         facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(runs, lang);
         return figure;
     };

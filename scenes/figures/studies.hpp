@@ -13,8 +13,8 @@ struct Study {
     sim::Request request;
     std::string because;    // who looks furthest
     bool of_scene = false;  // the scene's own physics; told by the plan
-    // A physics of the figure's own choosing: where it cannot be integrated its result stays empty, and the figure does
-    // without.
+    // A physics of the figure's own choosing: where it cannot be integrated to the end its result holds what was
+    // reached, or nothing, and the figure does without the rest.
     bool may_fail = false;
 };
 

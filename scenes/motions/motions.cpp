@@ -127,22 +127,25 @@ void Motions::make(const Group& group, const sim::Progress& progress) {
             next = end;
         }
     };
-    const auto leave_out = [&](const char* why) {
+    // Hands out what there is of a motion that need not be whole.
+    const auto leave_out = [&](std::string_view why, std::vector<sim::Result> reached) {
         if (!std::ranges::all_of(group, &Wish::may_fail)) return false;
-        sim::Result none;
-        none.warnings = {
-            fmt::format("left out, {}, {} modes: {}", name(first.problem.beam.model), first.problem.beam.modes, why)};
-        hand_out(std::vector(requests.size(), none), &Wish::results);
+        if (!reached.empty()) why = why.substr(0, why.find(';'));  // without advice, which is for a scene's own motion
+        const bool nothing = reached.empty();
+        if (nothing) reached.resize(requests.size());
+        reached.front().warnings = {fmt::format("{}, {}, {} modes: {}", nothing ? "left out" : "cut short",
+                                                name(first.problem.beam.model), first.problem.beam.modes, why)};
+        hand_out(std::move(reached), &Wish::results);
         return true;
     };
     try {
         hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
     } catch (const sim::SolverError& error) {
-        if (leave_out(error.what())) return;
+        if (leave_out(error.what(), error.partials)) return;
         if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
         throw;
     } catch (const std::invalid_argument& error) {  // an impossible problem, which the figure chose itself
-        if (!leave_out(error.what())) throw;
+        if (!leave_out(error.what(), {})) throw;
     }
 }
 

@@ -30,7 +30,7 @@ class Motions {
         : cache_(cache), history_(history), progress_(progress), options_(options) {}
 
     // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number. A motion that all
-    // who want it can do without may fail: that is told, and its results are empty.
+    // who want it can do without may fail: that is told, and its results are what it reached, or empty.
     std::size_t want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
                      bool may_fail = false);
     // Fulfils all wishes. Throws what sim::simulate throws.

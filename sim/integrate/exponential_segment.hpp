@@ -12,6 +12,8 @@
 
 namespace beamcam::sim {
 
+struct VibrationBounds;
+
 class ExponentialSegment final : public Segment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
@@ -66,6 +68,8 @@ class ExponentialSegment final : public Segment {
     double work_on_decay(std::size_t mode, bool fast, const double* g, double s, const double* y) const;
     double largest_amplitude(std::size_t mode, double force) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
+    double hub_acceleration(const VibrationBounds& sum, double fastest_spin) const;
+    void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     ModalBounds::Mode mode_bounds(std::size_t mode) const;
     double torque_on_vibration(double s, const double* y) const;
 

@@ -17,6 +17,7 @@ constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
 constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
 constexpr double kSpare = 50;           // the reference may take this many times the longest run
 constexpr int kModelShapes = 6;         // models are compared with at least so many shapes
+constexpr const char* kLeftOut = "left out";
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
 // One simulation with the compared angle at the instants.
@@ -28,37 +29,24 @@ struct Run {
 
 struct TooLong {};
 
-class Assessment {
+// Simulates variants of a problem within limits of time, and compares them.
+class Trials {
   public:
     using Tell = std::function<bool(const std::string&, double)>;
 
-    Assessment(const Problem& problem, const AccuracyRequest& request, const Tell& tell)
-        : problem_(problem), request_(request), tell_(tell), angle_(compared_angle(problem)) {
-        out_.of_tip = angle_.of_tip();
-        out_.end_time = request.end_time;
-        out_.target = request.target;
-        if (request_.rtols.empty())
-            for (int digits = 3; digits <= 12; ++digits) request_.rtols.push_back(std::pow(10.0, -digits));
-        if (request_.methods.empty())
-            request_.methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
-                                Method::arkode_erk};
-        if (request_.modes.empty()) request_.modes.assign(std::begin(kModesLadder), std::end(kModesLadder));
-        if (problem.beam.model == ModelKind::rigid) request_.modes.clear();
+    Trials(const Problem& problem, const AccuracyRequest& request, const Tell& tell)
+        : angle_(compared_angle(problem)), target_(request.target), repeats_(request.repeats), tell_(tell) {}
+
+    bool of_tip() const { return angle_.of_tip(); }
+
+    // What the next trials are about, and the share of the whole that is done before them.
+    void about(std::string what, double share) {
+        what_ = std::move(what);
+        share_ = share;
+        if (!tell()) throw Interrupted();
     }
 
-    Accuracy go() {
-        find_horizon();
-        work();
-        modes();
-        models();
-        contact();
-        recommend();
-        return std::move(out_);
-    }
-
-  private:
-    // ---- runs ------------------------------------------------------------------------------------
-
+    // With the angle at the instants if `sampled`. Throws what simulate throws, and TooLong beyond `limit` seconds.
     Run simulate_until(const Problem& problem, double end, double limit, bool sampled) {
         Request request;
         request.end_time = end;
@@ -87,48 +75,57 @@ class Assessment {
         return run;
     }
 
-    // False: the user wants an end.
-    bool tell() { return !tell_ || tell_(what_, share_); }
-    void about(std::string what, double share) {
-        what_ = std::move(what);
-        share_ = share;
-        if (!tell()) throw Interrupted();
+    // The same for a variant that need not be possible: `note` says why there is none.
+    std::optional<Run> try_until(const Problem& variant, double end, double limit, std::string& note) {
+        try {
+            return simulate_until(variant, end, limit, true);
+        } catch (const TooLong&) {
+            note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
+        } catch (const SolverError& failure) {
+            note = fmt::format("failed: {}", failure.what());
+        } catch (const std::invalid_argument& refused) {
+            note = fmt::format("refused: {}", refused.what());
+        }
+        return std::nullopt;
     }
 
     // What a variant of the problem does, compared with `truth` over [0, end]. Timed without samples.
+    void measure(AccuracyRow& row, const Problem& variant, const Run& truth, double end, double limit) {
+        measure(row, variant, truth, end, limit, repeats_);
+    }
     void measure(AccuracyRow& row, const Problem& variant, const Run& truth, double end, double limit, int repeats) {
+        const std::optional<Run> run = try_until(variant, end, limit, row.note);
+        if (!run) return;
+        compare(row, *run, truth, end);
         try {
-            const Run run = simulate_until(variant, end, limit, true);
-            compare(row, run, truth, end);
-            std::vector<double> seconds;
-            for (int k = 0; k < repeats; ++k) {
-                seconds.push_back(simulate_until(variant, end, 2 * limit, false).seconds);
-                if (seconds_since(started_) > 20 * limit * (1 + share_)) break;  // on a slow problem one timing will do
-            }
-            row.time = timing(std::move(seconds));
+            row.time = time(variant, end, 2 * limit, repeats, 20 * limit * (1 + share_));
         } catch (const TooLong&) {
             row.error.reset();
-            row.note = fmt::format("left out: longer than {:g} s", limit);
-        } catch (const SolverError& failure) {
-            row.error.reset();
-            row.note = fmt::format("failed: {}", failure.what());
-        } catch (const std::invalid_argument& refused) {
-            row.error.reset();
-            row.note = fmt::format("refused: {}", refused.what());
+            row.note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
         }
     }
 
-    static Timing timing(std::vector<double> seconds) {
+    // Of `repeats` runs, or fewer once `enough` seconds have passed since the first trial of all.
+    Timing time(const Problem& variant, double end, double limit, int repeats, double enough) {
+        std::vector<double> seconds;
+        for (int k = 0; k < repeats; ++k) {
+            seconds.push_back(simulate_until(variant, end, limit, false).seconds);
+            if (seconds_since(started_) > enough) break;
+        }
         std::sort(seconds.begin(), seconds.end());
         return {seconds[seconds.size() / 2], seconds.front(), seconds.back(), static_cast<int>(seconds.size())};
     }
+
+  private:
+    // False: the user wants an end.
+    bool tell() { return !tell_ || tell_(what_, share_); }
 
     void compare(AccuracyRow& row, const Run& run, const Run& truth, double end) const {
         double worst = 0;
         row.trusted_until = end;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
             const double off = std::fabs(run.angle[k] - truth.angle[k]);
-            if (!(off <= request_.target) && row.trusted_until == end)
+            if (!(off <= target_) && row.trusted_until == end)
                 row.trusted_until = end * static_cast<double>(k > 0 ? k - 1 : 0) / kInstants;
             worst = std::max(worst, off);
         }
@@ -144,6 +141,49 @@ class Assessment {
         row.touch_error = shift;
     }
 
+    const ComparedAngle angle_;
+    const double target_;  // [rad]
+    const int repeats_;
+    const Tell& tell_;
+    std::string what_;
+    double share_ = 0;
+    Clock::time_point started_ = Clock::now();
+};
+
+// One damping ratio a shape: the last serves those that are added.
+void set_modes(Problem& problem, int modes) {
+    problem.beam.modes = modes;
+    std::vector<double>& ratios = problem.beam.damping_ratio;
+    if (ratios.size() > 1) ratios.resize(static_cast<std::size_t>(modes), double(ratios.back()));
+}
+
+class Assessment {
+  public:
+    Assessment(const Problem& problem, const AccuracyRequest& request, const Trials::Tell& tell)
+        : problem_(problem), request_(request), trials_(problem, request, tell) {
+        out_.of_tip = trials_.of_tip();
+        out_.end_time = request.end_time;
+        out_.target = request.target;
+        if (request_.rtols.empty())
+            for (int digits = 3; digits <= 12; ++digits) request_.rtols.push_back(std::pow(10.0, -digits));
+        if (request_.methods.empty())
+            request_.methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
+                                Method::arkode_erk};
+        if (request_.modes.empty()) request_.modes.assign(std::begin(kModesLadder), std::end(kModesLadder));
+        if (problem.beam.model == ModelKind::rigid) request_.modes.clear();
+    }
+
+    Accuracy go() {
+        find_horizon();
+        work();
+        modes();
+        models();
+        contact();
+        recommend();
+        return std::move(out_);
+    }
+
+  private:
     Problem with(double rtol, Method method = Method::automatic) const {
         Problem variant = problem_;
         variant.solver.method = method;
@@ -153,20 +193,13 @@ class Assessment {
         return variant;
     }
 
-    // One damping ratio a shape: the last serves those that are added.
-    static void set_modes(Problem& problem, int modes) {
-        problem.beam.modes = modes;
-        std::vector<double>& ratios = problem.beam.damping_ratio;
-        if (ratios.size() > 1) ratios.resize(static_cast<std::size_t>(modes), double(ratios.back()));
-    }
-
     // ---- the tables ------------------------------------------------------------------------------
 
     // The reference is the eighth-order Runge–Kutta method at the tightest tolerance; its own error is what a
     // tenth of that tolerance changes. Until when the scene's own settings reproduce the motion is the time of every
     // comparison.
     void find_horizon() {
-        about("reference", 0);
+        trials_.about("reference", 0);
         const double limit = kSpare * request_.longest_run;
         const Run mine = simulate_or_refuse(problem_, limit);
         const Run truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
@@ -178,8 +211,8 @@ class Assessment {
             break;
         }
         out_.until = until;
-        reference_ = simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
-        const Run check = simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
+        reference_ = trials_.simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
+        const Run check = trials_.simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
         for (std::size_t k = 0; k < check.angle.size(); ++k)
             out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
         // The angle itself has no more digits than this.
@@ -190,7 +223,7 @@ class Assessment {
 
     Run simulate_or_refuse(const Problem& problem, double limit) {
         try {
-            return simulate_until(problem, request_.end_time, limit, true);
+            return trials_.simulate_until(problem, request_.end_time, limit, true);
         } catch (const TooLong&) {
             throw SolverError(
                 fmt::format(
@@ -207,15 +240,15 @@ class Assessment {
         for (const Method method : request_.methods) {
             bool too_long = false;
             for (const double rtol : request_.rtols) {
-                about(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
+                trials_.about(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
                 WorkRow row;
                 row.method = method;
                 row.rtol = rtol;
                 if (too_long)
                     row.note = "left out: a looser tolerance took too long already";
                 else
-                    measure(row, with(rtol, method), reference_, out_.until, request_.longest_run, request_.repeats);
-                too_long = too_long || row.note.starts_with("left out");
+                    trials_.measure(row, with(rtol, method), reference_, out_.until, request_.longest_run);
+                too_long = too_long || row.note.starts_with(kLeftOut);
                 out_.work.push_back(std::move(row));
             }
         }
@@ -230,25 +263,18 @@ class Assessment {
         std::sort(ladder.begin(), ladder.end(), std::greater<>());
         std::optional<Run> truth;
         for (std::size_t i = 0; i < ladder.size(); ++i) {
-            about(fmt::format("{} shapes", ladder[i]),
-                  0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
+            trials_.about(fmt::format("{} shapes", ladder[i]),
+                          0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
             Problem variant = problem_;
             set_modes(variant, ladder[i]);
             ModesRow row;
             row.modes = ladder[i];
+            const double limit = 5 * request_.longest_run;
             if (!truth) {
-                try {
-                    truth = simulate_until(variant, out_.until, 5 * request_.longest_run, true);
-                    out_.most_modes = ladder[i];
-                } catch (const TooLong&) {
-                    row.note = fmt::format("left out: longer than {:g} s", 5 * request_.longest_run);
-                } catch (const SolverError& failure) {
-                    row.note = fmt::format("failed: {}", failure.what());
-                } catch (const std::invalid_argument& refused) {
-                    row.note = fmt::format("refused: {}", refused.what());
-                }
+                truth = trials_.try_until(variant, out_.until, limit, row.note);
+                if (truth) out_.most_modes = ladder[i];
             }
-            if (truth) measure(row, variant, *truth, out_.until, 5 * request_.longest_run, request_.repeats);
+            if (truth) trials_.measure(row, variant, *truth, out_.until, limit);
             out_.modes.push_back(std::move(row));
         }
         std::reverse(out_.modes.begin(), out_.modes.end());
@@ -265,8 +291,8 @@ class Assessment {
         std::optional<Run> truth;
         out_.models_until = out_.until;
         for (std::size_t i = 0; i < descending.size(); ++i) {
-            about(fmt::format("model {}", name(descending[i])),
-                  0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
+            trials_.about(fmt::format("model {}", name(descending[i])),
+                          0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
             Problem variant = problem_;
             variant.beam.model = descending[i];
             set_modes(variant, std::max(problem_.beam.modes, kModelShapes));
@@ -280,8 +306,8 @@ class Assessment {
                 if (truth) out_.best_model = descending[i];
             }
             if (truth && row.note.empty())
-                measure(row, variant, *truth, out_.models_until, limit,
-                        variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
+                trials_.measure(row, variant, *truth, out_.models_until, limit,
+                                variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
             out_.models.push_back(std::move(row));
         }
         std::reverse(out_.models.begin(), out_.models.end());
@@ -290,31 +316,23 @@ class Assessment {
     // As much of [0, until] as fits the time, at least a sixteenth.
     std::optional<Run> longest(const Problem& variant, double limit, AccuracyRow& row) {
         for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
-            try {
-                Run run = simulate_until(variant, share * out_.until, limit, true);
-                out_.models_until = share * out_.until;
-                return run;
-            } catch (const TooLong&) {
-            } catch (const SolverError& failure) {
-                row.note = fmt::format("failed: {}", failure.what());
-                return std::nullopt;
-            } catch (const std::invalid_argument& refused) {
-                row.note = fmt::format("refused: {}", refused.what());
-                return std::nullopt;
-            }
+            std::string note;
+            std::optional<Run> run = trials_.try_until(variant, share * out_.until, limit, note);
+            row.note = note;
+            if (run) out_.models_until = share * out_.until;
+            if (run || !note.starts_with(kLeftOut)) return run;
         }
-        row.note = fmt::format("left out: longer than {:g} s", limit);
         return std::nullopt;
     }
 
     void contact() {
         if (!problem_.cam) return;
         const auto add = [&](std::string change, const Problem& variant) {
-            about("contact " + change, 0.92);
+            trials_.about("contact " + change, 0.92);
             ContactRow row;
             row.change = std::move(change);
-            const Run truth = simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
-            measure(row, variant, truth, out_.until, kSpare * request_.longest_run, 1);
+            const Run truth = trials_.simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
+            trials_.measure(row, variant, truth, out_.until, kSpare * request_.longest_run, 1);
             out_.contact.push_back(std::move(row));
         };
         Problem variant = problem_;
@@ -367,17 +385,15 @@ class Assessment {
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
         set_modes(chosen, r.modes);
-        about("recommendation", 0.97);
-        std::vector<double> seconds;
+        trials_.about("recommendation", 0.97);
+        const double limit = kSpare * request_.longest_run;
         try {
-            for (int k = 0; k < request_.repeats; ++k)
-                seconds.push_back(simulate_until(chosen, r.until, kSpare * request_.longest_run, false).seconds);
+            r.seconds = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats).median;
         } catch (const TooLong&) {
             return;
         } catch (const SolverError&) {
             return;
         }
-        r.seconds = timing(std::move(seconds)).median;
         r.error = error;
         const std::string shapes = problem_.beam.model == ModelKind::rigid
                                        ? ""
@@ -389,13 +405,9 @@ class Assessment {
 
     const Problem& problem_;
     AccuracyRequest request_;
-    const Tell& tell_;
-    const ComparedAngle angle_;
+    Trials trials_;
     Accuracy out_;
     Run reference_;
-    std::string what_;
-    double share_ = 0;
-    Clock::time_point started_ = Clock::now();
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kCaseLimit = 120;  // [s] of a processor that one case may take; beyond, it hangs
-constexpr int kLooks = 7;           // instants at which every channel is looked at
+constexpr int kChannelLooks = 7;    // instants at which every channel is looked at
 
 bool passive(const Problem& p) {
     return std::holds_alternative<FreeDrive>(p.hub.drive) && (!p.cam || p.cam->speed == 0) &&
@@ -111,7 +111,7 @@ StressResult survive(const StressCase& one) {
     request.end_time = one.end;
     TableRequest table;
     table.channels = all_channels(one.problem);
-    for (int k = 0; k < kLooks; ++k) table.times.push_back(one.end * k / (kLooks - 1));
+    for (int k = 0; k < kChannelLooks; ++k) table.times.push_back(one.end * k / (kChannelLooks - 1));
     if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return of_contact(c.kind); });
     request.tables.push_back(table);
     request.extrema = {{ChannelKind::theta, 0}, {ChannelKind::tip_deflection, 0}};

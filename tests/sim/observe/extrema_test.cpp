@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/observe/trajectory.hpp"
+#include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim {
@@ -91,7 +92,10 @@ TEST(Extrema, OfTheSecondOrderModelExceedEverySample) {
     expect_true_extrema(turning_cam(ModelKind::second_order, 2), 0.35, 6'000);
 }
 
-TEST(Extrema, OfTheExactModelExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::exact, 2), 0.35, 5'000); }
+TEST(Extrema, OfTheExactModelExceedEverySample) {
+    SKIP_UNDER_SANITIZERS();
+    expect_true_extrema(turning_cam(ModelKind::exact, 2), 0.35, 5'000);
+}
 
 TEST(Extrema, OfClampedShapesExceedEverySample) {
     Problem p = turning_cam(ModelKind::first_order, 3);
