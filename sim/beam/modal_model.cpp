@@ -63,23 +63,27 @@ namespace {
 // Σ_j A_ij(x) q_j with A_ij the antiderivative of φ_i′φ_j′, from φ⁗ = β⁴φ and by parts:          (S5a)
 //   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
 //   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
+// Sums over j run through all i at once: so compilers vectorize them, and each adds up as it would by itself.
 template <class Tables>
 void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
                     const double* y3, const double* q, double* out) {
-    const auto n = static_cast<int>(tables.beta4.size());
-    for (int i = 0; i < n; ++i) {
-        double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-        for (int j = 0; j < n; ++j) {
-            const double c = tables.difference(j, i) * q[j];  // antisymmetric: the sign is turned below
-            s0 += c * tables.beta4[static_cast<std::size_t>(j)] * y[j];
-            s1 += c * y1[j];
-            s2 += c * y2[j];
-            s3 += c * y3[j];
+    const std::size_t n = tables.beta4.size();
+    double s0[kMaxModes] = {}, s1[kMaxModes] = {}, s2[kMaxModes] = {}, s3[kMaxModes] = {};
+    for (std::size_t j = 0; j < n; ++j) {
+        const double* difference = tables.difference.col(static_cast<Eigen::Index>(j)).data();
+        for (std::size_t i = 0; i < n; ++i) {
+            const double c = difference[i] * q[j];
+            s0[i] += c * tables.beta4[j] * y[j];
+            s1[i] += c * y1[j];
+            s2[i] += c * y2[j];
+            s3[i] += c * y3[j];
         }
-        const double b4 = tables.beta4[static_cast<std::size_t>(i)];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const double b4 = tables.beta4[i];
         const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] -
                                    y2[i] * y3[i] / b4);
-        out[i] = own * q[i] - (b4 * y[i] * s1 - y3[i] * s2 + y2[i] * s3 - y1[i] * s0);
+        out[i] = own * q[i] + (b4 * y[i] * s1[i] - y3[i] * s2[i] + y2[i] * s3[i] - y1[i] * s0[i]);
     }
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kMostIterations = 60;    // of Newton's method with bisection: a bisection alone needs 47 for kFootChange
 constexpr double kFootChange = 1e-14;  // of the length: rounding of the arc position
+constexpr double kLastChange = 1e-9;   // of the length: after such a step of Newton's method what is left is rounding
 constexpr int kSamplesOfModes = 9, kSamplesOfExact = 13;  // and 2 or 4 a coordinate: more for more curved shapes
 
 }  // namespace
@@ -59,13 +60,16 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
             low = std::max(low, x);
         const double bend = dot(at_.r2, d) + dot(at_.r1, at_.r1);
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
+        if (bend > 0 && std::fabs(next - x) <= kLastChange * length_ && next > 0 && next < length_) {
+            if (next != x) model.point(x = next, at_);
+            break;
+        }
         if (next <= low || next >= high) {
             const double edge = next <= low ? low : high;
             const bool free_end = edge == 0 || edge == length_;
             next = free_end && bend > 0 ? edge : 0.5 * (low + high);
         }
-        const double dx = next - x;
-        if (std::fabs(dx) <= kFootChange * length_) break;
+        if (std::fabs(next - x) <= kFootChange * length_) break;
         x = next;
     }
     x_last_ = x;

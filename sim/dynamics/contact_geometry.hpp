@@ -25,6 +25,11 @@ class ContactGeometry {
 
     // The next evaluation searches the whole beam.
     void search_again() { search_next_ = true; }
+    // The next evaluation begins at x, near which the foot is known to be.
+    void begin_at(double x) {
+        x_last_ = x;
+        search_next_ = false;
+    }
     // x, normal, gap and rates; no forces. `search`: over the whole beam, else near the last foot. `shift`: added to
     // the gap.
     ContactState evaluate(const Model& model, const GapBound& bound, double t, bool search, double shift);

@@ -53,6 +53,8 @@ class System final : public Ode {
         search_again();
     }
     void search_again() { geometry_.search_again(); }
+    // The next one begins at this x, near which the foot is known to be.
+    void begin_contact_at(double x) { geometry_.begin_at(x); }
     const Phase& phase() const { return phase_; }
     void rhs(double t, const double* y, double* dy) override;
 

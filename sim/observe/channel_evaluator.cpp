@@ -108,6 +108,7 @@ double ChannelEvaluator::value(Channel channel) {
             const ContactState c = contact();
             if (!acceleration_known_) {
                 double acc[kMaxSize];
+                system_.begin_contact_at(c.x);
                 system_.acceleration(t_, y_.data(), acc);
                 hub_acceleration_ = 0;
                 for (int i = 0; i < n; ++i) hub_acceleration_ += model.hub_row()[i] * acc[i];
