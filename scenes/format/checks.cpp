@@ -80,15 +80,20 @@ void take_written_units(ObjectReader& r, render::Units& units) {
     units.rpm = ends_in("cam", "speed", {"rpm"});
 }
 
+namespace {
+
+bool needs_cam(const render::Anchor& anchor) {
+    return anchor.kind == render::Anchor::Kind::contact || anchor.kind == render::Anchor::Kind::cam;
+}
+
+}  // namespace
+
 void judge_camera(ObjectReader& r, const View& view) {
     for (const char* key : {"yaw", "pitch", "swing"})
         if (r.has(key) && view.style != render::Style::solid)
             r.findings().warning(
                 r.place(key).place,
                 fmt::format("{} turns the solid view alone; \"style\": \"solid\" shows that", r.path(key)));
-    const auto needs_cam = [](const render::Anchor& follow) {
-        return follow.kind == render::Anchor::Kind::contact || follow.kind == render::Anchor::Kind::cam;
-    };
     const auto judge = [&](const render::Anchor& follow, const std::string& key, const Node& place) {
         if (needs_cam(follow) && !r.context().scene.problem.cam)
             r.fail(place, key,
@@ -98,6 +103,13 @@ void judge_camera(ObjectReader& r, const View& view) {
     for (std::size_t i = 0; i < view.keyframes.size(); ++i)
         if (view.keyframes[i].follow)
             judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i), r.place("keyframes"));
+}
+
+void judge_view(ObjectReader& r, const View& view) {
+    if (r.has("exposures") && view.poses() == 1)
+        r.findings().warning(
+            r.place("exposures").place,
+            fmt::format("{} needs a \"shutter\" or \"strobe\" to be exposed for", r.path("exposures")));
 }
 
 void judge_picture(ObjectReader& r, Picture& picture) {
@@ -145,19 +157,36 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     return {};
 }
 
-void judge_span(ObjectReader& r, const FrameSpan& span) {
+void judge_span(ObjectReader& r, const FrameSpan& span, const View& view) {
     const Findings& findings = r.findings();
     if (findings.failed(r.path("from")) || findings.failed(r.path("to")) || findings.failed("time")) return;
     const double end = span.to.value_or(r.context().scene.end_time);
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
         return r.fail(*r.node(), "to", fmt::format("{}: {}", r.what(), problem));
-    for (std::size_t i = 0; i < span.events.size() && !findings.failed(r.path("events")); ++i)
-        if (const Instant& at = span.events[i].at;  // a warning, so that films can be shortened
-            at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
+    // A warning, so that films can be shortened.
+    const auto judge = [&](const char* list, const std::string& key, const Instant& at) {
+        if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
             r.findings().warning(
-                r.node()->place,
-                fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: it is not shown",
-                            r.path(fmt::format("events.{}.at", i)), at.t, span.from, end));
+                r.place(list).place,
+                fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: it is not shown", r.path(key),
+                            at.t, span.from, end));
+    };
+    if (!findings.failed(r.path("events")))
+        for (std::size_t i = 0; i < span.events.size(); ++i) {
+            judge("events", fmt::format("events.{}.at", i), span.events[i].at);
+            if (span.events[i].anchor && needs_cam(*span.events[i].anchor) && !r.context().scene.problem.cam)
+                r.fail(r.place("events"), fmt::format("events.{}.anchor", i),
+                       fmt::format("{}: there is no cam; anchor the words to the tip, the hub or a place",
+                                   r.path(fmt::format("events.{}.anchor", i))));
+        }
+    if (!findings.failed(r.path("speed")))
+        for (std::size_t i = 0; i < span.speed.intervals.size(); ++i) {
+            judge("speed", fmt::format("speed.intervals.{}.from", i), span.speed.intervals[i].from);
+            judge("speed", fmt::format("speed.intervals.{}.to", i), span.speed.intervals[i].to);
+        }
+    if (!findings.failed(r.path("view")))
+        for (std::size_t i = 0; i < view.keyframes.size(); ++i)
+            judge("view", fmt::format("view.camera.keyframes.{}.at", i), view.keyframes[i].at);
 }
 
 void take_usual_codec(ObjectReader& r, VideoOutput& video) {
@@ -198,7 +227,7 @@ void judge_video(ObjectReader& r, VideoOutput& video) {
     if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
     if (!video.encoding.crf)
         if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
-    judge_span(r, video.span);
+    judge_span(r, video.span, video.view);
     judge_format(r, video);
 }
 

@@ -23,9 +23,10 @@ void judge_physics(ObjectReader& r, const sim::Problem& problem);
 // The units in which the scene writes its angle and its speed are those of its pictures.
 void take_written_units(ObjectReader& r, render::Units& units);
 void judge_camera(ObjectReader& r, const View& view);  // `r`: of the camera
+void judge_view(ObjectReader& r, const View& view);    // `r`: of the view
 void judge_picture(ObjectReader& r, Picture& picture);
 void judge_layout(ObjectReader& r, const Picture& picture);
-void judge_span(ObjectReader& r, const FrameSpan& span);
+void judge_span(ObjectReader& r, const FrameSpan& span, const View& view);
 void take_usual_codec(ObjectReader& r, VideoOutput& video);
 void judge_video(ObjectReader& r, VideoOutput& video);
 void judge_figure(ObjectReader& r, FigureOutput& figure);

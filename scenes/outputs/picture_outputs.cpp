@@ -75,6 +75,7 @@ static void visit(SceneVisitor& v, View& view) {
     v.exclude("shutter", "strobe");
     v.whole(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
             "How many exact instants the shutter sees, or how many of the latest flashes are shown.");
+    v.check([&view](ObjectReader& r) { judge_view(r, view); });
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"),
              "Factor on the deflection, stated on the picture; 1 is the true shape. auto picks a round one by the "
@@ -259,7 +260,7 @@ void FramesOutput::visit(SceneVisitor& v) {
     visit_span(v, span);
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, "-####.png");
-        judge_span(r, span);
+        judge_span(r, span, view);
     });
 }
 
@@ -285,7 +286,7 @@ void PageOutput::visit(SceneVisitor& v) {
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".html");
-        judge_span(r, span);
+        judge_span(r, span, view);
     });
 }
 
@@ -298,7 +299,7 @@ void ModelOutput::visit(SceneVisitor& v) {
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".glb");
-        judge_span(r, span);
+        judge_span(r, span, view);
     });
 }
 

@@ -483,6 +483,15 @@ TEST(Films, OfFewFramesSuggestADuration) {
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("\"duration\": \"4 s\" (speed 0.005)"));
 }
 
+TEST(Films, TellOfCollisionsThatDoNotCome) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
+        "view": {"style": "flat"}, "speed": {"around": "impacts", "factor": 0.5, "collisions": [1, 9]}}]})");
+    const std::string told = shell(folder, "$BEAMCAM run s.json").err;
+    EXPECT_THAT(told, HasSubstr("f.mkv does not show the slow motion of collision 9: not within the film"));
+    EXPECT_THAT(told, Not(HasSubstr("collision 1")));
+}
+
 // ---- what can come to nothing ----------------------------------------------------------------
 
 TEST(Films, TellOfWhatTheyWillNotShow) {
@@ -493,6 +502,17 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     const auto late = told(R"({"type": "video", "to": 0.3, "events": [{"at": 0.5, "text": "late"}]})");
     EXPECT_TRUE(late.first);
     EXPECT_THAT(late.second, HasSubstr("outputs.0.events.0.at = 0.5 s is no instant of a film from 0 s to 0.3 s"));
+    const auto camera = told(R"({"type": "video", "view": {"camera": {"keyframes": [{"at": 5, "zoom": 2}]}}})");
+    EXPECT_THAT(camera.second, HasSubstr("outputs.0.view.camera.keyframes.0.at = 5 s is no instant of a film"));
+    const auto slow = told(R"({"type": "video", "speed": {"around": "intervals",
+        "intervals": [{"from": 0.5, "to": 4, "factor": 0.5}]}})");
+    EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is no instant of a film"));
+    const auto exposed = told(R"({"type": "still", "at": 0.1, "view": {"exposures": 4}})");
+    EXPECT_THAT(exposed.second, HasSubstr("outputs.0.view.exposures needs a \"shutter\" or \"strobe\""));
+    const auto nowhere =
+        told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
+    EXPECT_FALSE(nowhere.first);
+    EXPECT_THAT(nowhere.second, HasSubstr("outputs.0.events.0.anchor: there is no cam"));
     const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
     EXPECT_TRUE(alone.first);
     EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
