@@ -147,13 +147,24 @@ std::string EntryTest::about_renderer() const {
     return words + "; look at the picture, and --add-digest";
 }
 
+// Then the pictures of other renderers still are of this entry.
+bool EntryTest::is_motion_alone_new() const {
+    return result_.picture == Verdict::identical && result_.motion && !result_.frames.empty() &&
+           !entry_.accepted.empty() && entry_.expected.empty();
+}
+
 std::optional<BaselineEdit> EntryTest::edit() {
     BaselineEdit change{entry_.name, entry_.accepted, entry_.reproducible_until};
     Accepted own{renderer_id_, {}};
     for (const auto& [frame, found] : result_.frames) own.sha256.push_back(found.sha256);
     if (references_.fresh) {
-        change.accepted.clear();
-        if (result_.picture && entry_.expected.empty()) change.accepted.push_back(std::move(own));
+        if (is_motion_alone_new()) {
+            for (const auto& [frame, found] : result_.frames) fs::remove(*references_.fresh / picture_name(frame));
+            update_.keep(entry_.name);
+        } else {
+            change.accepted.clear();
+            if (result_.picture && entry_.expected.empty()) change.accepted.push_back(std::move(own));
+        }
         if (result_.motion) change.reproducible_until = result_.reproducible_until;
         result_.updated = true;
         return change;

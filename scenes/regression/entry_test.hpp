@@ -21,6 +21,7 @@ namespace beamcam::scenes {
 // How the folders of references are changed; what is empty may not be.
 struct UpdateAccess {
     std::function<std::filesystem::path(const std::string&entry)> replace, extend;
+    std::function<void(const std::string& entry)> keep;  // what the update begun does not replace
     std::function<void(const std::string& entry)> drop;
 };
 
@@ -63,6 +64,7 @@ class EntryTest {
   private:
     bool is_new_renderer() const;
     std::string about_renderer() const;
+    bool is_motion_alone_new() const;
     void drop();
 
     const Baselines& baselines_;

@@ -67,6 +67,10 @@ class Regression {
         if (!options_.update.empty()) {
             update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
             access_.replace = [this](const std::string& entry) { return update_->begin(entry); };
+            access_.keep = [this](const std::string& entry) {
+                const std::lock_guard lock(mutex_);
+                update_->extend(entry);
+            };
         } else if (adds()) {
             access_.extend = [this](const std::string& entry) {
                 const std::lock_guard lock(mutex_);

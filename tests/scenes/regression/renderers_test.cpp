@@ -108,6 +108,19 @@ TEST(Renderers, EachHasItsOwnPicturesSideBySide) {
     EXPECT_EQ(shell(folder, kTest + " --strict").code, 0);
 }
 
+TEST(Renderers, PicturesOfOthersStayWhereTheMotionAloneIsNew) {
+    const Machines folder;
+    folder.accept_of_another("lutrgb=r=max(val-9\\,0)");
+    EXPECT_EQ(shell(folder, kTest + " --add-digest").code, 7);
+    const std::string others = folder.digest("b/fast/0000.png"), own = folder.digest(folder.own);
+    folder.swap("b.json", R"("cam.speed=5")", R"("cam.speed=5", "solver.rtol=1e-9")");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fast").code, 7);
+    EXPECT_EQ(folder.digest("b/fast/0000.png"), others);
+    EXPECT_EQ(folder.digest(folder.own), own);
+    EXPECT_THAT(slurp(folder / "b.json"), AllOf(HasSubstr("0123456789ab"), HasSubstr(others), HasSubstr(own)));
+    EXPECT_EQ(shell(folder, kTest + " --strict").code, 0);
+}
+
 TEST(Renderers, ThoseThatDrawAlikeShareAPicture) {
     const Machines folder("hit");
     folder.accept_of_another("lutrgb=r=max(val-9\\,0)");  // the first of two pictures
