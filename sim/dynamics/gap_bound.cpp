@@ -29,9 +29,11 @@ GapBound::GapBound(const Problem& problem, const Model& model)
     }
 }
 
+// `exact`: the curvature is Σ q_j P_j′(z)·2/L, and |P_j′| <= j(j + 1)/2.
 bool GapBound::nearly_straight(const double* q) const {
-    if (exact_ && modes_ > 0) return false;
     double curvature = 0;
+    if (exact_)
+        for (int j = 1; j <= modes_; ++j) curvature += j * (j + 1) / length_ * std::fabs(q[j - 1]);
     for (std::size_t i = 0; i < shape_bounds_.size(); ++i)
         curvature += shape_bounds_[i] * wave_numbers_[i] * wave_numbers_[i] * std::fabs(q[i]);
     const double far = length_ + std::fabs(radius_) + norm(cam_.centre) + cam_.eccentricity;
