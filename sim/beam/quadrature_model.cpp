@@ -24,7 +24,8 @@ class QuadratureModel : public Model {
         columns();
         inertia_.triangularView<Eigen::Lower>() = columns_.transpose() * columns_;
         Eigen::Map<Eigen::VectorXd> force(f, size_);
-        force.noalias() = -(columns_.transpose() * bias_);
+        force.noalias() = columns_.transpose() * bias_;
+        force = -force;  // apart: Eigen 5 makes a copy of a negated product
         for (int j = 0; j < size_; ++j)
             for (int i = j; i < size_; ++i) inertia_(i, j) += hub_inertia_ * hub_row_[i] * hub_row_[j];
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_);
@@ -184,7 +185,7 @@ class SecondOrderModel final : public QuadratureModel {
         shortening_.resize(nodes * modes_, modes_);
         for (int i = 0; i < modes_; ++i)
             shortening_.middleRows(i * nodes, nodes).noalias() =
-                primitive_ * (phi1_.array().colwise() * phi1_.col(i).array()).matrix();
+                -primitive_ * (phi1_.array().colwise() * phi1_.col(i).array()).matrix();
         shortened_.resize(nodes, modes_);
         columns_.bottomRightCorner(nodes, modes_) = root_weight_.asDiagonal() * phi_;
         finish(problem);
@@ -274,7 +275,7 @@ class SecondOrderModel final : public QuadratureModel {
     void shorten() const {
         if (std::exchange(shortening_known_, true)) return;
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
-        shortened_.reshaped().noalias() = -(shortening_ * q);
+        shortened_.reshaped().noalias() = shortening_ * q;
         u_.noalias() = 0.5 * (shortened_ * q);
         du_.noalias() = shortened_ * dq;
         u_.array() -= 0.5 * radius_ * turn_ * turn_;
@@ -317,7 +318,7 @@ class SecondOrderModel final : public QuadratureModel {
 
     Shapes shapes_;
     Eigen::MatrixXd phi_, phi1_;
-    Eigen::MatrixXd shortening_;  // ∫₀ˣφ_i′φ_j′: rows by i, then node
+    Eigen::MatrixXd shortening_;  // −∫₀ˣφ_i′φ_j′: rows by i, then node
     mutable Eigen::MatrixXd shortened_;
     mutable bool shortening_known_ = false;  // of the set state
     Eigen::VectorXd v_, v1_, dv_, dv1_;
