@@ -20,6 +20,27 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
     return all;
 }
 
+Lettering lettering_of(const Shape& s, const Style& style) {
+    return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
+}
+
+// The box less what labels beside the shapes need of it.
+Box with_labels(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, const Camera& camera,
+                const Box& box) {
+    double left = 0, right = 0;
+    for (const Shape& s : shapes) {
+        if (s.kind != Shape::Kind::label) continue;
+        const Lettering l = lettering_of(s, style);
+        const double w = sheet.measure(s.markup, l).w;
+        const double x = camera.to_pixels(s.points.at(0)).x + s.shift.x * l.size -
+                         (l.align == HAlign::centre  ? w / 2
+                          : l.align == HAlign::right ? w
+                                                     : 0);
+        left = std::max(left, box.x - x), right = std::max(right, x + w - box.right());
+    }
+    return {box.x + left, box.y, box.w - left - right, box.h};
+}
+
 void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
     std::vector<double> dash;
@@ -61,9 +82,8 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
-            const double size = s.small ? style.numbers : style.letters;
-            const Lettering l{.size = size, .color = s.color, .align = s.align, .valign = s.valign};
-            sheet.text(points.at(0) + Vec2{s.shift.x * size, -s.shift.y * size}, s.markup, l);
+            const Lettering l = lettering_of(s, style);
+            sheet.text(points.at(0) + Vec2{s.shift.x * l.size, -s.shift.y * l.size}, s.markup, l);
             return;
         }
     }
@@ -75,7 +95,8 @@ void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box
     const Bounds world = bounds_of(panel.shapes);
     if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");
-    const Camera camera = fit(world, box.inset(1.2 * style.letters));
+    Camera camera = fit(world, box.inset(1.2 * style.letters));
+    camera = fit(world, with_labels(panel.shapes, style, sheet, camera, box).inset(1.2 * style.letters));
     for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
 }
 

@@ -21,11 +21,11 @@ namespace {
 
 struct FigureArguments {
     Common common;
-    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines";
+    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines", font = "sans";
     std::optional<std::string> width, data, caption;
     double dpi = 0;  // by the file
     std::vector<std::string> channels;
-    std::optional<std::string> against, from, to, height;
+    std::optional<std::string> against, from, to, height, window;
     bool impacts = false, residuals = false;
 };
 
@@ -58,7 +58,7 @@ SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
     for (const std::string& channel : args.channels) channels.items.push_back(text_node(channel));
     if (!args.channels.empty()) add(output, "channels", std::move(channels));
     const std::pair<const char*, const std::optional<std::string>&> options[] = {
-        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}};
+        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}, {"window", args.window}};
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
     if (args.impacts) add(output, "impacts", truth_node(true));
@@ -72,8 +72,8 @@ SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
 }
 
 bool asks_for_series(const FigureArguments& args) {
-    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.impacts ||
-           args.residuals;
+    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.window ||
+           args.impacts || args.residuals;
 }
 
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
@@ -88,6 +88,7 @@ FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Sce
     figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
     if (args.dpi > 0) figure.dpi = args.dpi;
     figure.editable = args.text == "editable";
+    figure.serif = args.font == "serif";
     if (args.width) {
         figure.width = quantity_argument("--width", *args.width, dimension::kLength);
         if (!(*figure.width >= 0.03 && *figure.width <= 1))
@@ -150,15 +151,21 @@ void add_figure(Grammar& grammar) {
     app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png or .tif (default: 300, 600)").range(50, 2400);
     app.option("--text", &args->text, "HOW", "Letters of an .svg: outlines or editable")
         .one_of({"outlines", "editable"});
+    app.option("--font", &args->font, "FONT", "Letters: sans, or serif as in text set by LaTeX")
+        .one_of({"sans", "serif"});
     app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
     app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
     app.option("--channels", &args->channels, "A,B,…",
-               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit")
+               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit; of "
+               "spectrogram one")
         .separated_by(',');
-    app.option("--x", &args->against, "CHANNEL", "Of series: against what; t, turns (of the cam) or a channel");
-    app.option("--from", &args->from, "T", "Of series, kymograph, strobe, impact-maps: from this instant");
+    app.option("--x", &args->against, "CHANNEL",
+               "Of series: against what; t, turns (of the cam), frequency or a channel");
+    app.option("--from", &args->from, "T",
+               "Of series and of figures of a stretch such as kymograph: from this instant");
     app.option("--to", &args->to, "T", "Of these: until this instant");
     app.option("--height", &args->height, "H", "Of series: its height, for example 60mm");
+    app.option("--window", &args->window, "T", "Of spectrogram: length of its windows");
     app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
     app.flag("--residuals", args->residuals, "Of series: panels with what measured data differ by");
     add_work(app, args->common);

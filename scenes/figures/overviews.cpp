@@ -63,7 +63,8 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
         for (int i = 0; i <= kStations; ++i) cells.y.push_back(problem.beam.length * i / kStations);
         for (std::size_t i = 0; i < kStations; ++i)
             for (std::size_t k = 0; k < kColumns; ++k)
-                cells.colors.push_back(render::figure::map_color((v[k * kStations + i] - least) / range));
+                cells.colors.push_back(render::figure::map_color((v[k * kStations + i] - least) / range)),
+                    cells.values.push_back(v[k * kStations + i] / prefix.factor);
         panel.cells.push_back(std::move(cells));
         int hits = 0;
         for (const sim::Impact& hit : result.impacts)
@@ -121,13 +122,20 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
                 {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
         // First and last beside the tips; together they would stand on each other.
         const auto at_tip = [&](const sim::Pose& pose) {
-            const bool right = std::cos(pose.theta) >= 0;  // within the page, whose room is for the shapes
+            // Beyond the tip, where no other beam comes.
+            const Vec2 along = sim::unit(pose.theta);
+            const bool level = std::abs(along.x) > 0.5;
             panel.shapes.push_back({.kind = Shape::Kind::label,
                                     .points = {pose.centreline.back()},
                                     .color = ink,
                                     .markup = number(pose.t, 3) + " s",
-                                    .shift = {right ? -0.2 : 0.2, std::sin(pose.theta) >= 0 ? 0.9 : -0.9},
-                                    .align = right ? render::HAlign::right : render::HAlign::left});
+                                    .shift = along * 0.5,
+                                    .align = !level         ? render::HAlign::centre
+                                             : along.x >= 0 ? render::HAlign::left
+                                                            : render::HAlign::right,
+                                    .valign = level         ? render::figure::VAlign::middle
+                                              : along.y > 0 ? render::figure::VAlign::bottom
+                                                            : render::figure::VAlign::top});
         };
         at_tip(poses.front());
         constexpr double kApart = 0.12;  // [rad]
@@ -213,6 +221,72 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
     };
 }
 
+// ---- how often ----------------------------------------------------------------------------------------
+
+// How many of the values fall into each of equal intervals from 0 on; the last one holds `end`.
+Panel histogram(std::string label, const std::vector<double>& values, double end) {
+    const auto bins =
+        static_cast<std::size_t>(std::clamp(std::ceil(std::sqrt(static_cast<double>(values.size()))), 6.0, 36.0));
+    std::vector<double> counts(bins, 0);
+    for (const double v : values)
+        ++counts[std::min(bins - 1, static_cast<std::size_t>(v / end * static_cast<double>(bins)))];
+    Panel panel;
+    panel.legend = Legend::none;
+    panel.x.label = std::move(label);
+    panel.y.with_zero = panel.y.counts = true;
+    Series steps;
+    render::figure::Band area;
+    for (std::size_t k = 0; k < bins; ++k)
+        for (const std::size_t edge : {k, k + 1}) {
+            steps.x.push_back(end * static_cast<double>(edge) / static_cast<double>(bins));
+            steps.y.push_back(counts[k]);
+        }
+    area.x = steps.x, area.high = steps.y, area.low.assign(steps.x.size(), 0);
+    panel.bands.push_back(std::move(area));
+    panel.series.push_back(std::move(steps));
+    return panel;
+}
+
+FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
+    const std::size_t study = studies.of(scene.problem, to, "impact-histograms");
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const bool en = lang == Lang::en;
+        std::vector<double> speeds, phases;
+        for (const sim::Impact& hit : results[study]->impacts) {
+            if (hit.t_start < from || hit.t_start > to || !strikes(problem, hit)) continue;
+            const double turns = hit.cam_angle / (2 * std::numbers::pi);
+            speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(turns - std::floor(turns));
+        }
+        constexpr std::size_t kFewest = 5;
+        if (speeds.size() < kFewest)
+            throw render::PictureError(fmt::format(
+                "figure impact-histograms: {} impacts from {:g} s to {:g} s are too few to be counted; raise "
+                "time.end, or see impact-maps",
+                speeds.size(), from, to));
+        Figure figure;
+        figure.name = "impact-histograms";
+        figure.title = en ? "How often impacts have which speed and phase" : "冲击速度与相位的直方图";
+        figure.panels = {histogram("|$v_{\\r{n}}$| before / (m s^{−1})", speeds, *std::ranges::max_element(speeds)),
+                         histogram(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", phases, 1)};
+        for (std::size_t k = 0; k < 2; ++k) {
+            figure.panels[k].letter = std::string(1, static_cast<char>('a' + k));
+            figure.panels[k].y.label = en ? "impacts" : "冲击次数";
+        }
+        figure.aspect = 1.2;
+        const double bins = static_cast<double>(figure.panels[0].series[0].x.size()) / 2;
+        figure.caption = filled(
+            en ? "The {} impacts from {} s to {} s: how many have (a) which normal speed, in intervals of {} m "
+                 "s^{{−1}}, (b) which phase of the cam, in intervals of {}. "
+               : "{} 次冲击（{} s 至 {} s）：(a) 法向速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
+            speeds.size(), number(from, 4), number(to, 4), number(figure.panels[0].series[0].x.back() / bins, 2),
+            number(1 / bins, 2));
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
+        return figure;
+    };
+}
+
 std::optional<std::string> needs_bending(const Scene& scene) {
     if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
     return "a rigid beam does not bend; choose another beam.model";
@@ -225,5 +299,10 @@ const Recipe kKymograph{
 const Recipe kStrobe{
     "strobe", {"The mechanism at several instants", "机构的多时刻叠加"}, no_refusal, prepare_strobe, true};
 const Recipe kImpactMaps{"impact-maps", {"Maps of the impacts", "冲击映射"}, needs_cam, prepare_maps, true};
+const Recipe kImpactHistograms{"impact-histograms",
+                               {"How often impacts have which speed and phase", "冲击速度与相位的直方图"},
+                               needs_cam,
+                               prepare_histograms,
+                               true};
 
 }  // namespace beamcam::scenes

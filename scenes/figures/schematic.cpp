@@ -33,7 +33,7 @@ class Drawing {
         beam();
         hub();
         angle();
-        gravity();
+        if (p_.gravity != 0) gravity();
         return std::move(out_);
     }
 
@@ -67,7 +67,7 @@ class Drawing {
         const Vec2 c = cam.centre, b = disc_centre(cam, 0);
         disc(b, cam.radius);
         dot(c);
-        label(c, "$C$", {-0.75, -0.8});
+        label(c, "$C$", {-0.75, c.y > 0 ? 0.8 : -0.8});  // clear of the axis X
         const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
@@ -92,10 +92,20 @@ class Drawing {
         add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
     }
 
+    // For the radius: away from C and its label, and from the dimension of e.
+    static double free_direction(double phase) {
+        constexpr double kPi = std::numbers::pi, kDirections[] = {-0.72 * kPi, -0.25 * kPi, 0.72 * kPi, 0.3 * kPi};
+        for (const double way : kDirections) {
+            const auto from = [&](double other) { return std::abs(std::remainder(way - phase - other, 2 * kPi)); };
+            if (from(kPi) > 0.25 * kPi && from(0.5 * kPi) > 0.25 * kPi) return way;
+        }
+        return kDirections[0];
+    }
+
     void detail(const sim::Cam& cam, Vec2 b, double zoom) {
         const double radius = zoom * cam.radius;
         const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
-        const Vec2 rim = b + radius * sim::unit(-0.72 * std::numbers::pi);
+        const Vec2 rim = b + radius * sim::unit(free_direction(cam.phase));
         arrow(b, rim);
         label(0.5 * (b + rim), "$R$", {0.75, -0.35});
         if (cam.eccentricity > 0) {
@@ -105,11 +115,14 @@ class Drawing {
             arrow(c + across - along * (0.2 * radius), c + across, kGrey);
             arrow(b + across + along * (0.2 * radius), b + across, kGrey);
             label(b + across + along * (0.2 * radius), "$e$", {0.6, 0.1});
-            label(b, "$B$", {0.85, -0.35});
+            label(b, "$B$", 0.85 * along - 0.35 * sim::perp(along));
         }
         dot(c);
         dot(b, kInk, 1.2);
-        label(c, cam.eccentricity > 0 ? "$C$" : "$B$ = $C$", {-0.85, cam.eccentricity > 0 ? 0.2 : 0.9});
+        if (cam.eccentricity > 0)
+            label(c, "$C$", -0.85 * sim::unit(cam.phase) + 0.2 * sim::perp(sim::unit(cam.phase)));
+        else
+            label(c, "$B$ = $C$", {-0.85, 0.9});
         if (cam.speed == 0) return;
         const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
         add({.kind = Kind::turn,
@@ -130,7 +143,7 @@ class Drawing {
         label({reach, 0}, "$X$", {0.2, -0.9});
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
         label({0, 0.42 * unit_}, "$Y$", {-0.9, -0.2});
-        label({0, 0}, "$O$", {-0.9, -0.9});
+        label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
         label(1.16 * size_ * i, "$x$′", {0.8, 0.0}, kGrey);
@@ -172,8 +185,8 @@ class Drawing {
         if (a > 0) {
             add({.kind = Kind::disc, .centre = {0, 0}, .radius = a, .color = kSteel});
             add({.kind = Kind::circle, .centre = {0, 0}, .radius = a, .color = kInk, .width = 0.9});
-            arrow({0, 0}, a * sim::unit(2.4));
-            label(a * sim::unit(2.4), "$a$", {-0.5, 0.6});
+            arrow({0, 0}, a * sim::unit(-0.8));
+            label(a * sim::unit(-0.8), "$a$", {0.6, -0.5});
         } else {
             label({0, 0}, "$a$ = 0", {-3.5, -0.9}, kGrey);
         }
@@ -185,12 +198,18 @@ class Drawing {
     void angle() {
         const double r = 0.115 * unit_;
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
+        constexpr double kNarrow = 0.3;  // [rad]: no room between beam and axis
+        if (std::abs(theta_) < kNarrow) return label({r, 0}, "$θ$", {0.3, theta_ > 0 ? -0.9 : 0.9});
         label(r * sim::unit(0.5 * theta_), "$θ$", {0.75 * std::cos(0.5 * theta_) + 0.2, 0.75 * std::sin(0.5 * theta_)});
     }
 
     void gravity() {
         const double x = 0.28 * size_;
-        const Vec2 from{x, 0.98 * size_ * std::sin(theta_)}, to{x, 0.98 * size_ * std::sin(theta_) - 0.17 * unit_};
+        // Above the dimension of the beam, which is low where the beam is.
+        const double line = x * std::tan(theta_) + 0.12 * size_ / std::cos(theta_), length = 0.17 * unit_;
+        double low = 0.98 * size_ * std::sin(theta_) - length;
+        if (theta_ > 0 && theta_ < 0.7) low = std::max(low, line + 0.05 * unit_);
+        const Vec2 from{x, low + length}, to{x, low};
         arrow(from, to, kInk, 0.9);
         label(0.5 * (from + to), "$g$", {0.8, 0});
     }

@@ -17,6 +17,7 @@
 #include "scenes/figures/reproducible.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 #include "scenes/figures/series_words.hpp"
+#include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -115,6 +116,8 @@ class SeriesFigure {
         for (SeriesMotion& motion : motions_) {
             motion.study = studies.of(motion.problem, end_, words_.name);
             studies.horizon(motion.study);
+            if (std::ranges::any_of(keys_.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
+                studies.turning_points(motion.study);
         }
         // Data are of the scene's own motion; where that is not among those shown, they are held against the first.
         for (std::size_t k = motions_.size(); k-- > 0;)
@@ -265,7 +268,15 @@ class SeriesFigure {
         const SeriesMotion& motion = motions_[measured_motion_];
         const std::vector<double>* values = each.data.find(channel);
         const std::vector<double>* along = abscissa_ ? each.data.find(*abscissa_) : &each.data.times;
-        if (!values || !along || keys_.against == "frequency") return;
+        if (keys_.against == "frequency" && values && !out.series.empty()) {
+            if (const auto lines = measured_spectrum(each.data, channel, out.series.back().x.back())) {
+                Series& s = out.series.emplace_back(
+                    measured_series(each.data, lines->values[0], scaled(lines->values[1], measure.factor), look++));
+                s.line = true, s.every_point = false, s.right = right;
+            }
+            return;
+        }
+        if (!values || !along) return;
         sim::Table rows;
         rows.values = {each.data.times, *along};
         // Beneath the computed curves.
@@ -304,7 +315,20 @@ class SeriesFigure {
             add_rules(impacts_of(*results[first.study]), first, out);
         else if (shown.size() == 1)
             add_rules(ends_of(unreliable(*results[first.study], end_)), first, out);
+        add_notes(first, *results[first.study], &keys == &keys_.panels.front(), out);
         return out;
+    }
+
+    // Lines at instants, in the first panel with their words.
+    void add_notes(const SeriesMotion& motion, const sim::Result& result, bool with_words, Panel& out) const {
+        for (const SeriesNote& note : keys_.notes) {
+            const double t = note.at.kind == Instant::Kind::last ? end_ : instant_of(note.at, result);
+            if (t < keys_.from || t > end_)
+                throw render::PictureError(fmt::format("series: the note at {} is outside of {:g} s … {:g} s",
+                                                       name_of(note.at), keys_.from, end_));
+            add_rules({t}, motion, out);
+            if (with_words) out.rules.back().label = note.text;
+        }
     }
 
     // Impacts are too many to be told apart: collisions stand for them.
@@ -391,8 +415,9 @@ class SeriesFigure {
         else
             figure.caption += horizon_words(runs, end_, lang_);
         const SeriesMotion& motion = motions_[measured_motion_];
-        if (keys_.against != "frequency")  // which shows no data
-            figure.caption += agreement_words(measured_, *results[motion.study], motion.problem, lang_);
+        figure.caption += keys_.against == "frequency"
+                              ? measured_spectrum_words(measured_, lang_)
+                              : agreement_words(measured_, *results[motion.study], motion.problem, lang_);
         figure.caption += common_facts(motions_, lang_);
         figure.accuracy = accuracy(pairs, lang_);
     }
