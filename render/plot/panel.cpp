@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kCell = 1.5;     // of the grid of what is covered: resolves letters [pt]
 constexpr double kOutside = 1e5;  // cost of a box that leaves the plot
+constexpr double kGrazes = 8;     // cells of data that the empty edge of an inset may touch
 constexpr int kMostDirect = 4;    // more labels than that are told apart better in a box
 
 // Does the segment a–b enter the box?
@@ -152,7 +153,7 @@ double PanelDrawing::place_insets() {
             const Margins m =
                 PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
             const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
-            if (data_->cost(place.box) > kCovers) continue;
+            if (data_->cost(place.box) > kGrazes) continue;
             placed = {place.box, w, h};
             cost += place.cost;
             taken_->cover(place.box);

@@ -234,8 +234,8 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
         }
         figure.stack = true;
         figure.share_x = true;
-        figure.aspect = 1.05;
         const bool both = figure.panels.size() > 1;
+        figure.aspect = 1.05;
         const Words closure_words{
             "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below "
             "10^{−12} of the largest energy is rounding and lies on the lower edge. ",

@@ -68,7 +68,7 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
         panel.cells.push_back(std::move(cells));
         int hits = 0;
         for (const sim::Impact& hit : result.impacts)
-            if (hit.t_start >= shown.from && hit.t_start <= shown.to)
+            if (hit.t_start >= shown.from && hit.t_start <= shown.to && strikes(problem, hit))
                 panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true}), ++hits;
         Figure figure;
         figure.name = "kymograph";
@@ -87,7 +87,10 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
 
 // ---- the mechanism at several instants --------------------------------------------------------------
 
-void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, std::vector<Shape>& out) {
+void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, std::vector<Shape>& out,
+              render::Bounds& extent) {
+    for (const Vec2 p : pose.centreline) extent.add(p);
+    if (problem.cam) extent.add(pose.disc_centre, problem.cam->radius);
     out.push_back({.kind = Shape::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
     if (!problem.cam) return;
     out.push_back({.kind = Shape::Kind::circle,
@@ -108,9 +111,10 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
         Panel panel;
+        render::Bounds extent;
         for (std::size_t k = 0; k < poses.size(); ++k) {
             const double share = one ? 1 : 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
-            add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes);
+            add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes, extent);
         }
         const render::Color ink = render::rgb(0x000000);
         panel.shapes.push_back({.kind = Shape::Kind::disc, .radius_points = 2, .color = ink});
@@ -144,7 +148,9 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         figure.name = "strobe";
         figure.title = en ? "The mechanism at several instants" : "机构的多时刻叠加";
         figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.9;
+        // As the shapes need it, with the room around them and for words beside them.
+        figure.aspect =
+            std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
         figure.caption =
             one ? filled(en ? "The mechanism at {} s, deflection to scale. " : "{} s 时的机构，挠度按比例。",
                          number(shown.from, 4))

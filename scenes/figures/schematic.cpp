@@ -18,12 +18,20 @@ using Kind = Shape::Kind;
 constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2), kRed = render::rgb(0xD55E00),
                         kGrey = render::rgb(0x777777), kSteel = render::rgb(0xE6E8EC);
 
+// A beam that rests on the cam lies along the tangent from the hub's axis; it sags by much less than a line is wide.
+double start_angle(const sim::Problem& p) {
+    if (p.initial.shape != sim::InitialShape::resting || !p.cam) return p.initial.angle;
+    const Vec2 b = disc_centre(*p.cam, 0);
+    const double reach = (p.cam->radius + contact_offset(p)) / norm(b);
+    return reach < 1 ? std::atan2(b.y, b.x) + std::asin(reach) : p.initial.angle;
+}
+
 class Drawing {
   public:
     explicit Drawing(const sim::Problem& problem) : p_(problem) {
         size_ = p_.beam.length + p_.hub.radius;
         unit_ = size_;
-        theta_ = std::clamp(p_.initial.angle, -1.4, 1.4);
+        theta_ = std::clamp(start_angle(p_), -1.4, 1.4);
         if (std::abs(theta_) < 0.15) theta_ = 0.15;
     }
 
@@ -75,7 +83,8 @@ class Drawing {
         label({0.5 * c.x, low}, "$D$", {0, -0.85});
 
         const double radius = 0.235 * unit_, zoom = radius / cam.radius;
-        const Vec2 centre{b.x + 1.2 * cam.radius + 1.35 * radius, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
+        const double away = (1.2 * cam.radius + 1.35 * radius) * (c.x < 0 ? -1 : 1);  // from the hub
+        const Vec2 centre{b.x + away, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
         // Common tangents, so that the eye follows.
         const Vec2 way = centre - b;
         const double turn = std::acos(std::clamp((cam.radius - radius) / norm(way), -1.0, 1.0));
@@ -97,7 +106,7 @@ class Drawing {
         constexpr double kPi = std::numbers::pi, kDirections[] = {-0.72 * kPi, -0.25 * kPi, 0.72 * kPi, 0.3 * kPi};
         for (const double way : kDirections) {
             const auto from = [&](double other) { return std::abs(std::remainder(way - phase - other, 2 * kPi)); };
-            if (from(kPi) > 0.25 * kPi && from(0.5 * kPi) > 0.25 * kPi) return way;
+            if (std::min(from(kPi), from(0.5 * kPi)) > 0.24 * kPi) return way;
         }
         return kDirections[0];
     }
@@ -176,7 +185,8 @@ class Drawing {
         line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off,
              kGrey);
         dimension(p_.hub.radius * i + off, (p_.hub.radius + p_.beam.length) * i + off);
-        label((p_.hub.radius + 0.45 * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
+        const double along = theta_ > 0 && theta_ < 0.7 ? 0.65 : 0.45;  // clear of gravity
+        label((p_.hub.radius + along * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
         dot(on_beam(1), kBlue, 1.4);
     }
 

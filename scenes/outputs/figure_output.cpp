@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "render/plot/style.hpp"
+#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
@@ -134,7 +135,12 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     const Recipe* recipe = recipe_named(figure);
     if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure);
     Studies studies;
-    FigureFile planned{output, file, figure, {}, recipe->prepare(planner.scene(), *this, studies), {}};
+    const auto make = [make = recipe->prepare(planner.scene(), *this, studies)](const Results& results) {
+        render::figure::Figure made = make(results);
+        choose_prefixes(made);
+        return made;
+    };
+    FigureFile planned{output, file, figure, {}, make, {}};
     planned.studies = studies.take();
     planner.add(std::move(planned));
 }
