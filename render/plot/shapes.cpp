@@ -24,10 +24,9 @@ Lettering lettering_of(const Shape& s, const Style& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
-// The box less what labels beside the shapes need of it.
-Box with_labels(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, const Camera& camera,
-                const Box& box) {
-    double left = 0, right = 0;
+// How far labels beside the shapes leave the box, to the left and to the right.
+Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, const Camera& camera, const Box& box) {
+    Vec2 out{0, 0};
     for (const Shape& s : shapes) {
         if (s.kind != Shape::Kind::label) continue;
         const Lettering l = lettering_of(s, style);
@@ -36,9 +35,9 @@ Box with_labels(const std::vector<Shape>& shapes, const Style& style, Sheet& she
                          (l.align == HAlign::centre  ? w / 2
                           : l.align == HAlign::right ? w
                                                      : 0);
-        left = std::max(left, box.x - x), right = std::max(right, x + w - box.right());
+        out = {std::max(out.x, box.x - x), std::max(out.y, x + w - box.right())};
     }
-    return {box.x + left, box.y, box.w - left - right, box.h};
+    return out;
 }
 
 void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
@@ -95,8 +94,15 @@ void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box
     const Bounds world = bounds_of(panel.shapes);
     if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");
-    Camera camera = fit(world, box.inset(1.2 * style.letters));
-    camera = fit(world, with_labels(panel.shapes, style, sheet, camera, box).inset(1.2 * style.letters));
+    const double margin = 1.2 * style.letters;
+    Camera camera = fit(world, box.inset(margin));
+    Box room = box;
+    for (int pass = 0; pass < 100; ++pass) {  // moved into a smaller room they need less of it
+        const auto [left, right] = beyond(panel.shapes, style, sheet, camera, box);
+        if (left <= 0 && right <= 0) break;
+        room = {room.x + left, room.y, room.w - left - right, room.h};
+        camera = fit(world, room.inset(margin));
+    }
     for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
 }
 

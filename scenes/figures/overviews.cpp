@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/recipes.hpp"
 
@@ -102,6 +103,60 @@ void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color 
     out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = color, .width = 0.6});
 }
 
+// One instant: bodies to scale, and the force between them.
+void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<Shape>& out, render::Bounds& extent) {
+    const render::Color ink = render::rgb(0x000000), steel = render::rgb(0xE4E6EB), red = render::rgb(0xD55E00);
+    const auto body = [&](Shape shape) {
+        shape.color = steel;
+        out.push_back(shape);
+        shape.kind = shape.kind == Shape::Kind::area ? Shape::Kind::line : Shape::Kind::circle;
+        if (!shape.points.empty()) shape.points.push_back(shape.points.front());
+        shape.color = ink, shape.width = 0.8;
+        out.push_back(std::move(shape));
+    };
+    if (problem.cam) {
+        extent.add(pose.disc_centre, problem.cam->radius);
+        body({.kind = Shape::Kind::disc, .centre = pose.disc_centre, .radius = problem.cam->radius});
+        const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
+        out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = ink, .width = 0.6});
+    }
+    const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, problem.beam.depth);
+    Shape outline{.kind = Shape::Kind::area};
+    for (std::size_t i = 0; i < beam.line.size(); ++i) outline.points.push_back(beam.face(i));
+    for (std::size_t i = beam.line.size(); i-- > 0;) outline.points.push_back(beam.back(i));
+    for (const Vec2 p : outline.points) extent.add(p);
+    body(std::move(outline));
+    if (!pose.nearest || !(pose.nearest->force > 0)) return;
+    // On the beam, from the disc.
+    const Vec2 at = pose.nearest->point, tip = at + 0.2 * problem.beam.length * pose.nearest->normal;
+    extent.add(tip);
+    out.push_back({.kind = Shape::Kind::arrow, .points = {at, tip}, .color = red, .width = 1});
+    out.push_back({.kind = Shape::Kind::label,
+                   .points = {tip},
+                   .color = red,
+                   .markup = "$F$ = " + render::quantity(pose.nearest->force, "N"),
+                   .shift = {-0.4, 0.2},
+                   .align = render::HAlign::right});
+}
+
+// Beyond the tip, where no other beam comes.
+void add_instant(const sim::Pose& pose, std::vector<Shape>& out) {
+    const Vec2 along = sim::unit(pose.theta);
+    const bool level = std::abs(along.x) > 0.5;
+    using render::figure::VAlign;
+    out.push_back({.kind = Shape::Kind::label,
+                   .points = {pose.centreline.back()},
+                   .color = render::rgb(0x000000),
+                   .markup = number(pose.t, 3) + " s",
+                   .shift = along * 0.5,
+                   .align = !level         ? render::HAlign::centre
+                            : along.x >= 0 ? render::HAlign::left
+                                           : render::HAlign::right,
+                   .valign = level         ? VAlign::middle
+                             : along.y > 0 ? VAlign::bottom
+                                           : VAlign::top});
+}
+
 FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const Stretch shown = stretch(scene, how, "strobe", one ? 2 : kShownPoses, kStations, studies);
@@ -112,8 +167,9 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         if (one) poses.resize(1);
         Panel panel;
         render::Bounds extent;
-        for (std::size_t k = 0; k < poses.size(); ++k) {
-            const double share = one ? 1 : 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
+        if (one) add_bodies(poses.front(), problem, panel.shapes, extent);
+        for (std::size_t k = 0; k < poses.size() && !one; ++k) {
+            const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
             add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes, extent);
         }
         const render::Color ink = render::rgb(0x000000);
@@ -124,26 +180,10 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         if (problem.cam)
             panel.shapes.push_back(
                 {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
-        // First and last beside the tips; together they would stand on each other.
-        const auto at_tip = [&](const sim::Pose& pose) {
-            // Beyond the tip, where no other beam comes.
-            const Vec2 along = sim::unit(pose.theta);
-            const bool level = std::abs(along.x) > 0.5;
-            panel.shapes.push_back({.kind = Shape::Kind::label,
-                                    .points = {pose.centreline.back()},
-                                    .color = ink,
-                                    .markup = number(pose.t, 3) + " s",
-                                    .shift = along * 0.5,
-                                    .align = !level         ? render::HAlign::centre
-                                             : along.x >= 0 ? render::HAlign::left
-                                                            : render::HAlign::right,
-                                    .valign = level         ? render::figure::VAlign::middle
-                                              : along.y > 0 ? render::figure::VAlign::bottom
-                                                            : render::figure::VAlign::top});
-        };
-        at_tip(poses.front());
+        // First and last; together they would stand on each other.
+        add_instant(poses.front(), panel.shapes);
         constexpr double kApart = 0.12;  // [rad]
-        if (std::abs(poses.back().theta - poses.front().theta) > kApart) at_tip(poses.back());
+        if (std::abs(poses.back().theta - poses.front().theta) > kApart) add_instant(poses.back(), panel.shapes);
         Figure figure;
         figure.name = "strobe";
         figure.title = en ? "The mechanism at several instants" : "机构的多时刻叠加";

@@ -15,9 +15,9 @@
 #include "scenes/figures/key_label.hpp"
 #include "scenes/figures/measured.hpp"
 #include "scenes/figures/reproducible.hpp"
+#include "scenes/figures/series_rules.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 #include "scenes/figures/series_words.hpp"
-#include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -30,8 +30,7 @@ using render::figure::Series;
 using sim::Channel;
 using sim::ChannelKind;
 
-constexpr int kRows = 2001;             // to begin with; more where a curve bends
-constexpr std::size_t kMostRules = 60;  // more lines than these hide the curves
+constexpr int kRows = 2001;  // to begin with; more where a curve bends
 
 // A quantity along an axis: its unit, with the prefix that suits its values.
 struct Measure {
@@ -95,14 +94,6 @@ void share_ordinates(Figure& figure) {
         if (!(high > low) || panel.y.scale == render::figure::Scale::logarithmic) continue;
         panel.y.from = panel.y.from.value_or(low - air), panel.y.to = panel.y.to.value_or(high + air);
     }
-}
-
-template <class Touch>
-std::vector<double> begins(const std::vector<Touch>& touches, double from, double to) {
-    std::vector<double> out;
-    for (const Touch& touch : touches)
-        if (touch.t_start >= from && touch.t_start <= to) out.push_back(touch.t_start);
-    return out;
 }
 
 class SeriesFigure {
@@ -194,11 +185,11 @@ class SeriesFigure {
     // Of each point of a curve, in SI units or turns.
     std::vector<double> abscissa(const sim::Table& table, const sim::Problem& problem) const {
         if (abscissa_) return table.values[1];
-        std::vector<double> x = table.values[0];
-        const double speed = problem.cam ? std::abs(problem.cam->speed) : 0;
-        if (keys_.against == "turns")
-            for (double& v : x) v *= speed / (2 * std::numbers::pi);
-        return x;
+        return scaled(table.values[0], per_second(problem));
+    }
+    double per_second(const sim::Problem& problem) const {
+        if (keys_.against != "turns") return 1;
+        return problem.cam ? std::abs(problem.cam->speed) / (2 * std::numbers::pi) : 0;
     }
 
     // Of the same panel of every motion: all have one unit. `table`: the first of one of them.
@@ -311,47 +302,20 @@ class SeriesFigure {
         out.legend = look > 1 ? Legend::direct : Legend::none;
         if (!over_time()) return out;
         const SeriesMotion& first = motions_[shown.front()];
+        const sim::Result& result = *results[first.study];
         if (keys_.impacts)
-            add_rules(impacts_of(*results[first.study]), first, out);
+            add_rules(impact_rules(result, keys_.from, end_), first, out);
         else if (shown.size() == 1)
-            add_rules(ends_of(unreliable(*results[first.study], end_)), first, out);
-        add_notes(first, *results[first.study], &keys == &keys_.panels.front(), out);
+            add_rules(horizon_rules(result, keys_.from, end_), first, out);
+        const bool with_words = &keys == &keys_.panels.front();
+        add_rules(note_rules(keys_.notes, result, keys_.from, end_, with_words), first, out);
         return out;
     }
-
-    // Lines at instants, in the first panel with their words.
-    void add_notes(const SeriesMotion& motion, const sim::Result& result, bool with_words, Panel& out) const {
-        for (const SeriesNote& note : keys_.notes) {
-            const double t = note.at.kind == Instant::Kind::last ? end_ : instant_of(note.at, result);
-            if (t < keys_.from || t > end_)
-                throw render::PictureError(fmt::format("series: the note at {} is outside of {:g} s … {:g} s",
-                                                       name_of(note.at), keys_.from, end_));
-            add_rules({t}, motion, out);
-            if (with_words) out.rules.back().label = note.text;
+    void add_rules(const Rules& rules, const SeriesMotion& motion, Panel& out) const {
+        for (const render::figure::Rule& rule : rules) {
+            out.rules.push_back(rule);
+            out.rules.back().at *= per_second(motion.problem);
         }
-    }
-
-    // Impacts are too many to be told apart: collisions stand for them.
-    bool marks_collisions(const sim::Result& result) const {
-        return begins(result.impacts, keys_.from, end_).size() > kMostRules;
-    }
-
-    std::vector<double> impacts_of(const sim::Result& result) const {
-        std::vector<double> times = marks_collisions(result) ? begins(result.collisions, keys_.from, end_)
-                                                             : begins(result.impacts, keys_.from, end_);
-        return times.size() > kMostRules ? std::vector<double>{} : times;
-    }
-    std::vector<double> ends_of(const std::vector<Lost>& intervals) const {
-        std::vector<double> times;
-        for (const Lost& lost : intervals)
-            for (const double t : {lost.from, lost.to})
-                if (t > keys_.from && t < end_) times.push_back(t);
-        return times;
-    }
-    void add_rules(std::vector<double> times, const SeriesMotion& motion, Panel& out) const {
-        sim::Table table;
-        table.values = {std::move(times)};
-        for (const double at : abscissa(table, motion.problem)) out.rules.push_back({.at = at, .vertical = true});
     }
 
     // All panels have one axis along x.
@@ -407,7 +371,7 @@ class SeriesFigure {
         figure.caption = fmt::format("{}{}{}", words_.caption.empty() ? series_subject(keys_, lang_) : words_.caption,
                                      of, en() ? ". " : "。");
         if (keys_.impacts && !figure.panels.front().rules.empty())
-            figure.caption += marks_collisions(*runs.front().second)
+            figure.caption += marks_collisions(*runs.front().second, keys_.from, end_)
                                   ? (en() ? "Dashed lines: series of impacts begin. " : "虚线：冲击序列开始。")
                                   : (en() ? "Dashed lines: impacts begin. " : "虚线：冲击开始。");
         if (keys_.against == "frequency")

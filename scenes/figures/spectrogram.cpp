@@ -91,6 +91,17 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
     return cells;
 }
 
+std::string spectrogram_words(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
+    return filled(
+        lang == Lang::en
+            ? "{}: amplitude by frequency and time, a Hann window of {} s each {} s ({} samples a second), resolution "
+              "{} "
+              "Hz; what is a thousand times less than the largest is left white. "
+            : "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
+        series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
+        number(rate, 4), number(1.5 / s.window, 2));
+}
+
 FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const SeriesKeys& keys = how.series;
     const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
@@ -135,13 +146,7 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         figure.name = "spectrogram";
         figure.title = en ? "Amplitudes by frequency and time" : "时频谱";
         figure.panels.push_back(std::move(panel));
-        figure.caption = filled(en ? "{}: amplitude by frequency and time, a Hann window of {} s each {} s ({} samples "
-                                     "a second), resolution "
-                                     "{} Hz; what is a thousand times less than the largest is left white. "
-                                   : "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} "
-                                     "Hz；小于最大值千分之一者不显示。",
-                                series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3),
-                                number(s.hop, 2), number(rate, 4), number(1.5 / s.window, 2));
+        figure.caption = spectrogram_words(channel, s, rate, lang);
         figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, results[study]}}, lang);
         return figure;

@@ -115,7 +115,8 @@ void stands_still(FilmSetup setup) {
 // A line and points over the charts, and a straight beam.
 FilmSetup with_data() {
     FilmSetup setup = everything();
-    FilmData rig{.label = "rig"}, other{.label = "other", .line = true};
+    FilmData rig, other;
+    rig.label = "rig", other.label = "other", other.line = true;
     for (const double t : setup.chart.values[0])
         if (t < 0.5) rig.t.push_back(t + 0.01), other.t.push_back(t);
     rig.values = {{{ChannelKind::theta, 0}, std::vector<double>(rig.t.size(), 0.55)}};

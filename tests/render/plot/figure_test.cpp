@@ -386,7 +386,7 @@ TEST(Figure, AnInsetNeverCoversData) {
         Figure figure = plot(x, y);
         Panel inset;
         inset.x.label = "inset";
-        inset.series = {{.x = {0, 1}, .y = {0, 1}}};
+        inset.series = plot({0, 1}, {0, 1}).panels[0].series;
         figure.panels[0].y.to = swings > 0 ? 1.1 : 3;
         figure.panels[0].insets.push_back({.panel = {inset}});
         const auto written = draw_png(figure).written;
@@ -394,6 +394,23 @@ TEST(Figure, AnInsetNeverCoversData) {
     };
     EXPECT_EQ(written_in_inset(0), 1);
     EXPECT_EQ(written_in_inset(30), 0);
+}
+
+// However wide the shapes are beside their labels.
+TEST(Figure, LabelsOfShapesKeepOnThePage) {
+    for (const double tall : {0.2, 1.0, 3.0}) {
+        Figure figure;
+        figure.aspect = 0.6;
+        Panel& panel = figure.panels.emplace_back();
+        panel.shapes.push_back({.kind = Shape::Kind::line, .points = {{0, 0}, {1, tall}}});
+        for (const auto& [at, align] : {std::pair{Vec2{1, tall}, HAlign::left}, {Vec2{0, 0}, HAlign::right}})
+            panel.shapes.push_back(
+                {.kind = Shape::Kind::label, .points = {at}, .markup = "a label that is long", .align = align});
+        for (const auto& written : draw_png(figure).written) {
+            EXPECT_GE(written.box.x, -0.1) << tall;
+            EXPECT_LE(written.box.right(), points(90) + 0.1) << tall;
+        }
+    }
 }
 
 // A number at the lower left corner keeps off the first one below the plot.

@@ -135,7 +135,10 @@ TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
     render::figure::Panel panel;
     panel.x.label = "$t$ / s", panel.y.label = "$w$ / mm";
     panel.right = render::figure::Axis{.label = "$F$ / N"};
-    panel.series = {{.x = {0, 1}, .y = {0, -3e-6}}, {.x = {0, 1}, .y = {0, 2e7}, .right = true}};
+    panel.series.resize(2);
+    panel.series[0].y = {0, -3e-6}, panel.series[1].y = {0, 2e7};
+    for (auto& series : panel.series) series.x = {0, 1};
+    panel.series[1].right = true;
     panel.rules = {{.at = 1e-6}};
     panel.color_bar = render::figure::ColorBar{.label = "$F$ / N", .from = 0, .to = 300};
     render::figure::Figure figure;

@@ -117,9 +117,14 @@ TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
         return std::ranges::count_if(figure.panels[0].shapes, [](const auto& s) { return s.points.size() > 2; });
     };
     EXPECT_EQ(beams(overview_of("strobe", "")), 9);
-    const auto one = overview_of("strobe", R"(, "from": 0.3, "to": 0.3)");
-    EXPECT_EQ(beams(one), 1);
-    EXPECT_THAT(one.caption, HasSubstr("The mechanism at 0.3 s"));
+    const auto one = overview_of("strobe", R"(, "from": 0.28, "to": 0.28)");
+    EXPECT_EQ(beams(one), 2);  // its body and the outline of that
+    EXPECT_THAT(one.caption, HasSubstr("The mechanism at 0.28 s"));
+    // In contact: a force that leads from the disc into the beam.
+    const auto force =
+        std::ranges::find(one.panels[0].shapes, render::figure::Shape::Kind::arrow, &render::figure::Shape::kind);
+    ASSERT_NE(force, one.panels[0].shapes.end());
+    EXPECT_GT(force->points[1].y, force->points[0].y);
 }
 
 TEST(Overviews, MapsHaveAPointForEachImpact) {
