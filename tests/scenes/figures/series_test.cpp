@@ -239,6 +239,17 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_EQ(shell(folder, command + "--channels theta,gap --from 0.1 --to '300 ms' --height 60mm -o a.pdf").code, 0);
     EXPECT_EQ(shell(folder, command + "series --channels theta -o b.png --width 90mm --height 60mm --dpi 254").code, 0);
     EXPECT_THAT(shell(folder, "$BEAMCAM info b.png").out, HasSubstr("900x600"));
+    EXPECT_EQ(shell(folder, command + "--channels contact_force --log -o l.pdf").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM info l.pdf --scene").out, HasSubstr("\"scale\": \"log\""));
+    EXPECT_EQ(shell(folder, command + "phase --log -o l.svg").code, 2);
+    folder.write("fast.json", R"({"cam": {"speed": 5}, "time": {"end": 0.4}})");
+    EXPECT_EQ(
+        shell(folder, command + "--channels theta --compare fast.json --set cam.speed=2 -o m.pdf --caption m.txt").code,
+        0);
+    EXPECT_THAT(testing::slurp(folder / "m.txt"), HasSubstr("Hub angle θ: s; fast."));
+    const std::string compared = shell(folder, "$BEAMCAM info m.pdf --scene").out;
+    EXPECT_THAT(compared, HasSubstr("\"speed\": 2.0"));
+    EXPECT_THAT(compared, HasSubstr("\"speed\": 5.0"));
     const Finished wrong = shell(folder, command + "--channels thetta -o c.png");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_THAT(wrong.err, HasSubstr("--channels.0 = \"thetta\" is not a channel; did you mean \"theta\"?"));
