@@ -134,14 +134,16 @@ class Drawing {
             label(c, "$B$ = $C$", {-0.85, 0.9});
         if (cam.speed == 0) return;
         const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
+        // At the right, unless C is there.
+        const double middle = cam.eccentricity > 0 && std::cos(cam.phase) < -0.3 ? 0.55 * std::numbers::pi : 0;
         add({.kind = Kind::turn,
              .centre = b,
              .radius = r,
-             .from = -0.9 * way + 0.2,
-             .to = 0.5 * way + 0.2,
+             .from = middle - 0.9 * way + 0.2,
+             .to = middle + 0.5 * way + 0.2,
              .color = kInk,
              .width = 0.8});
-        label(b + r * sim::unit(0.1), "$ω$", {-0.85, 0});
+        label(b + r * sim::unit(middle + 0.1), "$ω$", -0.85 * sim::unit(middle));
     }
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
@@ -206,7 +208,7 @@ class Drawing {
     }
 
     void angle() {
-        const double r = 0.115 * unit_;
+        const double r = std::max(0.115 * unit_, 1.2 * p_.hub.radius);
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
         constexpr double kNarrow = 0.3;  // [rad]: no room between beam and axis
         if (std::abs(theta_) < kNarrow) return label({r, 0}, "$θ$", {0.3, theta_ > 0 ? -0.9 : 0.9});
