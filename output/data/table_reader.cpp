@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -75,6 +76,9 @@ class CsvParser {
 
     void read_header(std::string_view line) {
         if (line.starts_with("# ")) line.remove_prefix(2);  // numpy.savetxt
+        if (const std::size_t other = line.find_first_of(";\t"); other != line.npos && line.find(',') == line.npos)
+            refuse(other + 1, std::string("columns are parted by ") + (line[other] == ';' ? "semicolons" : "tabs") +
+                                  "; part them by commas, and write 0.5 with a point");
         for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t) {
             if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
             if (cell.empty()) refuse(column, "a column without a name in the header");
@@ -93,6 +97,8 @@ class CsvParser {
             if (count >= table_.columns.size()) return;
             const std::optional<double> value = cell.empty() ? kNothing : number(cell);
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
+            if (std::isinf(*value))
+                refuse(column, in_quotes(cell) + " is no finite number; leave a cell without a value empty");
             table_.columns[count].push_back(*value);
         });
         if (cells != table_.columns.size())

@@ -38,6 +38,9 @@ constexpr std::array kCjkFiles{KnownFile{"NotoSansCJK-Regular.ttc", "fonts-noto-
 constexpr std::array kPrintFiles{KnownFile{"LiberationSans-Regular.ttf", "fonts-liberation"},
                                  KnownFile{"LiberationSans-Bold.ttf", "fonts-liberation"},
                                  KnownFile{"LiberationSerif-Italic.ttf", "fonts-liberation"}};
+constexpr std::array kSerifFiles{KnownFile{"LiberationSerif-Regular.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSerif-Bold.ttf", "fonts-liberation"},
+                                 KnownFile{"LiberationSerif-Italic.ttf", "fonts-liberation"}};
 constexpr std::array kPrintCjkFiles{KnownFile{"DroidSansFallbackFull.ttf", "fonts-droid-fallback"}};
 
 std::vector<fs::path> folders() {
@@ -69,12 +72,14 @@ void require(const FontFile& file) {
 }
 
 std::vector<FontFile> files_of(Typefaces typefaces, bool cjk) {
-    const bool print = typefaces == Typefaces::print;
+    const bool print = typefaces != Typefaces::screen;
     std::vector<FontFile> files;
     const auto look_for = [&](std::span<const KnownFile> known) {
         for (const KnownFile& file : known) files.push_back({file.name, file.package, find(file)});
     };
-    look_for(print ? std::span<const KnownFile>(kPrintFiles) : kFiles);
+    look_for(typefaces == Typefaces::serif ? std::span<const KnownFile>(kSerifFiles)
+             : print                       ? std::span<const KnownFile>(kPrintFiles)
+                                           : kFiles);
     if (cjk) look_for(print ? std::span<const KnownFile>(kPrintCjkFiles) : kCjkFiles);
     return files;
 }
@@ -194,7 +199,7 @@ std::unique_ptr<Fonts::Handles> load(std::span<const FontFile> files) {
 
 }  // namespace
 
-Fonts::Fonts(bool cjk, Typefaces typefaces) {
+Fonts::Fonts(bool cjk, Typefaces typefaces) : typefaces_(typefaces) {
     keep_system_settings_out();
     const std::vector<FontFile> files = files_of(typefaces, cjk);
     std::string key;

@@ -19,8 +19,8 @@ namespace beamcam::render {
 bool needs_cjk(std::string_view utf8);
 
 // Figures for print have TrueType faces instead, which every publisher takes embedded: Liberation Sans, Liberation
-// Serif for symbols, Droid Sans Fallback for Chinese.
-enum class Typefaces { screen, print };
+// Serif for symbols, Droid Sans Fallback for Chinese; serif: Liberation Serif for all letters.
+enum class Typefaces { screen, print, serif };
 
 // The message of an error: what lacks which character, and the Debian package to install.
 std::string missing_glyphs(std::string_view utf8);
@@ -40,12 +40,14 @@ class Fonts {
 
     struct Handles;
     const Handles& handles() const { return *handles_; }
+    Typefaces typefaces() const { return typefaces_; }
 
   private:
     struct PutBack {
         void operator()(Handles* handles) const;
     };
     std::unique_ptr<Handles, PutBack> handles_;
+    Typefaces typefaces_;
 };
 
 }  // namespace beamcam::render

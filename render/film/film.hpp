@@ -7,10 +7,12 @@
 // never changes what was simulated and never simulates.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/draw/color.hpp"
@@ -89,6 +91,19 @@ struct Motion {
     sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
 };
 
+// Measured or foreign data of the first motion: over the charts of its channels, and a straight beam where it has θ.
+struct FilmData {
+    std::string label;                                                 // plain text
+    bool line = false;                                                 // in charts; else points
+    std::vector<double> t;                                             // [s], increasing
+    std::vector<std::pair<sim::Channel, std::vector<double>>> values;  // SI units; NaN: none
+
+    const std::vector<double>* find(sim::Channel channel) const {  // null: it has none
+        const auto found = std::ranges::find(values, channel, &std::pair<sim::Channel, std::vector<double>>::first);
+        return found == values.end() ? nullptr : &found->second;
+    }
+};
+
 // Several motions: each in a mechanism of its own, or all in one, those after the first as outlines.
 enum class Comparison { panels, ghosts };
 
@@ -124,6 +139,7 @@ struct FilmSetup : Motion {
     std::vector<CameraMove> moves;  // by when they arrive
     bool slow_motion = false;       // the standard arrangement shows collisions one by one
     std::vector<Callout> callouts;
+    std::vector<FilmData> data;
     std::string accuracy_note;  // plain text in the corner; may be empty
 };
 

@@ -298,4 +298,24 @@ void draw_ghost_bodies(const MechanismScene& s) {
     }
 }
 
+// A straight beam at the hub's angle.
+void draw_measured_beams(const MechanismScene& s) {
+    for (std::size_t k = 0; k < s.at.facts.setup->data.size(); ++k) {
+        const double angle = s.at.facts.measured_angle(k, s.pose.t);
+        if (std::isnan(angle)) continue;
+        sim::Pose pose = s.pose;
+        pose.theta = angle;
+        pose.nearest.reset();
+        const sim::Problem& problem = s.at.problem();
+        const std::size_t last = pose.centreline.size() - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            pose.centreline[i] = sim::unit(angle) * (problem.hub.radius + problem.beam.length * static_cast<double>(i) /
+                                                                              static_cast<double>(last));
+        DrawnBeam beam = drawn_beam(problem, pose, 1, s.at.look.depth);
+        beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // the section lies as the beam's
+        s.canvas.polyline(ghost_outline(s, beam).edge);
+        s.canvas.stroke({s.at.facts.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
+    }
+}
+
 }  // namespace beamcam::render

@@ -31,5 +31,6 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
 // The other motions: under the first one's beam, whose colours mean something, and over it.
 void draw_ghost_bodies(const MechanismScene& s);
 void draw_ghost_outlines(const MechanismScene& s);
+void draw_measured_beams(const MechanismScene& s);
 
 }  // namespace beamcam::render

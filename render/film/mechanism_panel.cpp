@@ -114,7 +114,18 @@ void MechanismPanel::place_speed(const OccupancyGrid& beams) {
     at_.speed_way = best;
 }
 
-bool MechanismPanel::has_label() const { return at_.facts.members() > 1 && at_.box.w >= 160 * at_.unit; }
+std::vector<MechanismPanel::Entry> MechanismPanel::entries() const {
+    std::vector<Entry> out;
+    for (int m = 0; m < at_.facts.members() && at_.facts.members() > 1; ++m)
+        if (at_.ghosts || m == at_.member)
+            out.push_back({at_.facts.member_color(m), at_.facts.labels[static_cast<std::size_t>(m)]});
+    for (std::size_t k = 0; k < at_.facts.data_labels.size() && at_.member == 0; ++k)
+        if (at_.facts.setup->data[k].find({sim::ChannelKind::theta, 0}))
+            out.push_back({at_.facts.data_color(k), at_.facts.data_labels[k], true});
+    return out;
+}
+
+bool MechanismPanel::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
 bool MechanismPanel::has_bar() const {
     return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
            at_.facts.setup->view.style != Style::solid;
@@ -132,9 +143,9 @@ void MechanismPanel::place_words(OccupancyGrid room) {
     };
     if (has_label()) {
         double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
-        for (int m = 0; m < at_.facts.members(); ++m)
-            widest = std::max(widest, canvas.measure(at_.facts.labels[static_cast<std::size_t>(m)], label_style()).w);
-        const double lines = at_.ghosts ? at_.facts.members() : 1;
+        for (const auto* labels : {&at_.facts.labels, &at_.facts.data_labels})
+            for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style()).w);
+        const auto lines = static_cast<double>(entries().size());
         label_ =
             choose({std::min(46 * at_.unit + widest, at_.box.w - 2 * gap), 34 * at_.unit * lines}, Corner::top_left);
     }
@@ -274,19 +285,19 @@ TextStyle MechanismPanel::label_style() const {
     return {.size = 24 * at_.unit, .color = at_.palette.ink, .weight = Weight::semibold, .halo = at_.palette.paper};
 }
 
-// Which motion this is, where there are several; with ghosts, all of them.
 void MechanismPanel::label(Canvas& canvas) const {
     if (!label_) return;
     double y = label_->y + 24 * at_.unit;
     TextStyle style = label_style();
     style.max_width = label_->w - 44 * at_.unit;
-    for (int m = 0; m < at_.facts.members(); ++m) {
-        if (!at_.ghosts && m != at_.member) continue;
+    for (const Entry& entry : entries()) {
         const double x = label_->x + 2 * at_.unit;
         canvas.move_to({x, y - 8 * at_.unit});
         canvas.line_to({x + 30 * at_.unit, y - 8 * at_.unit});
-        canvas.stroke({at_.facts.member_color(m), 6 * at_.unit, {}, Cap::butt});
-        canvas.text({x + 42 * at_.unit, y}, at_.facts.labels[static_cast<std::size_t>(m)], style);
+        std::vector<double> dash;
+        if (entry.dashed) dash = {9 * at_.unit, 5 * at_.unit};
+        canvas.stroke({entry.color, (entry.dashed ? 3 : 6) * at_.unit, dash, Cap::butt});
+        canvas.text({x + 42 * at_.unit, y}, entry.text, style);
         y += 34 * at_.unit;
     }
 }
@@ -356,6 +367,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     draw_disc_letters(s);
     if (!s.view && one) draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
+    if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
     draw_force(s, rings_.peak(s));
     if (at.member == 0) draw_captions(s);

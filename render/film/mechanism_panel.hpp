@@ -43,6 +43,13 @@ class MechanismPanel final : public Panel {
     void place_speed(const OccupancyGrid& beams);
     void take_beam(OccupancyGrid& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
     void note_extent(OccupancyGrid& room);
+    // Which motion this is, where there are several, with ghosts all of them; and data that are drawn as a beam.
+    struct Entry {
+        Color color;
+        std::string text;
+        bool dashed = false;
+    };
+    std::vector<Entry> entries() const;
     bool has_label() const;
     bool has_bar() const;
     void place_words(OccupancyGrid room);

@@ -90,6 +90,7 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     Image scratch(1, 1);
     const Canvas canvas(scratch, *fonts);
     for (int m = 0; m < members(); ++m) labels.push_back(words(canvas, motion(m).label));
+    for (const FilmData& each : setup->data) data_labels.push_back(words(canvas, each.label));
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
@@ -116,6 +117,12 @@ std::string FilmFacts::shown_unit(Channel channel) const {
     const std::string si = sim::unit(channel, setup->problem);
     if (si == "m/s^2") return "m/s²";
     return shown_factor(channel) == 1 ? si : si == "rad" ? "°" : "°/s";
+}
+
+double FilmFacts::measured_angle(std::size_t k, double t) const {
+    const FilmData& data = setup->data[k];
+    const std::vector<double>* theta = data.find({sim::ChannelKind::theta, 0});
+    return theta ? value_at(data.t, *theta, t) : kNan;
 }
 
 const sim::Problem* FilmFacts::with(int member) const {

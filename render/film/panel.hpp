@@ -38,7 +38,8 @@ struct FilmFacts {
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
-    std::vector<std::string> labels;     // of the motions, as markup
+    std::vector<std::string> labels;  // of the motions, as markup
+    std::vector<std::string> data_labels;
     std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
 
     std::string say(std::string english) const { return in(setup->view.lang, std::move(english)); }
@@ -56,6 +57,9 @@ struct FilmFacts {
     std::string shown_unit(sim::Channel channel) const;
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+    Color data_color(std::size_t k) const { return series_color(*palette, 7 - k % 3); }  // far from the motions'
+    // The angle of the hub by these data at a frame of the first motion; NaN: they do not say.
+    double measured_angle(std::size_t k, double t) const;
 
   private:
     void check() const;

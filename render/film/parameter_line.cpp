@@ -32,6 +32,25 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
     return out;
 }
 
+// Tall formulas: lines go up as far as the picture's margin allows, so that they keep off each other and off what is
+// below; then they become smaller.
+void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
+    const double most_up = 20 * u, air = 2 * u;
+    for (int round = 0; round < 12; ++round, title.style.size *= 0.9) {
+        double lowest = box.bottom() + u, top = box.y;
+        for (std::size_t i = title.lines.size(); i-- > 0;) {
+            FittedTitle::Line& line = title.lines[i];
+            const Box ink = canvas.measure(line.markup, title.style);
+            const double usual =
+                i + 1 == title.lines.size() ? box.y + (title.lines.size() == 1 ? 38 : 46) * u : box.y + 18 * u;
+            line.baseline.y = std::min(usual, lowest - ink.bottom());
+            top = line.baseline.y + ink.y;
+            lowest = top - air;
+        }
+        if (top >= box.y - most_up) return;
+    }
+}
+
 }  // namespace
 
 TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
@@ -59,7 +78,8 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         out.lines.clear();
         for (std::size_t i = 0; i < lines.size(); ++i)
             out.lines.push_back({lines[i], {box.x, box.y + (18 + 28 * static_cast<double>(i)) * u}});
-        out.cut = std::ranges::any_of(lines, [&](const std::string& line) { return width(line) > box.w; });
+        out.cut = std::ranges::any_of(lines, [&](const std::string& line) { return width(line) > box.w; }) ||
+                  (lines.back().ends_with("…") && !title.ends_with("…"));
     };
     if (kSmallest * natural > box.w) {
         for (const double share : kOfTwo)
@@ -68,6 +88,7 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         out.lines = {{whole, {box.x, box.y + 38 * u}}};
         if (natural > box.w) out.style.size *= 0.999 * box.w / natural;
     }
+    keep_apart(canvas, box, u, out);
     out.style.max_width = box.w;
     return out;
 }

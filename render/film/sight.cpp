@@ -89,6 +89,12 @@ Sight sight_of(const FilmFacts& facts, double least_depth) {
             if (const sim::Pose pose = one.surveyed(k); !still || pose.t <= facts.at(m, 0)) show(pose, still);
         }
     }
+    const sim::Problem& first = facts.motion(0).problem;
+    for (std::size_t k = 0; k < setup.data.size(); ++k)
+        for (const double t : setup.data[k].t)
+            if (const double angle = facts.measured_angle(k, t);
+                t >= facts.at(0, 0) && t <= facts.at(0, facts.frames() - 1) && !std::isnan(angle))
+                sight.beams.add(sim::unit(angle) * (first.hub.radius + first.beam.length));
     return sight;
 }
 

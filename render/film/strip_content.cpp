@@ -169,6 +169,28 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
     }
 }
 
+// As points or a line, with a curve of their own for label and reading.
+static void add_data(const FilmFacts& facts, const PanelSpec& spec, ChartContent& c) {
+    const Palette& p = *facts.palette;
+    for (std::size_t k = 0; k < facts.setup->data.size() && !spec.by_collision; ++k)
+        for (const Channel channel : spec.channels) {
+            const FilmData& data = facts.setup->data[k];
+            const std::vector<double>* values = data.find(channel);
+            if (!values) continue;
+            Curve curve{{}, {}, facts.data_color(k), p.tint(facts.data_color(k), 0.25), facts.data_labels[k] + ":"};
+            for (std::size_t i = 0; i < data.t.size(); ++i) {
+                const double t = data.t[i], v = facts.shown_factor(channel) * (*values)[i];
+                if (t < c.time.low || t > c.time.high || std::isnan(v)) continue;
+                c.value = {std::min(c.value.low, v), std::max(c.value.high, v)};
+                if (data.line)
+                    curve.t.push_back(t), curve.v.push_back(v);
+                else
+                    c.dots.push_back({t, v, curve.color, curve.faint});
+            }
+            c.curves.push_back(std::move(curve));
+        }
+}
+
 double zero_of(const sim::Table& table, Channel channel) {
     const auto* v = channel.kind == ChannelKind::energy_potential ? column(table, channel) : nullptr;
     return v && !v->empty() ? *std::ranges::min_element(*v) : 0;
@@ -202,6 +224,15 @@ double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
     const sim::Table& table = facts.motion(member).chart;
     const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
     return t && v ? facts.shown_factor(channel) * (value_at(*t, *v, pose.t) - zero_of(table, channel)) : kNan;
+}
+
+std::vector<double> readings_of_data(const FilmFacts& facts, const PanelSpec& spec, double t) {
+    std::vector<double> out;
+    for (const FilmData& data : facts.setup->data)
+        for (const Channel channel : spec.channels)
+            if (const std::vector<double>* values = data.find(channel))
+                out.push_back(facts.shown_factor(channel) * value_at(data.t, *values, t));
+    return out;
 }
 
 ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
@@ -239,6 +270,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     if (is_force(first)) c.reading_unit = c.unit;
     c.value = range_of(facts, c.curves, first);
     if (single && dotted) add_places(facts, c);
+    add_data(facts, spec, c);
     return c;
 }
 

@@ -21,4 +21,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec);
 // The channel at a frame; NaN: it has no value there.
 double reading(const FilmFacts& facts, int member, int frame, sim::Channel channel);
 
+// Of the data's curves, which follow those of the motions.
+std::vector<double> readings_of_data(const FilmFacts& facts, const PanelSpec& spec, double t);
+
 }  // namespace beamcam::render

@@ -25,6 +25,7 @@ class StripPanel final : public ChartPanel {
         std::vector<double> out;
         for (const Channel channel : spec_.channels)
             for (int m = 0; m < facts_.members(); ++m) out.push_back(reading(facts_, m, frame, channel));
+        for (const double measured : readings_of_data(facts_, spec_, facts_.at(0, frame))) out.push_back(measured);
         return out;
     }
     PanelSpec spec_;

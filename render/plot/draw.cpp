@@ -187,6 +187,20 @@ void add_panel(std::string& out, const Panel& panel, const std::string& name) {
         rows(cell_text(b.label) + " (low)", panel.y, b.x, b.low, {});
         rows(cell_text(b.label) + " (high)", panel.y, b.x, b.high, {});
     }
+    for (const Cells& c : panel.cells) {
+        const std::string what = panel.color_bar ? cell_text(panel.color_bar->label) : "cells";
+        const std::size_t columns = c.x.size() - 1;
+        std::vector<double> xs, ys;  // middles
+        for (std::size_t i = 0; i < c.values.size(); ++i) {
+            xs.push_back(0.5 * (c.x[i % columns] + c.x[i % columns + 1]));
+            ys.push_back(0.5 * (c.y[i / columns] + c.y[i / columns + 1]));
+        }
+        rows(what, panel.y, xs, ys, c.values);
+    }
+    for (const Cloud& c : panel.clouds) rows(c.label.empty() ? "points" : cell_text(c.label), panel.y, c.x, c.y, {});
+    for (const Rule& r : panel.rules)
+        rows(r.label.empty() ? "line" : cell_text(r.label), panel.y, {r.vertical ? r.at : NAN},
+             {r.vertical ? NAN : r.at}, {});
     for (const Mark& m : panel.marks)
         rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x},
              {m.y}, {});

@@ -45,6 +45,7 @@ struct Cloud {
 struct Cells {
     std::vector<double> x, y;  // edges, in the order of the axes: one more than columns, than rows
     std::vector<Color> colors;
+    std::vector<double> values = {};  // that the colours stand for, for the data; empty: they stand for none
 };
 struct Swatch {  // an entry of the legend that is a colour
     std::string label;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kCell = 1.5;     // of the grid of what is covered: resolves letters [pt]
 constexpr double kOutside = 1e5;  // cost of a box that leaves the plot
+constexpr double kGrazes = 8;     // cells of data that the empty edge of an inset may touch
 constexpr int kMostDirect = 4;    // more labels than that are told apart better in a box
 
 // Does the segment a–b enter the box?
@@ -67,7 +68,7 @@ bool PanelDrawing::place(const Box& plot) {
     plot_ = plot;
     axes_.place(plot);
     writings_.clear();
-    inset_outer_.clear();
+    insets_.clear();
     make_curves();
     // Legend and insets compete for the free corners: whichever order covers less. Labels at marks and curves go
     // around everything.
@@ -97,6 +98,7 @@ void PanelDrawing::make_curves() {
         if (s.every_point)
             for (const Vec2 p : curve.points()) taken_->cover(Box{p.x, p.y, 0, 0}.inset(-style_.marker));
     }
+    data_ = taken_;
     for (const Cells& cells : panel_.cells) cover_cells(cells, axes_, *taken_);
     for (const Cloud& cloud : panel_.clouds) cover_cloud(cloud, axes_, *taken_);
     for (const Band& b : panel_.bands)
@@ -118,7 +120,7 @@ void PanelDrawing::make_curves() {
 double PanelDrawing::place_boxes(bool legend_first) {
     constexpr double kNoRoom = 25;  // cells: rather above the plot than over this much of a curve
     legend_.forget();
-    inset_outer_.clear();
+    insets_.clear();
     settled_ = true;
     double cost = 0;
     const auto legend = [&] {
@@ -143,16 +145,24 @@ double PanelDrawing::place_insets() {
     double cost = 0;
     for (const Inset& inset : panel_.insets) {
         if (inset.source) taken_->cover(shown_enlarged(*inset.source));
-        // With its numbers and labels.
-        const double w = inset.width * plot_.w, h = inset.height * plot_.h;
-        const Margins m = PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
-        const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
-        inset_outer_.push_back(place.box);
-        taken_->cover(place.box);
-        cost += place.cost;
-        if (!inset.source) continue;
-        for (const auto& [from, to] : connectors(shown_enlarged(*inset.source), without(place.box, m)))
-            taken_->cover(std::vector<Vec2>{from, to});
+        // Smaller, then not at all, rather than over data.
+        std::optional<PlacedInset> placed;
+        for (const double share : {1.0, 0.9, 0.8, 0.7}) {
+            // With its numbers and labels.
+            const double w = share * inset.width * plot_.w, h = share * inset.height * plot_.h;
+            const Margins m =
+                PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
+            const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
+            if (data_->cost(place.box) > kGrazes) continue;
+            placed = {place.box, w, h};
+            cost += place.cost;
+            taken_->cover(place.box);
+            if (!inset.source) break;
+            for (const auto& [from, to] : connectors(shown_enlarged(*inset.source), without(place.box, m)))
+                taken_->cover(std::vector<Vec2>{from, to});
+            break;
+        }
+        insets_.push_back(placed);
     }
     return cost;
 }
@@ -362,12 +372,12 @@ void PanelDrawing::draw_grounds() {
 
 void PanelDrawing::draw_insets() {
     for (std::size_t i = 0; i < panel_.insets.size(); ++i) {
+        if (!insets_[i]) continue;
         const Inset& inset = panel_.insets[i];
-        const Box outer = inset_outer_[i];
+        const auto& [outer, width, height] = *insets_[i];
         sheet_.rectangle(outer);
         sheet_.fill(kWhite);
-        PanelDrawing inner(inset.panel.front(), style_, sheet_, inset.width * plot_.w, inset.height * plot_.h, true,
-                           what_ + ", inset");
+        PanelDrawing inner(inset.panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
         if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
         if (inset.source) {
             const Box from = shown_enlarged(*inset.source);

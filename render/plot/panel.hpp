@@ -56,7 +56,12 @@ class PanelDrawing {
     Box plot_;
     std::vector<DrawnCurve> curves_;
     std::optional<OccupancyGrid> taken_;
-    std::vector<Box> inset_outer_;
+    std::optional<OccupancyGrid> data_;  // of the curves alone
+    struct PlacedInset {
+        Box outer;
+        double width, height;  // of its plot
+    };
+    std::vector<std::optional<PlacedInset>> insets_;  // empty: it would cover data
     std::vector<Writing> writings_;
     bool settled_ = true;
 };

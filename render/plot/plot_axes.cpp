@@ -109,6 +109,26 @@ double PlotAxes::widest(const std::optional<AxisMap>& axis) const {
     return w;
 }
 
+// How much lower numbers below the plot stand where one beside it would else come near one of them at the corner.
+double PlotAxes::drop() const {
+    if (!lowest_ || !panel_.x.numbered) return 0;
+    double out = 0;
+    const auto corner = [&](const std::optional<AxisMap>& vertical, bool left) {
+        for (const Tick& below : x_->ticks()) {
+            const double out_of_plot =
+                0.5 * sheet_.measure(below.label, numbers()).w - width_ * (left ? below.at : 1 - below.at);
+            if (below.label.empty() || out_of_plot < 0.6 * style_.gap) continue;
+            for (const Tick& beside : vertical->ticks())
+                if (!beside.label.empty())
+                    out = std::max(out, 0.35 * style_.numbers + 0.5 * sheet_.cap_height(style_.numbers) - style_.gap -
+                                            beside.at * height_);
+        }
+    };
+    corner(y_, true);
+    if (right_) corner(right_, false);
+    return out;
+}
+
 Vec2 PlotAxes::at(double x, double y, bool right) const {
     const AxisMap& vertical = right && right_ ? *right_ : *y_;
     return {along_x(x), plot_.bottom() - plot_.h * vertical.place(y)};
@@ -121,7 +141,7 @@ Margins PlotAxes::margins() const {
              label_height(panel_.y);
     m.bottom = number / 2;
     if (lowest_) {
-        m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 : style_.gap;
+        m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop() : style_.gap;
         if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(panel_.x);
     }
     m.top = number / 2 + 0.5;
@@ -137,6 +157,7 @@ Margins PlotAxes::margins() const {
 // Ticks point inwards; l, r, b, t: the side.
 void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
     const Pen pen{kInk, style_.frame, {}, Cap::butt};
+    const double below = side == 'b' ? drop() : 0;
     for (const Tick& t : axis.ticks()) {
         const double length = t.major ? style_.tick : style_.minor_tick;
         const bool across = side == 'b' || side == 't';
@@ -154,7 +175,7 @@ void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
         if (across) {
             l.align = HAlign::centre;
             l.valign = VAlign::top;
-            sheet_.text({x, y + style_.gap}, t.label, l);
+            sheet_.text({x, y + style_.gap + below}, t.label, l);
         } else {
             l.align = side == 'l' ? HAlign::right : HAlign::left;
             l.valign = VAlign::middle;
@@ -177,7 +198,7 @@ void PlotAxes::draw_frame() const {
 
 void PlotAxes::draw_labels() const {
     const double step = kLineStep * style_.letters;
-    const double number = sheet_.cap_height(style_.numbers);
+    const double number = sheet_.cap_height(style_.numbers) + drop();
     Lettering l = words();
     l.align = HAlign::centre;
     if (lowest_ && !panel_.x.label.empty()) {

@@ -34,6 +34,7 @@ class PlotAxes {
 
     // Room that numbers, labels and colour bar need around the plot.
     Margins margins() const;
+    double drop() const;
     double titles_height() const;  // of letter and title above the plot; 0: none
     void draw_frame() const;
     // Letter and title stand so high, or on the plot when nothing else does.

@@ -20,6 +20,26 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
     return all;
 }
 
+Lettering lettering_of(const Shape& s, const Style& style) {
+    return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
+}
+
+// How far labels beside the shapes leave the box, to the left and to the right.
+Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, const Camera& camera, const Box& box) {
+    Vec2 out{0, 0};
+    for (const Shape& s : shapes) {
+        if (s.kind != Shape::Kind::label) continue;
+        const Lettering l = lettering_of(s, style);
+        const double w = sheet.measure(s.markup, l).w;
+        const double x = camera.to_pixels(s.points.at(0)).x + s.shift.x * l.size -
+                         (l.align == HAlign::centre  ? w / 2
+                          : l.align == HAlign::right ? w
+                                                     : 0);
+        out = {std::max(out.x, box.x - x), std::max(out.y, x + w - box.right())};
+    }
+    return out;
+}
+
 void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
     std::vector<double> dash;
@@ -61,9 +81,8 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
-            const double size = s.small ? style.numbers : style.letters;
-            const Lettering l{.size = size, .color = s.color, .align = s.align, .valign = s.valign};
-            sheet.text(points.at(0) + Vec2{s.shift.x * size, -s.shift.y * size}, s.markup, l);
+            const Lettering l = lettering_of(s, style);
+            sheet.text(points.at(0) + Vec2{s.shift.x * l.size, -s.shift.y * l.size}, s.markup, l);
             return;
         }
     }
@@ -75,7 +94,15 @@ void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box
     const Bounds world = bounds_of(panel.shapes);
     if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");
-    const Camera camera = fit(world, box.inset(1.2 * style.letters));
+    const double margin = 1.2 * style.letters;
+    Camera camera = fit(world, box.inset(margin));
+    Box room = box;
+    for (int pass = 0; pass < 100; ++pass) {  // moved into a smaller room they need less of it
+        const auto [left, right] = beyond(panel.shapes, style, sheet, camera, box);
+        if (left <= 0 && right <= 0) break;
+        room = {room.x + left, room.y, room.w - left - right, room.h};
+        camera = fit(world, room.inset(margin));
+    }
     for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
 }
 

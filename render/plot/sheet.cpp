@@ -199,16 +199,15 @@ void Sheet::unclip() { cairo_restore(cr_); }
 
 // ---- letters -------------------------------------------------------------------------------------
 
-namespace {
-
 // Puts one run into the layout; its advance [pt].
-double lay(PangoLayout* layout, const Run& run, double size, bool bold) {
+double Sheet::lay(const Run& run, double size, bool bold) const {
+    PangoLayout* layout = fonts_.handles().layout;
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(
-        font, run.symbol ? "Liberation Serif,Droid Sans Fallback" : "Liberation Sans,Droid Sans Fallback");
+        font, run.symbol || serif() ? "Liberation Serif,Droid Sans Fallback" : "Liberation Sans,Droid Sans Fallback");
     pango_font_description_set_style(font, run.symbol ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
     pango_font_description_set_weight(font, bold || run.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-    pango_font_description_set_absolute_size(font, (run.symbol ? kSymbolSize : 1) * size * PANGO_SCALE);
+    pango_font_description_set_absolute_size(font, (run.symbol && !serif() ? kSymbolSize : 1) * size * PANGO_SCALE);
     pango_layout_set_font_description(layout, font);
     pango_font_description_free(font);
     pango_layout_set_attributes(layout, nullptr);
@@ -221,8 +220,6 @@ double lay(PangoLayout* layout, const Run& run, double size, bool bold) {
     pango_layout_get_extents(layout, nullptr, &logical);
     return static_cast<double>(logical.width) / PANGO_SCALE;
 }
-
-}  // namespace
 
 // Takes over a part that stands with its baseline's start at (x, y).
 void Sheet::join(Set& label, Set part, double x, double y) {
@@ -271,7 +268,6 @@ Sheet::Set Sheet::set(std::string_view markup, const Lettering& l) { return set(
 
 Sheet::Set Sheet::set(const std::vector<Run>& runs, const Lettering& l) {
     Set label;
-    PangoLayout* layout = fonts_.handles().layout;
     label.ascent = cap_height(l.size);
     const Run* before = nullptr;
     double base_end = 0;  // where the scripts of the last base begin
@@ -285,7 +281,7 @@ Sheet::Set Sheet::set(const std::vector<Run>& runs, const Lettering& l) {
         Set::Piece piece;
         piece.run = run;
         piece.size = run.script ? std::max(kSmallestLetter, kScriptSize * l.size) : l.size;
-        piece.advance = lay(layout, run, piece.size, l.bold);
+        piece.advance = lay(run, piece.size, l.bold);
         if (run.script > 0) piece.y = -kRaise * l.size;
         if (run.script < 0) piece.y = kLower * l.size;
         // A superscript leans away from an italic; sub and super of one base stand above each other.
@@ -317,7 +313,7 @@ void Sheet::show(const Set& label, const Lettering& l) {
         stroke({l.color, kRule * l.size});
     }
     for (const Set::Piece& piece : label.pieces) {
-        lay(layout, piece.run, piece.size, false);
+        lay(piece.run, piece.size, false);
         if (medium_ == Medium::svg && document_.editable) {
             add_text(piece, {x0 + piece.x, y0 + piece.y});
         } else {
@@ -349,8 +345,8 @@ void Sheet::add_text(const Set::Piece& piece, Vec2 at) {
         R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="#{:02x}{:02x}{:02x}" xml:space="preserve">{}</text>)svg"
         "\n",
         at.x, at.y, turned * 180 / std::numbers::pi,
-        symbol ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
-        (symbol ? kSymbolSize : 1) * piece.size * scale, symbol ? R"( font-style="italic")" : "",
+        symbol || serif() ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
+        (symbol && !serif() ? kSymbolSize : 1) * piece.size * scale, symbol ? R"( font-style="italic")" : "",
         piece.run.bold ? R"( font-weight="bold")" : "", level(ink.r), level(ink.g), level(ink.b), xml(piece.run.text));
 }
 

@@ -79,7 +79,8 @@ class Sheet : public Brush {
     Box text(Vec2 at, std::string_view markup, const Lettering& lettering);
     // At (0, 0), not turned.
     Box measure(std::string_view markup, const Lettering& lettering);
-    double cap_height(double size) const { return 0.716 * size; }  // of Liberation Sans, as of Arial
+    // Of Liberation Sans, as of Arial; of Liberation Serif.
+    double cap_height(double size) const { return (serif() ? 0.655 : 0.716) * size; }
 
     // What was written: for tests.
     struct Written {
@@ -101,6 +102,8 @@ class Sheet : public Brush {
         std::vector<std::vector<Vec2>> rules;  // of fractions and roots
         double width = 0, ascent = 0, descent = 0, smallest = 1e9;
     };
+    bool serif() const { return fonts_.typefaces() == Typefaces::serif; }
+    double lay(const Run& run, double size, bool bold) const;
     Set set(std::string_view markup, const Lettering& lettering);
     Set set(const std::vector<Run>& runs, const Lettering& lettering);
     static void join(Set& label, Set part, double x, double y);

@@ -15,14 +15,17 @@ using Pair = std::pair<std::string_view, std::string_view>;
 
 // Greek of mechanics, and signs, as LaTeX writes them in mathematics.
 constexpr std::array kLatexMath{
-    Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},  Pair{"γ", "\\gamma"},  Pair{"δ", "\\delta"},   Pair{"ε", "\\epsilon"},
-    Pair{"ζ", "\\zeta"},    Pair{"η", "\\eta"},   Pair{"θ", "\\theta"},  Pair{"κ", "\\kappa"},   Pair{"λ", "\\lambda"},
-    Pair{"μ", "\\mu"},      Pair{"ν", "\\nu"},    Pair{"ξ", "\\xi"},     Pair{"π", "\\pi"},      Pair{"ρ", "\\rho"},
-    Pair{"σ", "\\sigma"},   Pair{"τ", "\\tau"},   Pair{"φ", "\\varphi"}, Pair{"χ", "\\chi"},     Pair{"ψ", "\\psi"},
-    Pair{"ω", "\\omega"},   Pair{"Θ", "\\Theta"}, Pair{"Δ", "\\Delta"},  Pair{"Σ", "\\Sigma"},   Pair{"Ω", "\\Omega"},
-    Pair{"×", "\\times "},  Pair{"·", "\\cdot "}, Pair{"−", "-"},        Pair{"≥", "\\ge "},     Pair{"≤", "\\le "},
-    Pair{"≈", "\\approx "}, Pair{"√", "\\surd "}, Pair{"∞", "\\infty "}, Pair{"°", "^{\\circ}"}, Pair{"±", "\\pm "},
-    Pair{"′", "'"},         Pair{"→", "\\to "},   Pair{"²", "^{2}"},     Pair{"³", "^{3}"}};
+    Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},     Pair{"γ", "\\gamma"},   Pair{"δ", "\\delta"},
+    Pair{"ε", "\\epsilon"}, Pair{"ζ", "\\zeta"},     Pair{"η", "\\eta"},     Pair{"θ", "\\theta"},
+    Pair{"κ", "\\kappa"},   Pair{"λ", "\\lambda"},   Pair{"μ", "\\mu"},      Pair{"ν", "\\nu"},
+    Pair{"ξ", "\\xi"},      Pair{"π", "\\pi"},       Pair{"ρ", "\\rho"},     Pair{"σ", "\\sigma"},
+    Pair{"τ", "\\tau"},     Pair{"φ", "\\varphi"},   Pair{"χ", "\\chi"},     Pair{"ψ", "\\psi"},
+    Pair{"ω", "\\omega"},   Pair{"Θ", "\\Theta"},    Pair{"Δ", "\\Delta"},   Pair{"Σ", "\\Sigma"},
+    Pair{"Ω", "\\Omega"},   Pair{"×", "\\times "},   Pair{"·", "\\cdot "},   Pair{"−", "-"},
+    Pair{"≥", "\\ge "},     Pair{"≤", "\\le "},      Pair{"≈", "\\approx "}, Pair{"√", "\\surd "},
+    Pair{"∞", "\\infty "},  Pair{"°", "^{\\circ}"},  Pair{"±", "\\pm "},     Pair{"∫", "\\int "},
+    Pair{"∑", "\\sum "},    Pair{"∂", "\\partial "}, Pair{"′", "'"},         Pair{"→", "\\to "},
+    Pair{"²", "^{2}"},      Pair{"³", "^{3}"}};
 constexpr std::array kLatexText{Pair{"–", "--"},
                                 Pair{"—", "---"},
                                 Pair{"\u00A0", "~"},

@@ -3,6 +3,7 @@
 #include <pango/pango.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -90,8 +91,33 @@ struct Piece {
     bool ends_line = false;
 };
 
-// What cannot be broken. A formula is to Unicode what a letter is.
-std::vector<Piece> pieces(const std::string& text) {
+// A formula in parts that begin with a sign between spaces, outside of braces: "$a$", "$= b$", "$+ c$".
+std::vector<std::string> parts_of(std::string_view formula) {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+        const char c = formula[i];
+        depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+        const bool sign = c == ' ' && i + 2 < formula.size() && formula[i + 2] == ' ' &&
+                          std::string_view("=+-<>").find(formula[i + 1]) != std::string_view::npos;
+        if (sign && depth == 0)
+            parts.back() += '$', parts.emplace_back("$");
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+// One text of two that follow each other; what was one formula is one again.
+std::string joined(const std::string& before, const std::string& space, const std::string& after) {
+    const bool formula = before.ends_with('$') && !before.ends_with("\\$") && space == " " &&
+                         std::ranges::any_of(std::array{"$= ", "$+ ", "$- ", "$< ", "$> "},
+                                             [&](const char* sign) { return after.starts_with(sign); });
+    return formula ? before.substr(0, before.size() - 1) + space + after.substr(1) : before + space + after;
+}
+
+// What cannot be broken. A formula is to Unicode what a letter is; or each of its parts.
+std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = false) {
     std::string letters;
     std::vector<std::string> meant;  // by each of them
     const auto add = [&](std::string_view one, std::string_view meaning) {
@@ -106,7 +132,14 @@ std::vector<Piece> pieces(const std::string& text) {
                 add(one, one == "$" ? "\\$" : one);
             }
         },
-        [&](std::string_view formula) { add("x", formula); });
+        [&](std::string_view formula) {
+            std::vector<std::string> parts{std::string(formula)};
+            if (parts_of_formulas && read(formula)) parts = parts_of(formula);
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                if (i > 0) add(" ", " ");
+                add("x", parts[i]);
+            }
+        });
     std::vector<PangoLogAttr> at(meant.size() + 1);
     pango_get_log_attrs(letters.data(), static_cast<int>(letters.size()), -1, pango_language_from_string("en"),
                         at.data(), static_cast<int>(at.size()));
@@ -188,10 +221,21 @@ std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const Te
         lines.push_back(markup(line));
         line.clear(), space.clear();
     };
+    const auto is_wide = [&](const std::string& some) {
+        return canvas.measure(markup(some), natural).w > style.max_width;
+    };
+    std::vector<Piece> all;
     for (const Piece& piece : pieces(std::string(text))) {
-        const std::string longer = line + space + piece.text;
+        all.push_back(piece);
+        if (style.max_width <= 0 || !is_wide(piece.text)) continue;
+        all.pop_back();  // a formula that needs more than a line
+        for (const Piece& part : pieces(piece.text, true)) all.push_back(part);
+        all.back().space = piece.space, all.back().ends_line = piece.ends_line;
+    }
+    for (const Piece& piece : all) {
+        const std::string longer = joined(line, space, piece.text);
         const bool last = lines.size() + 1 == most;
-        if (!last && !line.empty() && canvas.measure(markup(longer), natural).w > style.max_width) {
+        if (!last && !line.empty() && is_wide(longer)) {
             end_line();
             line = piece.text;
         } else {
@@ -199,6 +243,14 @@ std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const Te
         }
         space = piece.space;
         if (piece.ends_line && lines.size() + 1 < most) end_line();
+    }
+    // An ellipsis cuts plain text where it is drawn, but no formula.
+    const auto too_long = [&] { return style.max_width > 0 && has_formula(markup(line)) && is_wide(line); };
+    for (std::vector<Piece> left = pieces(line, true); left.size() > 1 && too_long();) {
+        left.pop_back();
+        line.clear(), space.clear();
+        for (const Piece& piece : left) line = joined(line, space, piece.text), space = piece.space;
+        line += " …";
     }
     if (!line.empty()) end_line();
     return lines;

@@ -21,12 +21,12 @@ namespace {
 
 struct FigureArguments {
     Common common;
-    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines";
+    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines", font = "sans";
     std::optional<std::string> width, data, caption;
     double dpi = 0;  // by the file
-    std::vector<std::string> channels;
-    std::optional<std::string> against, from, to, height;
-    bool impacts = false, residuals = false;
+    std::vector<std::string> channels, compare;
+    std::optional<std::string> against, from, to, height, window;
+    bool impacts = false, residuals = false, logarithmic = false;
 };
 
 // Names that the scene has, and why it has not the others.
@@ -34,7 +34,7 @@ std::string list(const Scene& scene, Lang lang) {
     std::string text;
     for (const Recipe& recipe : recipes()) {
         const auto refusal = refusal_of(recipe, scene);
-        text += fmt::format("{:<15} {}{}\n", recipe.name, recipe.title.in(lang),
+        text += fmt::format("{:<18} {}{}\n", recipe.name, recipe.title.in(lang),
                             refusal ? fmt::format(" (not of this scene: {})", *refusal) : "");
     }
     return text;
@@ -45,6 +45,20 @@ Node value_node(const std::string& text) {
     Node node = number && std::isfinite(*number) ? number_node(*number) : text_node(text);
     node.text = text;  // for messages
     return node;
+}
+
+// The scene and the others, by the names of their files.
+Node compared_node(const FigureArguments& args) {
+    Node compare = array_node();
+    const auto add_motion = [&](const std::filesystem::path& file, bool other) {
+        Node motion = object_node();
+        add(motion, "label", text_node(file.stem().string()));
+        if (other) add(motion, "scene", text_node(std::filesystem::absolute(file).string()));
+        compare.items.push_back(std::move(motion));
+    };
+    add_motion(args.scene, false);
+    for (const std::string& file : args.compare) add_motion(file, true);
+    return compare;
 }
 
 // The keys of the figure's own that options name, read as if the scene said so.
@@ -58,9 +72,10 @@ SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
     for (const std::string& channel : args.channels) channels.items.push_back(text_node(channel));
     if (!args.channels.empty()) add(output, "channels", std::move(channels));
     const std::pair<const char*, const std::optional<std::string>&> options[] = {
-        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}};
+        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}, {"window", args.window}};
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
+    if (!args.compare.empty()) add(output, "compare", compared_node(args));
     if (args.impacts) add(output, "impacts", truth_node(true));
     if (args.residuals) add(output, "residuals", truth_node(true));
 
@@ -68,12 +83,16 @@ SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
     std::vector<Message> messages;
     if (!read_only_output(output, args.scene, "--", files, scene, messages))
         throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
-    return std::get<FigureOutput>(scene.outputs.front()).series;
+    SeriesKeys keys = std::get<FigureOutput>(scene.outputs.front()).series;
+    if (!keys.compare.empty()) keys.compare.front().problem = scene.problem;  // with what --set says of it
+    if (args.logarithmic && args.figure != "series") throw UsageError("--log belongs to the figure series");
+    for (SeriesPanel& panel : keys.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
+    return keys;
 }
 
 bool asks_for_series(const FigureArguments& args) {
-    return !args.channels.empty() || args.against || args.from || args.to || args.height || args.impacts ||
-           args.residuals;
+    return !args.channels.empty() || !args.compare.empty() || args.against || args.from || args.to || args.height ||
+           args.window || args.impacts || args.residuals || args.logarithmic;
 }
 
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
@@ -88,6 +107,7 @@ FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Sce
     figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
     if (args.dpi > 0) figure.dpi = args.dpi;
     figure.editable = args.text == "editable";
+    figure.serif = args.font == "serif";
     if (args.width) {
         figure.width = quantity_argument("--width", *args.width, dimension::kLength);
         if (!(*figure.width >= 0.03 && *figure.width <= 1))
@@ -150,15 +170,24 @@ void add_figure(Grammar& grammar) {
     app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png or .tif (default: 300, 600)").range(50, 2400);
     app.option("--text", &args->text, "HOW", "Letters of an .svg: outlines or editable")
         .one_of({"outlines", "editable"});
+    app.option("--font", &args->font, "FONT", "Letters: sans, or serif as in text set by LaTeX")
+        .one_of({"sans", "serif"});
     app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
     app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
     app.option("--channels", &args->channels, "A,B,…",
-               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit")
+               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit; of "
+               "spectrogram one")
         .separated_by(',');
-    app.option("--x", &args->against, "CHANNEL", "Of series: against what; t, turns (of the cam) or a channel");
-    app.option("--from", &args->from, "T", "Of series, kymograph, strobe, impact-maps: from this instant");
+    app.option("--compare", &args->compare, "SCENE,…", "Of series: the same channels of these scenes too")
+        .separated_by(',');
+    app.option("--x", &args->against, "CHANNEL",
+               "Of series: against what; t, turns (of the cam), frequency or a channel");
+    app.option("--from", &args->from, "T",
+               "Of series and of figures of a stretch such as kymograph: from this instant");
     app.option("--to", &args->to, "T", "Of these: until this instant");
     app.option("--height", &args->height, "H", "Of series: its height, for example 60mm");
+    app.option("--window", &args->window, "T", "Of spectrogram: length of its windows");
+    app.flag("--log", args->logarithmic, "Of series: logarithmic axes of values");
     app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
     app.flag("--residuals", args->residuals, "Of series: panels with what measured data differ by");
     add_work(app, args->common);

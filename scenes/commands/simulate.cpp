@@ -28,15 +28,18 @@ double positive_rate(const std::string& text, double rows_per_rate) {
     return rate;
 }
 
+std::vector<double> instants_of(const SimulateArguments& args) {
+    std::vector<double> times;
+    for (const std::string& text : args.times) times.push_back(seconds_argument("--times", text));
+    return times;
+}
+
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     TrajectoryOutput table;
     table.file = args.trajectory.value_or("-");
     need_ending("--trajectory", table.file, {".csv", ".npz"});
-    if (args.rate && !args.times.empty()) throw UsageError("--rate and --times exclude each other; keep one");
-    if (args.rate) {
-        table.rate = positive_rate(*args.rate, scene.end_time);
-    }
-    for (const std::string& text : args.times) table.times.push_back(seconds_argument("--times", text));
+    if (args.rate) table.rate = positive_rate(*args.rate, scene.end_time);
+    table.times = instants_of(args);
     std::vector<std::string> known;
     const std::vector<sim::Channel> every = all_channels(scene.problem);
     for (const sim::Channel& channel : every) known.push_back(name(channel));
@@ -56,14 +59,16 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 // With no file named, the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    const bool wants_rows = args.trajectory || !args.times.empty() || !args.channels.empty();
-    const bool wants_table = wants_rows || (args.rate && !args.shapes);
+    if (args.rate && !args.times.empty()) throw UsageError("--rate and --times exclude each other; keep one");
+    const bool wants_table =
+        args.trajectory || !args.channels.empty() || ((args.rate || !args.times.empty()) && !args.shapes);
     if (wants_table) outputs.push_back(trajectory_output(args, scene));
     if (args.shapes) {
         if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
         need_ending("--shapes", *args.shapes, {".csv", ".npz"});
         ShapesOutput shapes{*args.shapes};
         if (args.rate) shapes.rate = positive_rate(*args.rate, scene.end_time * shapes.stations);
+        shapes.times = instants_of(args);
         outputs.push_back(shapes);
     }
     if (args.impacts) {
@@ -102,8 +107,8 @@ void add_simulate(Grammar& grammar) {
     app.option("--trajectory", &args->trajectory, "FILE",
                "Table of channels, .csv or .npz; - is standard output (CSV)");
     app.option("--shapes", &args->shapes, "FILE", "Deflection along the beam in time, .csv or .npz");
-    app.option("--rate", &args->rate, "HZ", "Rows a second (default: 1000)");
-    app.option("--times", &args->times, "T,T,...", "Exactly these rows, in this order").separated_by(',');
+    app.option("--rate", &args->rate, "HZ", "Rows or shapes a second (default: 1000)");
+    app.option("--times", &args->times, "T,T,...", "Exactly these rows or shapes, in this order").separated_by(',');
     app.option("--channels", &args->channels, "CHANNEL,...", "Columns besides the time (default: all)")
         .separated_by(',');
     app.option("--impacts", &args->impacts, "FILE",

@@ -158,6 +158,10 @@ std::string one_digit(double value) {
     return mantissa == "1" ? power : mantissa + " × " + power;
 }
 
+std::string length_text(double metres) {
+    return std::abs(metres) >= 0.01 || metres == 0 ? number(metres, 3) + " m" : render::quantity(metres, "m");
+}
+
 std::string grouped(double value, int decimals) {
     std::string text = render::fixed(value, decimals);
     const std::size_t point = text.find('.');

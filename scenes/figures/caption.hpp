@@ -31,6 +31,7 @@ std::string filled(const char* text, const Values&... values) {
 }
 std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
 std::string one_digit(double value);              // "10^{−8}", "2 × 10^{−9}"
+std::string length_text(double metres);           // "0.25 m", below a centimetre "236 µm"
 std::string grouped(double value, int decimals);  // "0.369 994": thin spaces between threes
 
 // ---- facts ----------------------------------------------------------------------------------------

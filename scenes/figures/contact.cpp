@@ -234,8 +234,8 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
         }
         figure.stack = true;
         figure.share_x = true;
-        figure.aspect = 1.05;
         const bool both = figure.panels.size() > 1;
+        figure.aspect = 1.05;
         const Words closure_words{
             "(b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below "
             "10^{−12} of the largest energy is rounding and lies on the lower edge. ",
@@ -383,12 +383,11 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.1;
-        figure.caption = filled(
-            en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle from "
-                 "the mark of the disc (the ray from $C$ to $B$), coloured by the normal force{}. "
-               : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
-                 "起的角度）的位置，颜色表示法向力{}。",
-            figure.panels.front().insets.empty() ? "" : (en ? "; inset: the first collision" : "；插图为首次碰撞"));
+        figure.caption = en ? "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle "
+                              "from the mark "
+                              "of the disc (the ray from $C$ to $B$), coloured by the normal force. "
+                            : "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
+                              "起的角度）的位置，颜色表示法向力。";
         figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;

@@ -53,7 +53,8 @@ template <class Take>
 auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medium, const figure::Document& document,
            Take take) {
     const figure::Page page = page_of(f, how);
-    const render::Fonts fonts(figure::needs_chinese(f), render::Typefaces::print);
+    const render::Fonts fonts(figure::needs_chinese(f),
+                              how.serif ? render::Typefaces::serif : render::Typefaces::print);
     figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution()}, fonts,
                         document);
     figure::draw(f, page, sheet);
@@ -92,6 +93,7 @@ render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {
     how.file = how.figure + ending(how.file);
+    how.data_file.clear(), how.caption_file.clear();
     scene.outputs = {how};
     return to_json(scene);
 }

@@ -23,13 +23,11 @@ std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channe
 
 render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y,
                                        int look) {
-    constexpr std::size_t kManyPoints = 300;  // beyond, marks are a band
     render::figure::Series s;
     s.label = data.label;
     s.look = look;
     s.weight = 0.7;
-    s.line = data.drawn == Measurement::Drawn::line ||
-             (data.drawn == Measurement::Drawn::automatic && x.size() > kManyPoints);
+    s.line = data.is_line(x.size());
     s.every_point = !s.line;
     s.x = std::move(x), s.y = std::move(y);
     return s;
@@ -42,13 +40,17 @@ std::string agreement_words(const std::vector<Measured>& all, const sim::Result&
     for (const Measured& each : all)
         for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
             const std::string symbol = render::print_symbol(a.channel), unit = sim::unit(a.channel, problem);
+            if (a.whole.rows == 0 && !a.beyond)
+                text += filled(en ? "Data “{}”: at no instant {} has both a measured and a computed value. "
+                                  : "{}：没有任何时刻同时具有 {} 的测量值与计算值。",
+                               each.data.label, symbol);
             if (a.whole.rows > 0)
                 text +=
                     filled(en ? "Data “{}”: at {} instants {} differs by {} {} (root mean square), at most by {} {} at "
                                 "{} s. "
                               : "{}，{} 个时刻：{} 的均方根差为 {} {}，最大差 {} {}（{} s）。",
-                           a.label, a.whole.rows, symbol, number(a.whole.rms, 2), unit, number(a.whole.largest, 2),
-                           unit, number(a.whole.t_largest, 4));
+                           each.data.label, a.whole.rows, symbol, number(a.whole.rms, 2), unit,
+                           number(a.whole.largest, 2), unit, number(a.whole.t_largest, 4));
             if (!a.beyond) continue;
             const auto& [rows, m, c] = *a.beyond;
             text +=
@@ -56,8 +58,8 @@ std::string agreement_words(const std::vector<Measured>& all, const sim::Result&
                             "mean {} {} and standard deviation {} {}, computed {} {} and {} {}. "
                           : "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {} {}、标准差 {} {}，计算值为 {} {}、{} "
                             "{}。",
-                       a.label, rows, number(m.mean, 3), unit, number(m.deviation, 3), unit, number(c.mean, 3), unit,
-                       number(c.deviation, 3), unit);
+                       each.data.label, rows, number(m.mean, 3), unit, number(m.deviation, 3), unit, number(c.mean, 3),
+                       unit, number(c.deviation, 3), unit);
         }
     return text;
 }

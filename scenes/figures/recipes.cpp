@@ -8,9 +8,10 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{&kSeries,    &kSchematic, &kFreeFall,  &kTipVibration, &kDeflection,    &kDistance,
-                          &kAngle,     &kSpeeds,    &kCollision, &kEnergy,       &kContactPlaces, &kPhase,
-                          &kApexModes, &kModels,    &kKymograph, &kStrobe,       &kImpactMaps};
+const std::array kRecipes{&kSeries,        &kSchematic, &kFreeFall,   &kTipVibration,    &kDeflection,
+                          &kDistance,      &kAngle,     &kSpeeds,     &kCollision,       &kEnergy,
+                          &kContactPlaces, &kPhase,     &kApexModes,  &kModels,          &kKymograph,
+                          &kSpectrogram,   &kStrobe,    &kImpactMaps, &kImpactHistograms};
 
 const std::vector<Recipe>& table() {
     static const std::vector<Recipe> all = [] {

@@ -28,6 +28,7 @@ struct Recipe {
     // Adds the needs; the maker remembers where they are. `how`: the language, and what keys of the figure's own say.
     FigureMaker (*prepare)(const Scene& scene, const FigureOutput& how, Studies& studies);
     bool takes_stretch = false;  // the keys "from" and "to"
+    bool takes_channel = false;  // one of "channels", and the keys of its windows
 };
 
 std::span<const Recipe> recipes();
@@ -39,7 +40,8 @@ std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
 
 // The recipes of each file of this folder.
 extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
-    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kStrobe, kImpactMaps;
+    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
+    kImpactHistograms;
 
 // ---- what they share ------------------------------------------------------------------------------
 

@@ -18,12 +18,20 @@ using Kind = Shape::Kind;
 constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2), kRed = render::rgb(0xD55E00),
                         kGrey = render::rgb(0x777777), kSteel = render::rgb(0xE6E8EC);
 
+// A beam that rests on the cam lies along the tangent from the hub's axis; it sags by much less than a line is wide.
+double start_angle(const sim::Problem& p) {
+    if (p.initial.shape != sim::InitialShape::resting || !p.cam) return p.initial.angle;
+    const Vec2 b = disc_centre(*p.cam, 0);
+    const double reach = (p.cam->radius + contact_offset(p)) / norm(b);
+    return reach < 1 ? std::atan2(b.y, b.x) + std::asin(reach) : p.initial.angle;
+}
+
 class Drawing {
   public:
     explicit Drawing(const sim::Problem& problem) : p_(problem) {
         size_ = p_.beam.length + p_.hub.radius;
         unit_ = size_;
-        theta_ = std::clamp(p_.initial.angle, -1.4, 1.4);
+        theta_ = std::clamp(start_angle(p_), -1.4, 1.4);
         if (std::abs(theta_) < 0.15) theta_ = 0.15;
     }
 
@@ -33,7 +41,7 @@ class Drawing {
         beam();
         hub();
         angle();
-        gravity();
+        if (p_.gravity != 0) gravity();
         return std::move(out_);
     }
 
@@ -67,7 +75,7 @@ class Drawing {
         const Vec2 c = cam.centre, b = disc_centre(cam, 0);
         disc(b, cam.radius);
         dot(c);
-        label(c, "$C$", {-0.75, -0.8});
+        label(c, "$C$", {-0.75, c.y > 0 ? 0.8 : -0.8});  // clear of the axis X
         const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
@@ -75,7 +83,8 @@ class Drawing {
         label({0.5 * c.x, low}, "$D$", {0, -0.85});
 
         const double radius = 0.235 * unit_, zoom = radius / cam.radius;
-        const Vec2 centre{b.x + 1.2 * cam.radius + 1.35 * radius, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
+        const double away = (1.2 * cam.radius + 1.35 * radius) * (c.x < 0 ? -1 : 1);  // from the hub
+        const Vec2 centre{b.x + away, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
         // Common tangents, so that the eye follows.
         const Vec2 way = centre - b;
         const double turn = std::acos(std::clamp((cam.radius - radius) / norm(way), -1.0, 1.0));
@@ -92,10 +101,20 @@ class Drawing {
         add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
     }
 
+    // For the radius: away from C and its label, and from the dimension of e.
+    static double free_direction(double phase) {
+        constexpr double kPi = std::numbers::pi, kDirections[] = {-0.72 * kPi, -0.25 * kPi, 0.72 * kPi, 0.3 * kPi};
+        for (const double way : kDirections) {
+            const auto from = [&](double other) { return std::abs(std::remainder(way - phase - other, 2 * kPi)); };
+            if (std::min(from(kPi), from(0.5 * kPi)) > 0.24 * kPi) return way;
+        }
+        return kDirections[0];
+    }
+
     void detail(const sim::Cam& cam, Vec2 b, double zoom) {
         const double radius = zoom * cam.radius;
         const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
-        const Vec2 rim = b + radius * sim::unit(-0.72 * std::numbers::pi);
+        const Vec2 rim = b + radius * sim::unit(free_direction(cam.phase));
         arrow(b, rim);
         label(0.5 * (b + rim), "$R$", {0.75, -0.35});
         if (cam.eccentricity > 0) {
@@ -105,21 +124,26 @@ class Drawing {
             arrow(c + across - along * (0.2 * radius), c + across, kGrey);
             arrow(b + across + along * (0.2 * radius), b + across, kGrey);
             label(b + across + along * (0.2 * radius), "$e$", {0.6, 0.1});
-            label(b, "$B$", {0.85, -0.35});
+            label(b, "$B$", 0.85 * along - 0.35 * sim::perp(along));
         }
         dot(c);
         dot(b, kInk, 1.2);
-        label(c, cam.eccentricity > 0 ? "$C$" : "$B$ = $C$", {-0.85, cam.eccentricity > 0 ? 0.2 : 0.9});
+        if (cam.eccentricity > 0)
+            label(c, "$C$", -0.85 * sim::unit(cam.phase) + 0.2 * sim::perp(sim::unit(cam.phase)));
+        else
+            label(c, "$B$ = $C$", {-0.85, 0.9});
         if (cam.speed == 0) return;
         const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
+        // At the right, unless C is there.
+        const double middle = cam.eccentricity > 0 && std::cos(cam.phase) < -0.3 ? 0.55 * std::numbers::pi : 0;
         add({.kind = Kind::turn,
              .centre = b,
              .radius = r,
-             .from = -0.9 * way + 0.2,
-             .to = 0.5 * way + 0.2,
+             .from = middle - 0.9 * way + 0.2,
+             .to = middle + 0.5 * way + 0.2,
              .color = kInk,
              .width = 0.8});
-        label(b + r * sim::unit(0.1), "$ω$", {-0.85, 0});
+        label(b + r * sim::unit(middle + 0.1), "$ω$", -0.85 * sim::unit(middle));
     }
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
@@ -130,7 +154,7 @@ class Drawing {
         label({reach, 0}, "$X$", {0.2, -0.9});
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
         label({0, 0.42 * unit_}, "$Y$", {-0.9, -0.2});
-        label({0, 0}, "$O$", {-0.9, -0.9});
+        label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
         label(1.16 * size_ * i, "$x$′", {0.8, 0.0}, kGrey);
@@ -163,7 +187,8 @@ class Drawing {
         line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off,
              kGrey);
         dimension(p_.hub.radius * i + off, (p_.hub.radius + p_.beam.length) * i + off);
-        label((p_.hub.radius + 0.45 * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
+        const double along = theta_ > 0 && theta_ < 0.7 ? 0.65 : 0.45;  // clear of gravity
+        label((p_.hub.radius + along * p_.beam.length) * i + off, "$L$", {-0.6, 0.7});
         dot(on_beam(1), kBlue, 1.4);
     }
 
@@ -172,8 +197,8 @@ class Drawing {
         if (a > 0) {
             add({.kind = Kind::disc, .centre = {0, 0}, .radius = a, .color = kSteel});
             add({.kind = Kind::circle, .centre = {0, 0}, .radius = a, .color = kInk, .width = 0.9});
-            arrow({0, 0}, a * sim::unit(2.4));
-            label(a * sim::unit(2.4), "$a$", {-0.5, 0.6});
+            arrow({0, 0}, a * sim::unit(-0.8));
+            label(a * sim::unit(-0.8), "$a$", {0.6, -0.5});
         } else {
             label({0, 0}, "$a$ = 0", {-3.5, -0.9}, kGrey);
         }
@@ -183,14 +208,20 @@ class Drawing {
     }
 
     void angle() {
-        const double r = 0.115 * unit_;
+        const double r = std::max(0.115 * unit_, 1.2 * p_.hub.radius);
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
+        constexpr double kNarrow = 0.3;  // [rad]: no room between beam and axis
+        if (std::abs(theta_) < kNarrow) return label({r, 0}, "$θ$", {0.3, theta_ > 0 ? -0.9 : 0.9});
         label(r * sim::unit(0.5 * theta_), "$θ$", {0.75 * std::cos(0.5 * theta_) + 0.2, 0.75 * std::sin(0.5 * theta_)});
     }
 
     void gravity() {
         const double x = 0.28 * size_;
-        const Vec2 from{x, 0.98 * size_ * std::sin(theta_)}, to{x, 0.98 * size_ * std::sin(theta_) - 0.17 * unit_};
+        // Above the dimension of the beam, which is low where the beam is.
+        const double line = x * std::tan(theta_) + 0.12 * size_ / std::cos(theta_), length = 0.17 * unit_;
+        double low = 0.98 * size_ * std::sin(theta_) - length;
+        if (theta_ > 0 && theta_ < 0.7) low = std::max(low, line + 0.05 * unit_);
+        const Vec2 from{x, low + length}, to{x, low};
         arrow(from, to, kInk, 0.9);
         label(0.5 * (from + to), "$g$", {0.8, 0});
     }

@@ -15,6 +15,7 @@
 #include "scenes/figures/key_label.hpp"
 #include "scenes/figures/measured.hpp"
 #include "scenes/figures/reproducible.hpp"
+#include "scenes/figures/series_rules.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 #include "scenes/figures/series_words.hpp"
 
@@ -29,8 +30,7 @@ using render::figure::Series;
 using sim::Channel;
 using sim::ChannelKind;
 
-constexpr int kRows = 2001;             // to begin with; more where a curve bends
-constexpr std::size_t kMostRules = 60;  // more lines than these hide the curves
+constexpr int kRows = 2001;  // to begin with; more where a curve bends
 
 // A quantity along an axis: its unit, with the prefix that suits its values.
 struct Measure {
@@ -96,14 +96,6 @@ void share_ordinates(Figure& figure) {
     }
 }
 
-template <class Touch>
-std::vector<double> begins(const std::vector<Touch>& touches, double from, double to) {
-    std::vector<double> out;
-    for (const Touch& touch : touches)
-        if (touch.t_start >= from && touch.t_start <= to) out.push_back(touch.t_start);
-    return out;
-}
-
 class SeriesFigure {
   public:
     SeriesFigure(const Scene& scene, SeriesKeys keys, SeriesWords words, Lang lang, Studies& studies)
@@ -115,6 +107,8 @@ class SeriesFigure {
         for (SeriesMotion& motion : motions_) {
             motion.study = studies.of(motion.problem, end_, words_.name);
             studies.horizon(motion.study);
+            if (std::ranges::any_of(keys_.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
+                studies.turning_points(motion.study);
         }
         // Data are of the scene's own motion; where that is not among those shown, they are held against the first.
         for (std::size_t k = motions_.size(); k-- > 0;)
@@ -191,11 +185,11 @@ class SeriesFigure {
     // Of each point of a curve, in SI units or turns.
     std::vector<double> abscissa(const sim::Table& table, const sim::Problem& problem) const {
         if (abscissa_) return table.values[1];
-        std::vector<double> x = table.values[0];
-        const double speed = problem.cam ? std::abs(problem.cam->speed) : 0;
-        if (keys_.against == "turns")
-            for (double& v : x) v *= speed / (2 * std::numbers::pi);
-        return x;
+        return scaled(table.values[0], per_second(problem));
+    }
+    double per_second(const sim::Problem& problem) const {
+        if (keys_.against != "turns") return 1;
+        return problem.cam ? std::abs(problem.cam->speed) / (2 * std::numbers::pi) : 0;
     }
 
     // Of the same panel of every motion: all have one unit. `table`: the first of one of them.
@@ -265,7 +259,15 @@ class SeriesFigure {
         const SeriesMotion& motion = motions_[measured_motion_];
         const std::vector<double>* values = each.data.find(channel);
         const std::vector<double>* along = abscissa_ ? each.data.find(*abscissa_) : &each.data.times;
-        if (!values || !along || keys_.against == "frequency") return;
+        if (keys_.against == "frequency" && values && !out.series.empty()) {
+            if (const auto lines = measured_spectrum(each.data, channel, out.series.back().x.back())) {
+                Series& s = out.series.emplace_back(
+                    measured_series(each.data, lines->values[0], scaled(lines->values[1], measure.factor), look++));
+                s.line = true, s.every_point = false, s.right = right;
+            }
+            return;
+        }
+        if (!values || !along) return;
         sim::Table rows;
         rows.values = {each.data.times, *along};
         // Beneath the computed curves.
@@ -300,34 +302,20 @@ class SeriesFigure {
         out.legend = look > 1 ? Legend::direct : Legend::none;
         if (!over_time()) return out;
         const SeriesMotion& first = motions_[shown.front()];
+        const sim::Result& result = *results[first.study];
         if (keys_.impacts)
-            add_rules(impacts_of(*results[first.study]), first, out);
+            add_rules(impact_rules(result, keys_.from, end_), first, out);
         else if (shown.size() == 1)
-            add_rules(ends_of(unreliable(*results[first.study], end_)), first, out);
+            add_rules(horizon_rules(result, keys_.from, end_), first, out);
+        const bool with_words = &keys == &keys_.panels.front();
+        add_rules(note_rules(keys_.notes, result, keys_.from, end_, with_words), first, out);
         return out;
     }
-
-    // Impacts are too many to be told apart: collisions stand for them.
-    bool marks_collisions(const sim::Result& result) const {
-        return begins(result.impacts, keys_.from, end_).size() > kMostRules;
-    }
-
-    std::vector<double> impacts_of(const sim::Result& result) const {
-        std::vector<double> times = marks_collisions(result) ? begins(result.collisions, keys_.from, end_)
-                                                             : begins(result.impacts, keys_.from, end_);
-        return times.size() > kMostRules ? std::vector<double>{} : times;
-    }
-    std::vector<double> ends_of(const std::vector<Lost>& intervals) const {
-        std::vector<double> times;
-        for (const Lost& lost : intervals)
-            for (const double t : {lost.from, lost.to})
-                if (t > keys_.from && t < end_) times.push_back(t);
-        return times;
-    }
-    void add_rules(std::vector<double> times, const SeriesMotion& motion, Panel& out) const {
-        sim::Table table;
-        table.values = {std::move(times)};
-        for (const double at : abscissa(table, motion.problem)) out.rules.push_back({.at = at, .vertical = true});
+    void add_rules(const Rules& rules, const SeriesMotion& motion, Panel& out) const {
+        for (const render::figure::Rule& rule : rules) {
+            out.rules.push_back(rule);
+            out.rules.back().at *= per_second(motion.problem);
+        }
     }
 
     // All panels have one axis along x.
@@ -383,7 +371,7 @@ class SeriesFigure {
         figure.caption = fmt::format("{}{}{}", words_.caption.empty() ? series_subject(keys_, lang_) : words_.caption,
                                      of, en() ? ". " : "。");
         if (keys_.impacts && !figure.panels.front().rules.empty())
-            figure.caption += marks_collisions(*runs.front().second)
+            figure.caption += marks_collisions(*runs.front().second, keys_.from, end_)
                                   ? (en() ? "Dashed lines: series of impacts begin. " : "虚线：冲击序列开始。")
                                   : (en() ? "Dashed lines: impacts begin. " : "虚线：冲击开始。");
         if (keys_.against == "frequency")
@@ -391,8 +379,9 @@ class SeriesFigure {
         else
             figure.caption += horizon_words(runs, end_, lang_);
         const SeriesMotion& motion = motions_[measured_motion_];
-        if (keys_.against != "frequency")  // which shows no data
-            figure.caption += agreement_words(measured_, *results[motion.study], motion.problem, lang_);
+        figure.caption += keys_.against == "frequency"
+                              ? measured_spectrum_words(measured_, lang_)
+                              : agreement_words(measured_, *results[motion.study], motion.problem, lang_);
         figure.caption += common_facts(motions_, lang_);
         figure.accuracy = accuracy(pairs, lang_);
     }

@@ -1,9 +1,12 @@
 #include "scenes/figures/series_spectrum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "render/base/error.hpp"
 #include "scenes/figures/studies.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
@@ -24,6 +27,26 @@ int samples(const sim::Problem& problem, double length) {
     return count;
 }
 
+sim::Table until(double highest, sim::Spectrum spectrum) {
+    const auto count = std::ranges::upper_bound(spectrum.frequency, highest) - spectrum.frequency.begin();
+    spectrum.frequency.resize(static_cast<std::size_t>(count));
+    spectrum.amplitude.resize(static_cast<std::size_t>(count));
+    sim::Table out;
+    out.values = {std::move(spectrum.frequency), std::move(spectrum.amplitude)};
+    return out;
+}
+
+constexpr std::size_t kFewestMeasured = 16;  // below, Hann's window leaves hardly a line
+constexpr double kJitter = 0.02;             // of the step: clocks of instruments, and times with few digits
+
+bool equally_spaced(const std::vector<double>& times) {
+    if (times.size() < kFewestMeasured) return false;
+    const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (std::abs(times[i] - times.front() - static_cast<double>(i) * step) > kJitter * step) return false;
+    return true;
+}
+
 }  // namespace
 
 std::vector<double> spectrum_instants(const sim::Problem& problem, double from, double to) {
@@ -37,14 +60,40 @@ std::vector<double> spectrum_instants(const sim::Problem& problem, double from, 
 sim::Table spectrum_table(const sim::Table& rows, std::optional<double> highest) {
     const std::vector<double>& t = rows.values.front();
     sim::Spectrum spectrum = sim::amplitude_spectrum(rows.values.back(), t[1] - t[0]);
-    const double until = highest.value_or(0.375 * spectrum.frequency.back());
-    const auto count = std::ranges::upper_bound(spectrum.frequency, until) - spectrum.frequency.begin();
-    spectrum.frequency.resize(static_cast<std::size_t>(count));
-    spectrum.amplitude.resize(static_cast<std::size_t>(count));
-    sim::Table out;
+    const double most = highest.value_or(0.375 * spectrum.frequency.back());
+    sim::Table out = until(most, std::move(spectrum));
     out.channels = rows.channels;
-    out.values = {std::move(spectrum.frequency), std::move(spectrum.amplitude)};
+    if (out.values[0].size() < 2)
+        throw render::PictureError(
+            fmt::format("series: there is no frequency up to x_high = {:g} Hz; those of {:g} s are {:.3g} Hz apart",
+                        most, t.back() + t[1] - 2 * t[0], 1 / (t.back() + t[1] - 2 * t[0])));
+    if (std::ranges::none_of(out.values[1], [](double a) { return a > 0; }))
+        throw render::PictureError(fmt::format("series: {} does not change from {:g} s to {:g} s: it has no spectrum",
+                                               name(rows.channels.back()), t.front(), t.back()));
     return out;
+}
+
+std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channel channel, double highest) {
+    const std::vector<double>* values = data.find(channel);
+    if (!values || !equally_spaced(data.times)) return std::nullopt;
+    const double step = (data.times.back() - data.times.front()) / static_cast<double>(data.times.size() - 1);
+    return until(highest, sim::amplitude_spectrum(*values, step));
+}
+
+std::string measured_spectrum_words(const std::vector<Measured>& all, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string text;
+    for (const Measured& each : all) {
+        const std::vector<double>& t = each.data.times;
+        text += equally_spaced(t)
+                    ? filled(en ? "Data “{}”: {} samples, resolution {} Hz. " : "{}：{} 个样本，分辨率 {} Hz。",
+                             each.data.label, t.size(), number(1.5 / (t.back() - t.front()), 2))
+                    : filled(en ? "Data “{}” have no spectrum: their instants are {}. " : "{}：{}，无频谱。",
+                             each.data.label,
+                             t.size() < kFewestMeasured ? (en ? "too few" : "时刻过少")
+                                                        : (en ? "not equally spaced" : "时刻不等距"));
+    }
+    return text;
 }
 
 std::string spectrum_words(const sim::Problem& problem, double from, double to, Lang lang) {

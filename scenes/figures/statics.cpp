@@ -124,7 +124,7 @@ FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Stud
                     series->solid = first;
                     if (!first) series->weight = 0.9;
                 }
-                if (first) s.w.label = fmt::format("$l_{{1}}$ = {} m", number(support, 3));
+                if (first) s.w.label = "$l_{1}$ = " + length_text(support);
                 shape.series.push_back(std::move(s.w));
                 slope.series.push_back(std::move(s.slope));
             }

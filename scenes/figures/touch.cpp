@@ -138,7 +138,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
         int look = 0;
         for (std::size_t k = 0; k < fine.size(); k += kRefined) {
             Series s;
-            s.label = fmt::format("$x$ = {} m", number(fine[k], 3));
+            s.label = "$x$ = " + length_text(fine[k]);
             s.look = look++;
             for (std::size_t i = 0; i < f.t.size(); ++i)
                 if (f.t[i] >= from && f.t[i] <= to) s.x.push_back(f.t[i] * 1e3), s.y.push_back(f.distance[k][i] * 1e3);

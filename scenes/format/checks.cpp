@@ -265,12 +265,23 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
         if (stretch && !(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
             r.fail(r.place("from"), "from",
                    fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
-        for (const char* key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "height",
-                                "compare", "comparison", "residuals"})
-            if (r.has(key) && !(stretch && (std::string_view(key) == "from" || std::string_view(key) == "to")))
-                r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"series\"", r.path(key)));
-        return;
+        const bool windows = recipe && recipe->takes_channel;
+        for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts",
+                                           "height", "compare", "comparison", "residuals", "notes"})
+            if (r.has(key) && !(stretch && (key == "from" || key == "to")) && !(windows && key == "channels"))
+                r.fail(r.place(key), std::string(key), fmt::format("{} belongs to the figure \"series\"", r.path(key)));
+        if (windows && series.panels.front().channels.size() > 1)
+            r.fail(r.place("channels"), "channels",
+                   fmt::format("{}: a {} shows one channel", r.path("channels"), figure.figure));
+        if (windows && series.window && !(2 * *series.window <= end - series.from))
+            r.fail(r.place("window"), "window",
+                   fmt::format("{} = {:g} s is more than half of the {:g} s that it moves along", r.path("window"),
+                               *series.window, end - series.from));
     }
+    for (const char* key : {"window", "highest"})
+        if (r.has(key) && figure.figure != "spectrogram")
+            r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"spectrogram\"", r.path(key)));
+    if (figure.figure != "series") return;
     if (series.panels.empty() && !r.findings().any())
         r.fail(
             *r.node(), "channels",
@@ -287,6 +298,8 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
     if (series.impacts && series.against != "t" && series.against != "turns")
         r.fail(r.place("impacts"), "impacts",
                fmt::format("{}: impacts are lines over \"t\" or \"turns\" alone", r.path("impacts")));
+    if (!series.notes.empty() && series.against != "t" && series.against != "turns")
+        r.fail(r.place("notes"), "notes", fmt::format("{} are lines over \"t\" or \"turns\" alone", r.path("notes")));
     if (series.apart && series.compare.empty())
         r.fail(r.place("comparison"), "comparison",
                fmt::format("{} = \"panels\" needs motions: \"compare\"", r.path("comparison")));

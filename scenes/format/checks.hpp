@@ -25,6 +25,7 @@ void take_written_units(ObjectReader& r, render::Units& units);
 void judge_camera(ObjectReader& r, const View& view);  // `r`: of the camera
 void judge_view(ObjectReader& r, const View& view);    // `r`: of the view
 void judge_picture(ObjectReader& r, Picture& picture);
+bool is_of_contact(sim::ChannelKind kind);  // without a cam it has no values
 void judge_layout(ObjectReader& r, const Picture& picture);
 void judge_span(ObjectReader& r, const FrameSpan& span, const View& view);
 void take_usual_codec(ObjectReader& r, VideoOutput& video);

@@ -235,8 +235,6 @@ Form layout_form(std::optional<LayoutNode>& layout) {
 
 // ---- what the panels ask of the motions -----------------------------------------------------------
 
-namespace {
-
 bool is_of_contact(sim::ChannelKind kind) {
     using enum sim::ChannelKind;
     constexpr sim::ChannelKind kOfContact[] = {contact_force, friction_force,  gap,          contact_x,     contact_s,
@@ -244,6 +242,8 @@ bool is_of_contact(sim::ChannelKind kind) {
                                                separation,    separation_paper};
     return std::ranges::find(kOfContact, kind) != std::end(kOfContact);
 }
+
+namespace {
 
 // What the panel shows of a contact that the picture's motions do not have; empty: nothing.
 std::string without_cam(const sim::Problem& own, const Picture& picture, const PanelSpec& panel) {

@@ -80,6 +80,7 @@ class MeasurementReader {
                                                  suggestion_or_list(column, table.names)));
         m_.times = column(table, "t", m_.time_column, "s");
         for (double& t : m_.times) t += m_.offset;
+        judge_channels();
         for (const auto& [channel, from] : m_.columns)
             m_.values.push_back(column(table, name(channel), from, unit(channel, r_.context().scene.problem)));
         judge_values();
@@ -113,7 +114,15 @@ class MeasurementReader {
         return out;
     }
 
+    void judge_channels() {
+        for (const auto& [channel, from] : m_.columns)
+            if (is_of_contact(channel.kind) && !r_.context().scene.problem.cam)
+                fail(r_.has(name(channel)) ? name(channel) : "file",
+                     fmt::format("{} is of the contact, and the scene has no cam", name(channel)));
+    }
+
     void judge_values() {
+        if (m_.times.empty() && !failed_) fail("file", "there are no rows below the names of the columns");
         for (std::size_t i = 0; i < m_.values.size() && !failed_; ++i)
             if (std::ranges::none_of(m_.values[i], [](double value) { return std::isfinite(value); }))
                 fail("file", fmt::format("the column {} has no number", in_quotes(m_.columns[i].second)));

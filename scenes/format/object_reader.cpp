@@ -340,11 +340,12 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
     if (!node) return;
     const std::size_t size = node->items.size();
     if (node->kind != Node::Kind::array || size < list.least || size > list.most)
-        return fail(
-            *node, key.name,
-            fmt::format("{} must be an array {}, not {}{}", path(key.name),
-                        list.least > 0 ? fmt::format("of {} to {} {}", list.least, list.most, list.of) : "[ … ]",
-                        shown(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
+        return fail(*node, key.name,
+                    fmt::format("{} must be an array {}, not {}{}", path(key.name),
+                                list.least > 0     ? fmt::format("of {} to {} {}", list.least, list.most, list.of)
+                                : size > list.most ? fmt::format("of at most {} {}", list.most, list.of)
+                                                   : "[ … ]",
+                                shown(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
     for (std::size_t i = 0; i < node->items.size(); ++i) {
         const Node& item = node->items[i];
         const std::string at = fmt::format("{}.{}", key.name, i);

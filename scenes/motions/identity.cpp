@@ -82,13 +82,13 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
     if (extent != Extent::scene) alone.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
-    const bool shows_data =
-        std::holds_alternative<FigureOutput>(wanted) || std::holds_alternative<SummaryOutput>(wanted);
+    const bool shows_data = is_picture(wanted) || std::holds_alternative<FigureOutput>(wanted) ||
+                            std::holds_alternative<SummaryOutput>(wanted);
     if (!shows_data) alone.data.clear();
     for (const Measurement& each : alone.data) other += "\n" + each.digest;
     if (const auto* figure = std::get_if<FigureOutput>(&wanted)) {  // what the scene does not say
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
-        other += fmt::format("\n{}\n{}\n{}", figure->data_file, figure->caption_file, epoch ? epoch : "");
+        other += fmt::format("\n{}", epoch ? epoch : "");
     }
     return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, to_json(alone)));
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "render/plot/style.hpp"
+#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
@@ -28,20 +29,32 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.check([&panel](ObjectReader& r) { judge_series_panel(r, panel); });
 }
 
-// Only some figures take the keys "from" and "to", only "series" the others.
+static void visit(SceneVisitor& v, SeriesNote& note) {
+    v.form(sim::required("at", "\"impact:1\""), instant_form(note.at), "When.");
+    v.text("text", note.text, "Beside the line, in the first panel; $θ$ is set as mathematics.");
+    v.check([&note](ObjectReader& r) { judge_markup(r, "text", note.text); });
+}
+
+// Only some figures take the keys "from" and "to", one those of windows, only "series" the others.
 static const std::string& restriction() {
     static const std::string kText = [] {
-        std::vector<std::string> names;
-        for (const Recipe& recipe : recipes())
+        std::vector<std::string> names, windows;
+        for (const Recipe& recipe : recipes()) {
             if (recipe.takes_stretch) names.push_back(fmt::format("\"{}\"", recipe.name));
+            if (recipe.takes_channel) windows.push_back(fmt::format("\"{}\"", recipe.name));
+        }
         return fmt::format(R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}, "required": ["figure"]}},
-        "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
-        "else": {{"properties": {{"channels": false, "panels": false, "x": false, "x_low": false, "x_high": false,
+        "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}],
+                  "properties": {{"window": false, "highest": false}}}},
+        "else": {{"properties": {{"panels": false, "x": false, "x_low": false, "x_high": false,
                                   "impacts": false, "height": false, "compare": false, "comparison": false,
-                                  "residuals": false}},
+                                  "residuals": false, "notes": false}},
                   "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
-                  "else": {{"properties": {{"from": false, "to": false}}}}}}}})",
-                           fmt::join(names, ", "));
+                  "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}},
+                  "else": {{"properties": {{"channels": false, "window": false, "highest": false}},
+                            "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
+                            "else": {{"properties": {{"from": false, "to": false}}}}}}}}}})",
+                           fmt::join(windows, ", "), fmt::join(names, ", "));
     }();
     return kText;
 }
@@ -51,9 +64,11 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     const bool is_series = figure == "series";
     const Recipe* recipe = recipe_named(figure);
     const bool stretch = is_series || (recipe && recipe->takes_stretch);
+    const bool windows = recipe && recipe->takes_channel;
     const auto key = [is_series](const char* name) { return sim::written_if(is_series, name); };
-    v.form("channels", grouped_channels_form(series.panels),
-           "Of the figure \"series\": what it shows, a panel for each unit; or \"panels\".");
+    if (windows && series.panels.empty()) series.panels.emplace_back();
+    v.form("channels", windows ? channels_form(series.panels.front().channels) : grouped_channels_form(series.panels),
+           "Of the figure \"series\": what it shows, a panel for each unit; or \"panels\". Of \"spectrogram\": one.");
     List panels = SceneVisitor::items_of(series.panels);
     panels.most = 8, panels.of = "panels";
     panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
@@ -66,14 +81,23 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
              "Of \"series\": lower end of that axis, in SI units.");
     v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny, "Its upper end.");
-    v.number(sim::written_if(stretch, "from"), series.from, dim::kTime, kFromStart,
-             "Of \"series\", \"kymograph\", \"strobe\" and \"impact-maps\": when what they show begins.");
+    v.number(
+        sim::written_if(stretch, "from"), series.from, dim::kTime, kFromStart,
+        "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": when "
+        "what they show begins.");
     v.number(sim::written_if(stretch, "to"), series.to, dim::kTime, kFromStart,
              "When it ends; with the scene when left out. A \"strobe\" that begins there shows that instant alone.");
     v.truth(key("impacts"), series.impacts, "Of \"series\": lines where impacts begin.");
     v.number(key("height"), series.height, dim::kLength,
              between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
              "Of \"series\": its height; what suits its panels when left out.");
+    v.number(sim::written_if(windows, "window"), series.window, dim::kTime, sim::kPositive,
+             "Of \"spectrogram\": length of its windows, which becomes a power of two of samples.");
+    v.number(sim::written_if(windows, "highest"), series.highest, dim::kFrequency, sim::kPositive,
+             "Of \"spectrogram\": the highest frequency that it shows.");
+    List notes = SceneVisitor::items_of(series.notes);
+    notes.most = 12, notes.of = "notes", notes.example = "[{\"at\": \"impact:1\", \"text\": \"first touch\"}]";
+    v.list(key("notes"), notes, "Of \"series\": lines at instants, with words.");
     List compare = SceneVisitor::items_of(series.compare);
     compare.least = 2, compare.most = kMostCompared, compare.of = "motions";
     compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
@@ -94,10 +118,15 @@ void FigureOutput::visit(SceneVisitor& v) {
              "Dots per inch of a .png, .tif or .tiff; 300 or, of .tif, 600 when left out.");
     v.choice("text", editable, {{false, "outlines"}, {true, "editable"}},
              "Of an .svg: letters as outlines, the same everywhere, or as text in the reader's fonts.");
+    v.choice("font", serif, {{false, "sans"}, {true, "serif"}},
+             "Letters: Liberation Sans, as Arial, or Liberation Serif, as the Times of LaTeX.");
     v.choice("lang", lang, {{Lang::en, "en"}, {Lang::zh, "zh"}}, "Language of labels and caption.");
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Another width than the column's.");
+    v.form("caption", file_form(caption_file, {".txt", ".md", ".tex"}),
+           "A file for its caption: plain and as LaTeX, .tex as LaTeX alone; none when left out.");
+    v.form("data", file_form(data_file, {".csv"}), "A file for the numbers that it shows; none when left out.");
     visit_series(v, series, figure);
     v.check([this](ObjectReader& r) { judge_figure(r, *this); });
 }
@@ -106,7 +135,12 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     const Recipe* recipe = recipe_named(figure);
     if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure);
     Studies studies;
-    FigureFile planned{output, file, figure, {}, recipe->prepare(planner.scene(), *this, studies), {}};
+    const auto make = [make = recipe->prepare(planner.scene(), *this, studies)](const Results& results) {
+        render::figure::Figure made = make(results);
+        choose_prefixes(made);
+        return made;
+    };
+    FigureFile planned{output, file, figure, {}, make, {}};
     planned.studies = studies.take();
     planner.add(std::move(planned));
 }

@@ -35,6 +35,16 @@ render::Motion motion_of(const sim::Problem& problem, sim::Result& result, std::
     return motion;
 }
 
+std::vector<render::FilmData> data_of(const Scene& scene) {
+    std::vector<render::FilmData> out;
+    for (const Measurement& each : scene.data) {
+        out.push_back({render::figure::to_plain(each.label), each.is_line(each.times.size()), each.times, {}});
+        for (std::size_t c = 0; c < each.columns.size(); ++c)
+            out.back().values.emplace_back(each.columns[c].first, each.values[c]);
+    }
+    return out;
+}
+
 // The least accurate motion speaks for the picture.
 void add_compared(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
                   render::FilmSetup& setup) {
@@ -84,6 +94,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.speeds = p.speeds;
     setup.slow_motion = is_slow_motion(p);
     setup.callouts = p.callouts;
+    setup.data = data_of(scene);
     setup.moves = p.moves;
     setup.view.strobe = p.picture.view.strobe_every.has_value();
     if (!p.compared.empty()) {

@@ -214,7 +214,7 @@ std::vector<double> rows(double from, double to, double rate) {
     for (long k = 0; first + static_cast<double>(k) <= last; ++k)
         times.push_back((first + static_cast<double>(k)) / rate);
     // k/rate and `to` may be one instant, written twice by rounding.
-    if (!times.empty() && std::abs(times.back() - to) < 1e-9 / rate) times.back() = to;
+    if (!times.empty() && std::abs(times.back() - to) < 1e-9 * std::min(1 / rate, to)) times.back() = to;
     if (times.empty() || times.back() < to) times.push_back(to);
     return times;
 }

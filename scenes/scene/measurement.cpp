@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/plot/text.hpp"
+
 namespace beamcam::scenes {
 
 const std::vector<double>* Measurement::find(sim::Channel channel) const {
@@ -28,6 +30,11 @@ Measurement Measurement::within(double from, double to) const {
     return out;
 }
 
+bool Measurement::is_line(std::size_t rows) const {
+    constexpr std::size_t kManyPoints = 300;  // beyond, marks are a band
+    return drawn == Drawn::line || (drawn == Drawn::automatic && rows > kManyPoints);
+}
+
 sim::TableRequest Measurement::request() const {
     sim::TableRequest out{times, {{sim::ChannelKind::t, 0}}};
     for (const auto& [channel, column] : columns) out.channels.push_back(channel);
@@ -39,7 +46,7 @@ std::vector<output::Agreement> agreements(const Measurement& measurement, const 
     std::vector<output::Agreement> out;
     for (std::size_t c = 0; c < measurement.columns.size(); ++c) {
         out.push_back(output::agreement(measurement.times, measurement.values[c], table.values[c + 1], result));
-        out.back().label = measurement.label;
+        out.back().label = render::figure::to_plain(measurement.label);
         out.back().file = measurement.file;
         out.back().channel = measurement.columns[c].first;
     }

@@ -29,6 +29,7 @@ struct Measurement {
     const std::vector<double>* find(sim::Channel channel) const;      // nullptr: it has none
     Measurement of(const std::vector<sim::Channel>& channels) const;  // these alone
     Measurement within(double from, double to) const;                 // the rows between these instants alone
+    bool is_line(std::size_t rows) const;                             // that many of them; else points
     // Time and channels of the motion at its instants.
     sim::TableRequest request() const;
 };

@@ -27,6 +27,9 @@ std::vector<std::string> written_by(const Output& output) {
         if (video->span.poster) files.push_back(poster_file(*video));
         if (video->subtitles != Subtitles::none) files.push_back(subtitles_file(*video));
     }
+    if (const auto* figure = std::get_if<FigureOutput>(&output))
+        for (const std::string& beside : {figure->data_file, figure->caption_file})
+            if (!beside.empty()) files.push_back(beside);
     return files;
 }
 

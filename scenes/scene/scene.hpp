@@ -238,11 +238,12 @@ struct ShapesOutput {
     static constexpr const char *kType = "shapes",
                                 *kMeaning = "The deflection along the beam in time: a row for each instant and place.";
     static constexpr bool kIsData = true;
-    std::string file;    // .csv or .npz
-    double rate = 1000;  // [Hz], instants k/rate and the end
-    int stations = 33;   // places along the beam, both ends included
+    std::string file;                // .csv or .npz
+    double rate = 1000;              // [Hz], instants k/rate and the end
+    std::vector<double> times = {};  // [s]; not empty: these instants instead
+    int stations = 33;               // places along the beam, both ends included
 
-    Extent extent() const { return Extent::scene; }
+    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
@@ -274,6 +275,11 @@ struct SeriesPanel {
     std::string label = {};                     // of that axis, before the unit; empty: the channels' symbols
     std::string title = {};
 };
+// A line at an instant, with words.
+struct SeriesNote {
+    Instant at;
+    std::string text;
+};
 // What the figure "series" shows; other figures have content of their own.
 struct SeriesKeys {
     std::vector<SeriesPanel> panels = {};
@@ -286,6 +292,8 @@ struct SeriesKeys {
     bool impacts = false;                           // lines where impacts begin
     bool residuals = false;                         // below each panel with data, what the data differ by
     std::optional<double> height = {};              // [m]; absent: what suits the panels
+    std::vector<SeriesNote> notes = {};
+    std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; absent: what suits the motion
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {
@@ -299,8 +307,9 @@ struct FigureOutput {
     Lang lang = Lang::en;
     std::optional<double> dpi;  // of pixels; absent: 300 of .png, 600 of .tif
     bool editable = false;      // text of .svg as text
+    bool serif = false;         // letters as those of text set by LaTeX
     SeriesKeys series;
-    std::string data_file, caption_file;  // beside it; only the command line asks for them
+    std::string data_file, caption_file;  // beside it; empty: none
 
     Extent extent() const { return series.to ? Extent::keys : Extent::scene; }
     bool is_tiff() const { return file.ends_with(".tif") || file.ends_with(".tiff"); }
@@ -318,7 +327,7 @@ constexpr double kMuchMemory = 1e9;
 const std::string& file_of(const Output& output);
 std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
 std::string subtitles_file(const VideoOutput& video);       // "fall.vtt"; empty: none
-std::vector<std::string> written_by(const Output& output);  // its file, and what stands beside a film
+std::vector<std::string> written_by(const Output& output);  // its file, and what stands beside it
 bool is_data(const Output& output);
 bool is_picture(const Output& output);
 

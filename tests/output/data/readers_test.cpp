@@ -299,6 +299,9 @@ TEST(TableReader, SaysWhereACsvIsWrong) {
     EXPECT_NE(error("").find("empty"), std::string::npos);
     EXPECT_NE(error("t,t\n").find("twice"), std::string::npos);
     EXPECT_NE(error("1,2\n").find("name"), std::string::npos);
+    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is no finite number"), std::string::npos);
+    EXPECT_NE(error("t;x\n0,5;2\n").find("a.csv:1:2: columns are parted by semicolons"), std::string::npos);
+    EXPECT_NE(error("t\tx\n1\t2\n").find("by tabs"), std::string::npos);
 }
 
 TEST(TableReader, EveryCutOfAnArchiveIsRefused) {

@@ -112,6 +112,37 @@ void stands_still(FilmSetup setup) {
     EXPECT_FALSE(film.repeats(46));  // the words are gone
 }
 
+// A line and points over the charts, and a straight beam.
+FilmSetup with_data() {
+    FilmSetup setup = everything();
+    FilmData rig, other;
+    rig.label = "rig", other.label = "other", other.line = true;
+    for (const double t : setup.chart.values[0])
+        if (t < 0.5) rig.t.push_back(t + 0.01), other.t.push_back(t);
+    rig.values = {{{ChannelKind::theta, 0}, std::vector<double>(rig.t.size(), 0.55)}};
+    other.values = {{{ChannelKind::theta_dot, 0}, std::vector<double>(other.t.size(), 0.2)}};
+    setup.data = {rig, other};
+    return setup;
+}
+TEST(FilmData, HaveTheSamePixelsInAnyOrder) { same_in_any_order(with_data()); }
+TEST(FilmData, AreDrawnWhereTheyHaveValues) {
+    Film without(everything()), with(with_data());
+    const auto changed = [&](int frame, const Box& where) {
+        const Image a = drawn(without, frame), b = drawn(with, frame);
+        long count = 0;
+        for (int y = static_cast<int>(where.y); y < static_cast<int>(where.bottom()); ++y)
+            for (int x = static_cast<int>(where.x); x < static_cast<int>(where.right()); ++x)
+                count += a.pixels[std::size_t(y) * std::size_t(a.width) + std::size_t(x)] !=
+                         b.pixels[std::size_t(y) * std::size_t(b.width) + std::size_t(x)];
+        return count;
+    };
+    const FrameGeometry geometry = with.geometry(12);
+    const Vec2 tip = geometry.camera.to_pixels(sim::unit(0.55) * 1.0);
+    const Box at_tip = Box{tip.x, tip.y, 0, 0}.inset(-20);
+    EXPECT_GT(changed(12, at_tip), 30);
+    EXPECT_NE(drawn(without, 12), drawn(with, 12));
+}
+
 TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
 TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
     stands_still(compared(Comparison::panels));
@@ -227,6 +258,7 @@ TEST(MovingParts, EveryPanelIsDrawnAsIfAllWere) {
     const Film film(everything());
     as_if_all_were_drawn(film, kForward, 0.6);
     as_if_all_were_drawn(film, kAnyOrder, 1);
+    as_if_all_were_drawn(Film(with_data()), kForward, 0.6);
 }
 TEST(MovingParts, ComparisonsAreDrawnAsIfAllWere) {
     for (Comparison how : {Comparison::panels, Comparison::ghosts}) {
@@ -303,7 +335,10 @@ void texts_keep_apart(FilmSetup setup) {
         }
     }
 }
-TEST(Panels, TextKeepsWithinThePictureAndApart) { texts_keep_apart(everything()); }
+TEST(Panels, TextKeepsWithinThePictureAndApart) {
+    texts_keep_apart(everything());
+    texts_keep_apart(with_data());
+}
 TEST(Panels, TextOfComparisonsKeepsApart) {
     texts_keep_apart(compared(Comparison::panels));
     texts_keep_apart(compared(Comparison::ghosts));

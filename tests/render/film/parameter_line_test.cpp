@@ -111,5 +111,32 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
               "K = 10^8 N m^−1.5");
 }
 
+// Formulas are broken in front of signs, and cut by an ellipsis; tall ones keep off what stands below.
+TEST(ParameterLine, TitlesOfFormulasAreBrokenCutAndKeptApart) {
+    Measuring with;
+    const Box box{0, 0, 600, 54};
+    const auto judge = [&](const std::string& title) {
+        const FittedTitle fitted = fitted_title(with.canvas, title, box, 1);
+        double below = -20;
+        for (const FittedTitle::Line& line : fitted.lines) {
+            const Box ink = with.canvas.measure(line.markup, fitted.style);
+            EXPECT_LE(ink.w, box.w) << title;
+            EXPECT_GE(line.baseline.y + ink.y, below) << title;
+            below = line.baseline.y + ink.bottom();
+        }
+        EXPECT_LE(below, box.bottom() + 1.5) << title;
+        return fitted;
+    };
+    std::string sum = "$a", fractions = "$\\frac{a}{b}";
+    for (int k = 0; k < 12; ++k) sum += " + b_{k}", fractions += " + \\frac{c}{d}";
+    EXPECT_EQ(judge(sum + " = \\frac{\\frac{a}{b}}{\\sqrt{\\frac{c}{d}}}$").lines.size(), 2u);
+    judge("$\\frac{\\frac{a}{b}}{\\sqrt{\\frac{c}{d}}}$");
+    judge(fractions + "$");
+    for (int k = 0; k < 100; ++k) sum += " + b_{k}";
+    const FittedTitle cut = judge(sum + "$");
+    EXPECT_TRUE(cut.cut);
+    EXPECT_TRUE(cut.lines.back().markup.ends_with("…"));
+}
+
 }  // namespace
 }  // namespace beamcam::render

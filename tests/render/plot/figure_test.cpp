@@ -378,6 +378,55 @@ TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
             EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)));
 }
 
+// An inset becomes smaller, then is left out, rather than hiding a curve.
+TEST(Figure, AnInsetNeverCoversData) {
+    const auto written_in_inset = [](int swings) {
+        std::vector<double> x, y;
+        for (int i = 0; i <= 4000; ++i) x.push_back(i / 4000.0), y.push_back(std::cos(2 * M_PI * swings * x.back()));
+        Figure figure = plot(x, y);
+        Panel inset;
+        inset.x.label = "inset";
+        inset.series = plot({0, 1}, {0, 1}).panels[0].series;
+        figure.panels[0].y.to = swings > 0 ? 1.1 : 3;
+        figure.panels[0].insets.push_back({.panel = {inset}});
+        const auto written = draw_png(figure).written;
+        return std::ranges::count(written, "inset", &Sheet::Written::markup);
+    };
+    EXPECT_EQ(written_in_inset(0), 1);
+    EXPECT_EQ(written_in_inset(30), 0);
+}
+
+// However wide the shapes are beside their labels.
+TEST(Figure, LabelsOfShapesKeepOnThePage) {
+    for (const double tall : {0.2, 1.0, 3.0}) {
+        Figure figure;
+        figure.aspect = 0.6;
+        Panel& panel = figure.panels.emplace_back();
+        panel.shapes.push_back({.kind = Shape::Kind::line, .points = {{0, 0}, {1, tall}}});
+        for (const auto& [at, align] : {std::pair{Vec2{1, tall}, HAlign::left}, {Vec2{0, 0}, HAlign::right}})
+            panel.shapes.push_back(
+                {.kind = Shape::Kind::label, .points = {at}, .markup = "a label that is long", .align = align});
+        for (const auto& written : draw_png(figure).written) {
+            EXPECT_GE(written.box.x, -0.1) << tall;
+            EXPECT_LE(written.box.right(), points(90) + 0.1) << tall;
+        }
+    }
+}
+
+// A number at the lower left corner keeps off the first one below the plot.
+TEST(Figure, NumbersAtACornerKeepApart) {
+    for (const char* column : {"nature", "ieee", "slide"}) {
+        Figure figure = plot({0.0, 0.5}, {-1, 1});
+        figure.panels[0].x.from = 0, figure.panels[0].y.from = -1, figure.panels[0].y.to = 1;
+        const auto written = draw_png(figure, column).written;
+        const auto box_of = [&](const char* text) {
+            return std::ranges::find(written, text, &Sheet::Written::markup)->box;
+        };
+        const double gap = box_of("0.0").y - std::max(box_of("−1.0").bottom(), 0.0);
+        EXPECT_GT(gap, 1.5) << column;
+    }
+}
+
 TEST(Figure, PagesHaveTheColumnsWidthToTheMillimetre) {
     const Figure figure = plot({0, 1}, {0, 1});
     EXPECT_EQ(page_of(figure, *column_named("ieee")).width, 88.9);

@@ -61,13 +61,19 @@ TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
     EXPECT_EQ(canvas_.text({200, 50}, fraction("1", "2"), {.size = 40, .align = HAlign::right}).right(), 200);
 }
 
-TEST_F(Words, LinesBreakBetweenWordsAndNeverInAFormula) {
+// Within a formula only where it needs more than a line.
+TEST_F(Words, LinesBreakBetweenWordsAndBeforeSigns) {
     TextStyle narrow = style_;
+    narrow.max_width = 320;
+    const auto lines = wrapped(canvas_, "speeds of $a = b + c + d$ of it all", narrow, 5);
+    EXPECT_EQ(lines.front(), "speeds of");
+    EXPECT_EQ(lines[1], words(canvas_, "$a = b + c + d$ of it"));
+    EXPECT_EQ(lines.back(), "all");
     narrow.max_width = 150;
-    const auto lines = wrapped(canvas_, "speed $a = b + c + d$ of it", narrow, 5);
-    EXPECT_EQ(lines.front(), "speed");
-    EXPECT_EQ(lines[1], words(canvas_, "$a = b + c + d$"));
-    EXPECT_EQ(lines.back(), "of it");
+    const auto broken = wrapped(canvas_, "$a = b + c + d$", narrow, 5);
+    ASSERT_EQ(broken.size(), 2u);
+    EXPECT_EQ(broken[0], words(canvas_, "$a = b$"));
+    EXPECT_EQ(broken[1], words(canvas_, "$+ c + d$"));
 }
 
 TEST(PlainWords, AreForOtherPrograms) {

@@ -16,6 +16,7 @@
 #include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
+#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
@@ -111,6 +112,46 @@ TEST(Figures, TrialMethodMeetsTheLocatedTouch) {
     EXPECT_NEAR(refined.x[static_cast<std::size_t>(first)], inset.marks[0].x, 0.00125);  // the refined spacing
     EXPECT_NEAR(refined.y[static_cast<std::size_t>(first)], inset.marks[0].y, 0.02);     // a flat minimum [ms]
     EXPECT_NEAR(inset.marks[0].x, 0.229, 0.001);
+}
+
+// The scale of the schematic is the scene's own: a beam that rests on the cam lies along the tangent to it.
+TEST(Figures, SchematicShowsARestingBeamOnTheCam) {
+    const auto figure = figure_of(scene_from(R"({"initial": {"shape": "resting"}, "beam": {"model": "rigid"},
+        "cam": {"centre": [0.3, 0], "radius": 0.1, "eccentricity": 0}})"),
+                                  "schematic");
+    double nearest = 1;
+    for (const auto& shape : figure.panels[0].shapes)
+        if (shape.points.size() > 20)
+            for (const auto& p : shape.points) nearest = std::min(nearest, std::hypot(p.x - 0.3, p.y));
+    EXPECT_NEAR(nearest, 0.1, 1e-3);
+    const auto has = [](const auto& made, const std::string& markup) {
+        return std::ranges::any_of(made.panels[0].shapes, [&](const auto& s) { return s.markup == markup; });
+    };
+    EXPECT_TRUE(has(figure, "$g$"));
+    EXPECT_FALSE(has(figure_of(scene_from(R"({"gravity": 0})"), "schematic"), "$g$"));
+}
+
+TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
+    render::figure::Panel panel;
+    panel.x.label = "$t$ / s", panel.y.label = "$w$ / mm";
+    panel.right = render::figure::Axis{.label = "$F$ / N"};
+    panel.series.resize(2);
+    panel.series[0].y = {0, -3e-6}, panel.series[1].y = {0, 2e7};
+    for (auto& series : panel.series) series.x = {0, 1};
+    panel.series[1].right = true;
+    panel.rules = {{.at = 1e-6}};
+    panel.color_bar = render::figure::ColorBar{.label = "$F$ / N", .from = 0, .to = 300};
+    render::figure::Figure figure;
+    figure.panels = {panel};
+    choose_prefixes(figure);
+    const auto& made = figure.panels[0];
+    EXPECT_EQ(made.x.label, "$t$ / s");
+    EXPECT_EQ(made.y.label, "$w$ / nm");
+    EXPECT_NEAR(made.series[0].y[1], -3, 1e-12);
+    EXPECT_NEAR(made.rules[0].at, 1, 1e-12);
+    EXPECT_EQ(made.right->label, "$F$ / MN");
+    EXPECT_NEAR(made.series[1].y[1], 20, 1e-12);
+    EXPECT_EQ(made.color_bar->label, "$F$ / N");
 }
 
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {

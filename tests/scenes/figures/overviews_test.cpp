@@ -44,14 +44,87 @@ TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
     EXPECT_NEAR(figure.panels[0].marks[0].x, 0.277394, 1e-6);
 }
 
+// What `--data` writes: a row for each cell with its deflection, and for each mark.
+TEST(Overviews, DataOfAKymographAreItsDeflections) {
+    const auto figure = overview_of("kymograph", R"(, "from": 0.2, "to": 0.3)");
+    const auto& cells = figure.panels[0].cells.at(0);
+    ASSERT_EQ(cells.values.size(), cells.colors.size());
+    std::istringstream rows(render::figure::data_csv(figure));
+    std::string line;
+    std::size_t count = 0;
+    double least = 0;
+    while (std::getline(rows, line))
+        if (line.starts_with("1,\"v(x, t) / mm\",t / s,"))
+            ++count, least = std::min(least, std::stod(line.substr(line.rfind(',') + 1)));
+    EXPECT_EQ(count, cells.values.size());
+    EXPECT_NEAR(least, *std::ranges::min_element(cells.values), 1e-12);
+    EXPECT_NEAR(least, *figure.panels[0].color_bar->from, 1e-12);
+}
+
+// The tip of a beam that falls free swings in its first natural frequency all along.
+TEST(Overviews, ASpectrogramHasItsLargestAmplitudeAtTheFirstFrequency) {
+    const Reading reading =
+        testing::read(R"({"cam": null, "initial": {"shape": "static"}, "time": {"end": 2}, "outputs": [
+        {"type": "figure", "figure": "spectrogram", "window": "0.2 s", "highest": 400}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    Studies studies;
+    const FigureMaker make = recipe_named("spectrogram")
+                                 ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
+    std::vector<sim::Result> runs;
+    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
+    const auto figure = make({&runs[0]});
+    const auto& cells = figure.panels[0].cells.at(0);
+    const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
+    const double first = sim::natural_modes(reading.scene->problem).front().omega / (2 * M_PI);
+    EXPECT_LE(cells.y.back(), 410);
+    const double step = cells.y[2] - cells.y[1];
+    for (std::size_t i = 0; i < columns; i += 29) {
+        std::size_t best = 0;
+        for (std::size_t k = 3; k < rows; ++k)  // the fall itself is below
+            if (best == 0 || cells.values[k * columns + i] > cells.values[best * columns + i]) best = k;
+        EXPECT_NEAR(0.5 * (cells.y[best] + cells.y[best + 1]), first, step) << cells.x[i];
+    }
+    EXPECT_THAT(figure.caption, HasSubstr("Hann window of"));
+    EXPECT_THAT(
+        testing::read(R"({"outputs": [{"type": "figure", "figure": "spectrogram", "channels": ["theta", "gap"]}]})")
+            .report(),
+        HasSubstr("shows one channel"));
+    EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "phase", "window": 0.1}]})").report(),
+                HasSubstr("belongs to the figure \"spectrogram\""));
+}
+
+TEST(Overviews, HistogramsCountEachImpactOnce) {
+    const Reading reading =
+        testing::read(R"({"time": {"end": 1.5}, "beam": {"model": "rigid"}, "contact": {"restitution": 0.5},
+        "outputs": [{"type": "figure", "figure": "impact-histograms"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    Studies studies;
+    const FigureMaker make = recipe_named("impact-histograms")
+                                 ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
+    std::vector<sim::Result> runs;
+    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
+    const auto figure = make({&runs[0]});
+    for (const auto& panel : figure.panels) {
+        double sum = 0;
+        for (std::size_t k = 0; k < panel.series[0].y.size(); k += 2) sum += panel.series[0].y[k];
+        EXPECT_EQ(sum, static_cast<double>(runs[0].impacts.size()));
+    }
+    EXPECT_THROW(overview_of("impact-histograms", ""), render::PictureError);  // one impact
+}
+
 TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
     const auto beams = [](const render::figure::Figure& figure) {
         return std::ranges::count_if(figure.panels[0].shapes, [](const auto& s) { return s.points.size() > 2; });
     };
     EXPECT_EQ(beams(overview_of("strobe", "")), 9);
-    const auto one = overview_of("strobe", R"(, "from": 0.3, "to": 0.3)");
-    EXPECT_EQ(beams(one), 1);
-    EXPECT_THAT(one.caption, HasSubstr("The mechanism at 0.3 s"));
+    const auto one = overview_of("strobe", R"(, "from": 0.28, "to": 0.28)");
+    EXPECT_EQ(beams(one), 2);  // its body and the outline of that
+    EXPECT_THAT(one.caption, HasSubstr("The mechanism at 0.28 s"));
+    // In contact: a force that leads from the disc into the beam.
+    const auto force =
+        std::ranges::find(one.panels[0].shapes, render::figure::Shape::Kind::arrow, &render::figure::Shape::kind);
+    ASSERT_NE(force, one.panels[0].shapes.end());
+    EXPECT_GT(force->points[1].y, force->points[0].y);
 }
 
 TEST(Overviews, MapsHaveAPointForEachImpact) {
@@ -163,6 +236,28 @@ TEST(Exports, ImpactsCarryTheirStates) {
         EXPECT_NEAR(at(key.c_str()), values[0], 1e-9 * std::abs(values[0])) << key;
         EXPECT_NEAR(at((key + "_after").c_str()), values[1], 1e-9 * std::abs(values[1])) << key;
     }
+}
+
+TEST(Exports, ShapesAreThoseOfTheAskedInstants) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    const Finished made = shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2,0.1");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.out, "");
+    const output::NamedTable shapes = output::read_table(folder / "v.csv");
+    ASSERT_EQ(shapes.rows(), 2 * 33u);
+    EXPECT_EQ(shapes.find("t")->front(), 0.2);
+    EXPECT_EQ(shapes.find("t")->back(), 0.1);
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2 --rate 10").code, 2);
+}
+
+TEST(Exports, LettersAreSerifOnRequest) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.pdf --font serif -q").code, 0);
+    const std::string fonts = shell(folder, "pdffonts a.pdf 2>&1 || strings a.pdf").out;
+    EXPECT_THAT(fonts, HasSubstr("LiberationSerif"));
+    EXPECT_THAT(fonts, ::testing::Not(HasSubstr("LiberationSans")));
 }
 
 }  // namespace

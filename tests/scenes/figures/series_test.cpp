@@ -221,7 +221,9 @@ TEST(Measured, BadFilesAreToldWithTheirPlace) {
     EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("there is no column \"angle\"; did you mean \"angel\"?"));
     EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row is between 0 and 0.4 s"));
     EXPECT_THAT(told(""), HasSubstr("the file is empty"));
-    EXPECT_THAT(told("time,angle\n"), HasSubstr("the column \"angle\" has no number"));
+    EXPECT_THAT(told("time,angle\n"), HasSubstr("there are no rows below the names of the columns"));
+    EXPECT_THAT(told("time,angle\n100,45\n200,inf\n"), HasSubstr("rig.csv:3:5: \"inf\" is no finite number"));
+    EXPECT_THAT(told("time;angle\n100;45\n"), HasSubstr("rig.csv:1:5: columns are parted by semicolons"));
     EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" has no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
@@ -237,12 +239,97 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_EQ(shell(folder, command + "--channels theta,gap --from 0.1 --to '300 ms' --height 60mm -o a.pdf").code, 0);
     EXPECT_EQ(shell(folder, command + "series --channels theta -o b.png --width 90mm --height 60mm --dpi 254").code, 0);
     EXPECT_THAT(shell(folder, "$BEAMCAM info b.png").out, HasSubstr("900x600"));
+    EXPECT_EQ(shell(folder, command + "--channels contact_force --log -o l.pdf").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM info l.pdf --scene").out, HasSubstr("\"scale\": \"log\""));
+    EXPECT_EQ(shell(folder, command + "phase --log -o l.svg").code, 2);
+    folder.write("fast.json", R"({"cam": {"speed": 5}, "time": {"end": 0.4}})");
+    EXPECT_EQ(
+        shell(folder, command + "--channels theta --compare fast.json --set cam.speed=2 -o m.pdf --caption m.txt").code,
+        0);
+    EXPECT_THAT(testing::slurp(folder / "m.txt"), HasSubstr("Hub angle θ: s; fast."));
+    const std::string compared = shell(folder, "$BEAMCAM info m.pdf --scene").out;
+    EXPECT_THAT(compared, HasSubstr("\"speed\": 2.0"));
+    EXPECT_THAT(compared, HasSubstr("\"speed\": 5.0"));
     const Finished wrong = shell(folder, command + "--channels thetta -o c.png");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_THAT(wrong.err, HasSubstr("--channels.0 = \"thetta\" is not a channel; did you mean \"theta\"?"));
     EXPECT_EQ(shell(folder, command + "--channels theta --from 0.5 -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "phase --channels theta -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "series -o c.png").code, 2);
+}
+
+TEST(Measured, DataOfTheContactNeedACam) {
+    const Folder folder;
+    folder.write("rig.csv", "t,gap\n0.1,0.05\n");
+    folder.write("m.json", R"({"cam": null, "data": [{"file": "rig.csv"}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err,
+                HasSubstr("gap is of the contact, and the scene has no cam"));
+}
+
+// Names in the summary are plain, in figures markup.
+TEST(Measured, NamesOfFilesAreLabelsAsTheyAre) {
+    const Folder folder;
+    folder.write("run_2$.csv", "t,theta\n0.1,0.7\n");
+    folder.write("m.json", R"({"time": {"end": 0.2}, "data": [{"file": "run_2$.csv"}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM simulate m.json").out, HasSubstr("\"label\": \"run_2$\""));
+    const Finished drawn = shell(folder, "$BEAMCAM figure m.json --channels theta -o a.svg --caption a.txt");
+    EXPECT_THAT(testing::slurp(folder / "a.txt"), HasSubstr("Data “run_2$”: at 1 instants"));
+}
+
+// A vibration of 50 Hz has its line there, in its own amplitude; unequal steps have no spectrum, which is told.
+TEST(Measured, DataHaveSpectraOfTheirOwn) {
+    const Folder folder;
+    std::string even = "t,tip_deflection\n", uneven = even;
+    for (int k = 0; k < 400; ++k) {
+        even += fmt::format("{:.4f},{:.9f}\n", k * 1e-3, 2e-3 * std::cos(2 * M_PI * 50 * k * 1e-3));
+        uneven += fmt::format("{:.6f},{:.9f}\n", k * k * 2.5e-6, 1e-3);
+    }
+    folder.write("even.csv", even), folder.write("uneven.csv", uneven);
+    folder.write("m.json", R"({"time": {"end": 0.4}, "data": [{"file": "even.csv"}, {"file": "uneven.csv"}]})");
+    const Finished drawn = shell(folder,
+                                 "$BEAMCAM figure m.json --channels tip_deflection --x frequency -o a.svg "
+                                 "--data a.csv --caption a.txt");
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_THAT(testing::slurp(folder / "a.txt"), HasSubstr("Data “even”: 400 samples, resolution 3.8 Hz"));
+    EXPECT_THAT(testing::slurp(folder / "a.txt"), HasSubstr("Data “uneven” have no spectrum"));
+    std::istringstream rows(testing::slurp(folder / "a.csv"));
+    std::string line;
+    double at = 0, most = 0;
+    while (std::getline(rows, line)) {
+        double f = 0, amplitude = 0;
+        if (std::sscanf(line.c_str(), "1,even,f / Hz,%lf,|w| / µm,%lf", &f, &amplitude) == 2 && amplitude > most)
+            most = amplitude, at = f;
+    }
+    EXPECT_NEAR(at, 50, 1);
+    EXPECT_NEAR(most, 2000, 20);
+}
+
+TEST(Series, ASpectrumWithoutLinesIsTold) {
+    EXPECT_THROW(figure_of(R"("channels": ["theta"], "x": "frequency", "x_high": 0.1)"), render::PictureError);
+    EXPECT_THROW(figure_of(R"("channels": ["theta"], "x": "frequency")",
+                           R"("cam": null, "gravity": 0, "initial": {"angle": 0},)"),
+                 render::PictureError);
+}
+
+TEST(Series, MarksInstantsWithWords) {
+    const Figure figure =
+        figure_of(R"("channels": ["theta", "gap"], "notes": [{"at": "impact:1", "text": "touch"}, {"at": 0.1}])");
+    ASSERT_EQ(figure.panels[0].rules.size(), 2u);
+    EXPECT_NEAR(figure.panels[0].rules[0].at, 0.277394, 1e-6);
+    EXPECT_EQ(figure.panels[0].rules[0].label, "touch");
+    EXPECT_EQ(figure.panels[0].rules[1].at, 0.1);
+    ASSERT_EQ(figure.panels[1].rules.size(), 2u);
+    EXPECT_EQ(figure.panels[1].rules[0].label, "");
+    EXPECT_THROW(figure_of(R"("channels": ["theta"], "to": 0.2, "notes": [{"at": 0.3}])"), render::PictureError);
+    EXPECT_THROW(figure_of(R"("channels": ["theta"], "notes": [{"at": "impact:99"}])"), render::PictureError);
+}
+
+TEST(Series, TooManyPanelsAreToldWithTheLimit) {
+    std::string panels;
+    for (int k = 0; k < 60; ++k) panels += std::string(k > 0 ? "," : "") + R"({"channels": ["theta"]})";
+    EXPECT_THAT(
+        testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "panels": [)" + panels + "]}]}").report(),
+        HasSubstr("must be an array of at most 8 panels, not an array of 60"));
 }
 
 }  // namespace

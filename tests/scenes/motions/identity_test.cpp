@@ -231,7 +231,8 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     const bool data = std::holds_alternative<TrajectoryOutput>(any) || std::holds_alternative<ImpactsOutput>(any) ||
                       std::holds_alternative<SummaryOutput>(any) || std::holds_alternative<ShapesOutput>(any);
     if (place.starts_with("/data/"))
-        return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any);
+        return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
+               is_picture(any);
     if (place == "/$schema" || place.starts_with("/sweep/")) return false;
     if (place == "/title") return !data;
     if (place.starts_with("/units/")) return is_picture(any);
@@ -242,6 +243,7 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (const auto* model = std::get_if<ModelOutput>(&any)) return !model->span.to;
     if (const auto* still = std::get_if<StillOutput>(&any)) return still->at.kind != Instant::Kind::time;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
+    if (const auto* shapes = std::get_if<ShapesOutput>(&any)) return shapes->times.empty();
     if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;
     return true;
 }

@@ -79,6 +79,10 @@ TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
     EXPECT_THAT(rows("0.3"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.3));
     EXPECT_THAT(rows("0.25"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.25));
     EXPECT_THAT(rows("0.05"), ElementsAre(0, 0.05));
+    EXPECT_THAT(plan_of(R"([{"type": "trajectory", "rate": 1e-9}])", R"("time": {"end": 0.5},)")
+                    .simulation->request.tables[0]
+                    .times,
+                ElementsAre(0, 0.5));
 }
 
 TEST(Plan, AFlatViewNeedsNoOpenGl) {

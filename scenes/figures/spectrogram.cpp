@@ -1,0 +1,163 @@
+// The amplitudes of a channel by frequency and time: Hann windows that move along the motion.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/plot/channel_label.hpp"
+#include "render/plot/ticks.hpp"
+#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series_words.hpp"
+#include "sim/beam/modes.hpp"
+#include "sim/observe/spectrum.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure;
+using render::figure::Panel;
+
+constexpr std::size_t kSlices = 300, kLines = 240;  // a printed column resolves no more
+constexpr double kDecades = 3;                      // of amplitude that colours tell
+
+// Amplitudes by windows and groups of lines; of a group the largest counts.
+struct Spectrogram {
+    double window = 0, hop = 0, first = 0;  // [s]: length, distance, begin of the first
+    double line = 0;                        // height of a group [Hz]
+    std::size_t lines = 0;
+    std::vector<double> amplitude;  // window by window
+    std::size_t windows() const { return amplitude.size() / lines; }
+};
+
+// `rows`: equally spaced. The window's length becomes a power of two of samples.
+Spectrogram spectrogram(const sim::Table& rows, double window, double highest) {
+    const std::vector<double>&t = rows.values.front(), &v = rows.values.back();
+    const double step = t[1] - t[0];
+    std::size_t count = 16;
+    while (count * 2 <= v.size() / 2 && static_cast<double>(count) * step < window / std::numbers::sqrt2) count *= 2;
+    const std::size_t hop = std::max<std::size_t>(1, (v.size() - count) / kSlices);
+    Spectrogram out;
+    out.window = static_cast<double>(count) * step, out.hop = static_cast<double>(hop) * step, out.first = t[0];
+    const auto shown = std::min(count / 2, static_cast<std::size_t>(highest * out.window)) + 1;
+    const std::size_t group = (shown + kLines - 1) / kLines;
+    out.lines = (shown + group - 1) / group, out.line = static_cast<double>(group) / out.window;
+    for (std::size_t from = 0; from + count <= v.size(); from += hop) {
+        const auto begin = v.begin() + static_cast<std::ptrdiff_t>(from);
+        const sim::Spectrum one = sim::amplitude_spectrum({begin, begin + static_cast<std::ptrdiff_t>(count)}, step);
+        for (std::size_t k = 0; k < out.lines; ++k)
+            out.amplitude.push_back(*std::max_element(
+                one.amplitude.begin() + static_cast<std::ptrdiff_t>(k * group),
+                one.amplitude.begin() + static_cast<std::ptrdiff_t>(std::min((k + 1) * group, shown))));
+    }
+    return out;
+}
+
+// Without the frequencies above which nothing is shown.
+void shorten(Spectrogram& s, double least) {
+    std::size_t shown = 4;
+    for (std::size_t i = 0; i < s.amplitude.size(); ++i)
+        if (s.amplitude[i] >= least) shown = std::max(shown, i % s.lines + 2);
+    shown = std::min(shown, s.lines);
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < s.amplitude.size(); ++i)
+        if (i % s.lines < shown) kept.push_back(s.amplitude[i]);
+    s.amplitude = std::move(kept), s.lines = shown;
+}
+
+// A twentieth of the stretch, but four periods of the slowest vibration where that leaves four windows.
+double usual_window(const sim::Problem& problem, double length) {
+    double slowest = 0;  // period [s]
+    for (const sim::Mode& mode : sim::natural_modes(problem))
+        if (mode.omega > 0 && std::isfinite(mode.omega)) slowest = std::max(slowest, 2 * std::numbers::pi / mode.omega);
+    return std::min(std::max(length / 20, 4 * slowest), length / 4);
+}
+
+render::figure::Cells cells_of(const Spectrogram& s, double most, double factor) {
+    render::figure::Cells cells;
+    for (std::size_t i = 0; i <= s.windows(); ++i)
+        cells.x.push_back(s.first + s.window / 2 + (static_cast<double>(i) - 0.5) * s.hop);
+    for (std::size_t k = 0; k <= s.lines; ++k)
+        cells.y.push_back(std::max(0.0, static_cast<double>(k) * s.line - 0.5 / s.window));
+    for (std::size_t k = 0; k < s.lines; ++k)
+        for (std::size_t i = 0; i < s.windows(); ++i) {
+            const double amplitude = s.amplitude[i * s.lines + k];
+            const double share = amplitude > 0 ? 1 + std::log10(amplitude / most) / kDecades : -1;
+            cells.colors.push_back(share < 0 ? render::Color{}.faded(0) : render::figure::map_color(share));
+            cells.values.push_back(amplitude * factor);
+        }
+    return cells;
+}
+
+std::string spectrogram_words(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
+    return filled(
+        lang == Lang::en
+            ? "{}: amplitude by frequency and time, a Hann window of {} s each {} s ({} samples a second), resolution "
+              "{} "
+              "Hz; what is a thousand times less than the largest is left white. "
+            : "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
+        series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
+        number(rate, 4), number(1.5 / s.window, 2));
+}
+
+FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const SeriesKeys& keys = how.series;
+    const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
+    sim::Channel channel{rigid ? sim::ChannelKind::theta_dot : sim::ChannelKind::tip_deflection, 0};
+    if (!keys.panels.empty() && !keys.panels.front().channels.empty()) channel = keys.panels.front().channels.front();
+    const double from = keys.from, to = keys.to.value_or(scene.end_time);
+    const double window = keys.window.value_or(usual_window(scene.problem, to - from));
+    if (!(window <= (to - from) / 2))
+        throw render::PictureError(fmt::format(
+            "figure spectrogram: windows of {:g} s do not move along {:g} s; at most half of it", window, to - from));
+    const std::size_t study = studies.of(scene.problem, to, "spectrogram");
+    std::vector<sim::TableRequest>& tables = studies.request(study).tables;
+    const std::size_t table = tables.size();
+    tables.push_back({spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
+    return [=, problem = scene.problem, lang = how.lang, highest = keys.highest](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Table& rows = results[study]->tables[table];
+        const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
+        Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
+        const double most = *std::ranges::max_element(s.amplitude);
+        if (!(most > 0))
+            throw render::PictureError(
+                fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s", name(channel), from, to));
+        if (!highest) shorten(s, most * std::pow(10, -kDecades));
+        const std::string unit = sim::unit(channel, problem);
+        const bool prefixed = unit == "m" || unit == "N" || unit == "J";
+        const render::Prefix prefix = render::prefix_for(prefixed ? most : 1);
+        Panel panel;
+        panel.legend = render::figure::Legend::none;
+        panel.x.label = "$t$ / s";
+        panel.x.from = from, panel.x.to = to;
+        panel.y.label = "$f$ / Hz";
+        panel.y.tight = true;
+        panel.color_bar = render::figure::ColorBar{
+            .label = axis_label(fmt::format("|{}|", render::print_symbol(channel)), prefix.symbol + unit),
+            .scale = render::figure::Scale::logarithmic,
+            .from = most / prefix.factor * std::pow(10, -kDecades),
+            .to = most / prefix.factor};
+        panel.cells.push_back(cells_of(s, most, 1 / prefix.factor));
+        panel.name = name(channel);
+        Figure figure;
+        figure.name = "spectrogram";
+        figure.title = en ? "Amplitudes by frequency and time" : "时频谱";
+        figure.panels.push_back(std::move(panel));
+        figure.caption = spectrogram_words(channel, s, rate, lang);
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
+        return figure;
+    };
+}
+
+}  // namespace
+
+const Recipe kSpectrogram{"spectrogram",          {"Amplitudes by frequency and time", "时频谱"}, no_refusal,
+                          prepare_spectrogram,
+                          /*takes_stretch=*/true,
+                          /*takes_channel=*/true};
+
+}  // namespace beamcam::scenes
