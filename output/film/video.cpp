@@ -74,6 +74,19 @@ void add_encoder(Recipe& r, const VideoOptions& o) {
                  {},
                  {}};
             return;
+        case Codec::hevc:
+            // One frame at a time: else the film depends on the number of processors.
+            r = {r.container,
+                 {"libx265"},
+                 o.transparent ? "yuva420p" : "yuv420p",
+                 o.transparent ? PixelLayout::yuva420 : PixelLayout::yuv420,
+                 {{"preset", "fast"},
+                  {"crf", crf},
+                  {"x265-params",
+                   std::string("log-level=none:frame-threads=1") + (o.variable_rate ? ":bframes=0" : "")}},
+                 {},
+                 {}};
+            return;
         case Codec::vp9:
             // Columns of tiles may run on several threads; the picture does not depend on how many do.
             r = {r.container,
@@ -154,6 +167,10 @@ Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
     r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
     for (const std::string& encoder : r.encoders) r.missing += (encoder == r.encoders.front() ? "" : " or ") + encoder;
     r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
+    if (o.codec == Codec::hevc && o.transparent)
+        r.missing =
+            "the FFmpeg libraries on this machine encode no transparent HEVC (libx265 of FFmpeg 7.1 with x265 4 does); "
+            "name a .mov (prores), .webm (vp9), .mkv (ffv1), .apng or .webp file";
     // faststart: the index stands first, so that players begin before they have the whole file.
     // use_metadata_tags: keys of our own are kept.
     if (ending == ".mp4" || ending == ".mov")

@@ -15,6 +15,7 @@ struct CodecRow {
     int usual, worst;  // of crf; worst 0: none
 };
 constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", false, true, 18, 51},
+                              CodecRow{Codec::hevc, "hevc", "HEVC", true, true, 20, 51},
                               CodecRow{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
                               CodecRow{Codec::av1, "av1", "AV1", false, true, 26, 63},
                               CodecRow{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
@@ -29,9 +30,9 @@ struct Home {
     std::string_view ending;
     std::array<std::optional<Codec>, 4> codecs;  // the usual one first
 };
-constexpr std::array kHomes{Home{".mp4", {Codec::h264, Codec::av1}},
+constexpr std::array kHomes{Home{".mp4", {Codec::h264, Codec::av1, Codec::hevc}},
                             Home{".webm", {Codec::vp9, Codec::av1}},
-                            Home{".mov", {Codec::prores, Codec::h264}},
+                            Home{".mov", {Codec::prores, Codec::h264, Codec::hevc}},
                             Home{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9, Codec::av1}},
                             Home{".gif", {Codec::gif}},
                             Home{".apng", {Codec::apng}},

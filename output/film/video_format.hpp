@@ -1,8 +1,9 @@
 // The kinds of moving picture: which codec goes into which file, and what each can show.
 //
-//   .mp4   h264, av1        talks, the web; no transparency, even sides
+//   .mp4   h264, av1, hevc  talks, the web; no transparency but hevc's, even sides
 //   .webm  vp9, av1         the web; vp9 also with transparency; even sides
-//   .mov   prores, h264     editing; prores (4444) keeps full colour and transparency
+//   .mov   prores, h264, hevc   editing; prores (4444) keeps full colour and transparency; hevc for Apple's players,
+//                               transparent where FFmpeg's libx265 can be (7.1 with x265 4)
 //   .mkv   ffv1, h264, vp9, av1   ffv1: every bit of every pixel, for archives
 //   .gif   gif              256 colours, at most 50 frames a second
 //   .apng  apng             every pixel, with transparency; large
@@ -16,7 +17,7 @@
 
 namespace beamcam::output {
 
-enum class Codec { h264, vp9, av1, prores, ffv1, gif, apng, webp };
+enum class Codec { h264, hevc, vp9, av1, prores, ffv1, gif, apng, webp };
 const char* name(Codec codec);   // "h264"
 const char* title(Codec codec);  // "H.264"
 std::optional<Codec> codec_named(std::string_view name);

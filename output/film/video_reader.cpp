@@ -32,6 +32,7 @@ VideoAbilities video_abilities() {
     VideoAbilities found{library.versions(), {}};
     const std::pair<const char*, std::vector<const char*>> wanted[] = {
         {"H.264 (libx264)", {"libx264"}},
+        {"HEVC (libx265)", {"libx265"}},
         {"VP9 (libvpx)", {"libvpx-vp9"}},
         {"AV1 (libsvtav1, libaom)", {"libsvtav1", "libaom-av1"}},
         {"ProRes", {"prores_ks"}},

@@ -251,6 +251,7 @@ bool Film::yields() const {
         flexible = flexible || facts.motion(m).problem.beam.model != sim::ModelKind::rigid;
     return flexible && facts.factor < facts.setup->view.exaggeration.value_or(1);
 }
+int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
 
 std::vector<int> Film::Prepared::stages(int frame) const {

@@ -187,7 +187,8 @@ class Film {
     void draw(int frame, Image& out);   // a copy; `out` is resized as needed
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
-    bool yields() const;  // less than wanted, since the beam would enter the cam
+    bool yields() const;       // less than wanted, since the beam would enter the cam
+    int empty_frames() const;  // in which the camera of the first mechanism sees no part of it
     const DrawingCounts& counts() const;
 
   private:

@@ -74,7 +74,12 @@ OccupancyGrid MechanismPanel::still_room() {
             face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
         take_beam(room, face, back);
     }
-    place_speed(room);
+    OccupancyGrid before_speed = room;
+    for (const sim::Problem* p : sight.problems)  // a ghost's disc that stands elsewhere
+        if (at_.ghosts && p->cam && at_.problem().cam && !(p->cam->centre == at_.problem().cam->centre))
+            before_speed.cover_disc(at_.px(p->cam->centre),
+                                    (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale);
+    place_speed(before_speed);
     for (const sim::Problem* p : sight.problems) {
         const Vec2 o = at_.px({0, 0});
         const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
@@ -235,6 +240,31 @@ void MechanismPanel::find_shots() {
     const Shot& first = setup.view.shot;
     if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
     shots_ = sightings(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
+}
+
+// The solid view is judged as if it were seen from the front.
+int MechanismPanel::empty_frames() const {
+    int count = 0;
+    for (int k = 0; !shots_.empty() && k < at_.facts.frames(); ++k) {
+        const Camera& camera = shots_[static_cast<std::size_t>(k)].camera;
+        const auto sees = [&](const Bounds& part) {  // a part of the mechanism [m]
+            const Vec2 corner = camera.to_pixels({part.x0, part.y1});
+            return at_.box.overlaps(
+                {corner.x, corner.y, (part.x1 - part.x0) * camera.scale, (part.y1 - part.y0) * camera.scale});
+        };
+        const DrawnBeam drawn = beam(k);
+        bool seen = false;
+        for (std::size_t i = 1; i < drawn.line.size() && !seen; ++i) {
+            Bounds piece;
+            for (const Vec2 p : {drawn.face(i - 1), drawn.back(i - 1), drawn.face(i), drawn.back(i)}) piece.add(p);
+            seen = sees(piece);
+        }
+        Bounds hub, disc;
+        hub.add({0, 0}, hub_radius(at_.problem(), at_.look.camera, at_.unit) / at_.look.camera.scale);
+        if (at_.problem().cam) disc.add(at_.facts.pose(at_.member, k).disc_centre, at_.problem().cam->radius);
+        if (!seen && !sees(hub) && !(at_.problem().cam && sees(disc))) ++count;
+    }
+    return count;
 }
 
 // ---- the ground ------------------------------------------------------------------------------

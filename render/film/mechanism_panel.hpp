@@ -27,6 +27,7 @@ class MechanismPanel final : public Panel {
     const Camera& camera(int frame) const {
         return shots_.empty() ? at_.look.camera : shots_[static_cast<std::size_t>(frame)].camera;
     }
+    int empty_frames() const;  // in which the camera sees no part of the mechanism
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:

@@ -73,7 +73,7 @@ void apply_format(const RenderArguments& args, VideoOutput& film) {
         const auto codec = output::codec_named(*args.codec);
         if (!codec)
             throw UsageError(
-                fmt::format("--codec {}: choose h264, vp9, av1, prores, ffv1, gif, apng or webp", *args.codec));
+                fmt::format("--codec {}: choose h264, hevc, vp9, av1, prores, ffv1, gif, apng or webp", *args.codec));
         encoding.codec = *codec;
     } else if (ending_of(film.file) != ending) {
         encoding.codec = *usual;
@@ -304,7 +304,7 @@ void add_render(Grammar& grammar) {
     app.option("--speed", &args->speed, "S", "Of time, 1 is real; or impacts: slow motion around them");
     app.option("--duration", &args->duration, "T", "How long the film is to last, in place of --speed");
     app.option("--codec", &args->codec, "CODEC",
-               "h264, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
+               "h264, hevc, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
     app.option("--background", &args->background, "WHAT", "paper, transparent, or a colour such as #f4f1ea");
     app.option("--show", &args->show, "PRESET", "What stands around the panels: all, talk, paper or clean")
         .one_of({"all", "talk", "paper", "clean"});

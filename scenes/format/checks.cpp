@@ -80,13 +80,9 @@ void take_written_units(ObjectReader& r, render::Units& units) {
     units.rpm = ends_in("cam", "speed", {"rpm"});
 }
 
-namespace {
-
-bool needs_cam(const render::Anchor& anchor) {
+static bool needs_cam(const render::Anchor& anchor) {
     return anchor.kind == render::Anchor::Kind::contact || anchor.kind == render::Anchor::Kind::cam;
 }
-
-}  // namespace
 
 void judge_camera(ObjectReader& r, const View& view) {
     for (const char* key : {"yaw", "pitch", "swing"})
@@ -94,15 +90,14 @@ void judge_camera(ObjectReader& r, const View& view) {
             r.findings().warning(
                 r.place(key).place,
                 fmt::format("{} turns the solid view alone; \"style\": \"solid\" shows that", r.path(key)));
-    const auto judge = [&](const render::Anchor& follow, const std::string& key, const Node& place) {
+    const auto judge = [&](const render::Anchor& follow, const std::string& key) {
         if (needs_cam(follow) && !r.context().scene.problem.cam)
-            r.fail(place, key,
+            r.fail(r.place(key), key,
                    fmt::format("{}: there is no cam to follow; follow the tip, the hub or a place", r.path(key)));
     };
-    judge(view.shot.follow, "follow", r.place("follow"));
+    judge(view.shot.follow, "follow");
     for (std::size_t i = 0; i < view.keyframes.size(); ++i)
-        if (view.keyframes[i].follow)
-            judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i), r.place("keyframes"));
+        if (view.keyframes[i].follow) judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
 }
 
 void judge_view(ObjectReader& r, const View& view) {
@@ -157,36 +152,71 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     return {};
 }
 
-void judge_span(ObjectReader& r, const FrameSpan& span, const View& view) {
+void judge_speed(ObjectReader& r, const Speed& speed) {
+    if (r.findings().failed(r.what())) return;
+    for (std::size_t i = 1; i < speed.intervals.size(); ++i) {
+        const Instant &before = speed.intervals[i - 1].to, &from = speed.intervals[i].from;
+        const std::string key = fmt::format("intervals.{}.from", i);
+        if (before.kind == Instant::Kind::time && from.kind == Instant::Kind::time && from.t < before.t)
+            r.fail(r.place(key), key,
+                   fmt::format("{} = {:g} s is before the end of the interval before it, {:g} s; list the intervals in "
+                               "their order, without overlap",
+                               r.path(key), from.t, before.t));
+    }
+    for (std::size_t i = 0; speed.around && i < speed.around->collisions.size(); ++i)
+        if (const double number = speed.around->collisions[i]; number != std::round(number)) {
+            const std::string key = fmt::format("collisions.{}", i);
+            r.fail(r.place(key), key, fmt::format("{} = {:g} must be a whole number", r.path(key), number));
+        }
+}
+
+namespace {
+
+// Instants that a film does not reach are warnings, so that films can be shortened.
+void judge_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
+    const auto judge = [&](const std::string& key, const Instant& at, const char* consequence) {
+        if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
+            r.findings().warning(r.place(key).place,
+                                 fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: {}",
+                                             r.path(key), at.t, span.from, end, consequence));
+    };
+    const auto readable = [&](const char* key) { return !r.findings().failed(r.path(key)); };
+    for (std::size_t i = 0; i < span.events.size() && readable("events"); ++i)
+        judge(fmt::format("events.{}.at", i), span.events[i].at, "it is not shown");
+    for (std::size_t i = 0; i < span.speed.intervals.size() && readable("speed"); ++i) {
+        const SpeedInterval& each = span.speed.intervals[i];
+        judge(fmt::format("speed.intervals.{}.from", i), each.from, "the interval is cut there");
+        judge(fmt::format("speed.intervals.{}.to", i), each.to, "the interval is cut there");
+    }
+    for (std::size_t i = 0; i < view.keyframes.size() && readable("view"); ++i) {
+        const Instant& at = view.keyframes[i].at;
+        const std::string key = fmt::format("view.camera.keyframes.{}.at", i);
+        judge(key, at, "the camera is not seen to arrive");
+        if (i == 0 || at.kind != Instant::Kind::time) continue;
+        const Instant& before = view.keyframes[i - 1].at;
+        if (before.kind == Instant::Kind::time && at.t <= before.t)
+            r.findings().warning(r.place(key).place,
+                                 fmt::format("{} = {:g} s is not after the keyframe before it, {:g} s: keyframes are "
+                                             "taken in the order of time",
+                                             r.path(key), at.t, before.t));
+    }
+}
+
+}  // namespace
+
+void judge_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
     const Findings& findings = r.findings();
     if (findings.failed(r.path("from")) || findings.failed(r.path("to")) || findings.failed("time")) return;
-    const double end = span.to.value_or(r.context().scene.end_time);
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
         return r.fail(*r.node(), "to", fmt::format("{}: {}", r.what(), problem));
-    // A warning, so that films can be shortened.
-    const auto judge = [&](const char* list, const std::string& key, const Instant& at) {
-        if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
-            r.findings().warning(
-                r.place(list).place,
-                fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: it is not shown", r.path(key),
-                            at.t, span.from, end));
-    };
-    if (!findings.failed(r.path("events")))
-        for (std::size_t i = 0; i < span.events.size(); ++i) {
-            judge("events", fmt::format("events.{}.at", i), span.events[i].at);
-            if (span.events[i].anchor && needs_cam(*span.events[i].anchor) && !r.context().scene.problem.cam)
-                r.fail(r.place("events"), fmt::format("events.{}.anchor", i),
-                       fmt::format("{}: there is no cam; anchor the words to the tip, the hub or a place",
-                                   r.path(fmt::format("events.{}.anchor", i))));
+    judge_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
+    const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
+    for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
+        if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
+            const std::string key = fmt::format("events.{}.anchor", i);
+            r.fail(r.place(key), key,
+                   fmt::format("{}: there is no cam; anchor the words to the tip, the hub or a place", r.path(key)));
         }
-    if (!findings.failed(r.path("speed")))
-        for (std::size_t i = 0; i < span.speed.intervals.size(); ++i) {
-            judge("speed", fmt::format("speed.intervals.{}.from", i), span.speed.intervals[i].from);
-            judge("speed", fmt::format("speed.intervals.{}.to", i), span.speed.intervals[i].to);
-        }
-    if (!findings.failed(r.path("view")))
-        for (std::size_t i = 0; i < view.keyframes.size(); ++i)
-            judge("view", fmt::format("view.camera.keyframes.{}.at", i), view.keyframes[i].at);
 }
 
 void take_usual_codec(ObjectReader& r, VideoOutput& video) {
@@ -227,7 +257,7 @@ void judge_video(ObjectReader& r, VideoOutput& video) {
     if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
     if (!video.encoding.crf)
         if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
-    judge_span(r, video.span, video.view);
+    judge_span(r, video.span, video);
     judge_format(r, video);
 }
 

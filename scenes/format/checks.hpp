@@ -27,7 +27,8 @@ void judge_view(ObjectReader& r, const View& view);    // `r`: of the view
 void judge_picture(ObjectReader& r, Picture& picture);
 bool is_of_contact(sim::ChannelKind kind);  // without a cam it has no values
 void judge_layout(ObjectReader& r, const Picture& picture);
-void judge_span(ObjectReader& r, const FrameSpan& span, const View& view);
+void judge_speed(ObjectReader& r, const Speed& speed);  // `r`: of the speed
+void judge_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
 void take_usual_codec(ObjectReader& r, VideoOutput& video);
 void judge_video(ObjectReader& r, VideoOutput& video);
 void judge_figure(ObjectReader& r, FigureOutput& figure);

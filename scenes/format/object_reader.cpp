@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/files/numbers.hpp"
 #include "scenes/format/capabilities.hpp"
 #include "scenes/format/suggest.hpp"
 
@@ -63,8 +64,19 @@ std::string ObjectReader::path(std::string_view key) const {
 }
 
 const Node& ObjectReader::place(std::string_view key) const {
-    const Member* member = object_->find(key);
-    return member ? member->value : *object_;
+    const Node* node = object_;
+    while (!key.empty()) {
+        const std::string_view step = key.substr(0, key.find('.'));
+        key.remove_prefix(std::min(step.size() + 1, key.size()));
+        if (const Member* member = node->find(step))
+            node = &member->value;
+        else if (const auto index = output::number_in<std::size_t>(step);
+                 node->kind == Node::Kind::array && index && *index < node->items.size())
+            node = &node->items[*index];
+        else
+            break;
+    }
+    return *node;
 }
 
 ObjectReader ObjectReader::inside(const Node& node, std::string_view key) const {

@@ -67,7 +67,7 @@ class ObjectReader final : public SceneVisitor {
     const SceneContext& context() const { return *context_; }
     Findings& findings() { return findings_; }
     bool has(std::string_view key) const { return object_ && object_->find(key); }
-    // The key's value, or the object where there is none.
+    // The value of a key, or of one inside it, "events.0.at"; where there is none, the object nearest to it.
     const Node& place(std::string_view key) const;
     ObjectReader inside(const Node& node, std::string_view key) const;
 

@@ -71,7 +71,9 @@ static void visit(SceneVisitor& v, View& view) {
         "Motion blur: the shutter is open for this angle of a turn, which is the time from frame to frame; 180 deg is "
         "a camera's.");
     v.number("strobe", view.strobe_every, dim::kTime, kPositive,
-             "Multiple exposure: the beam is also seen where it was at the multiples of this time of the motion.");
+             "Multiple exposure: the beam is also seen where it was at the multiples of this time of the motion; cam "
+             "and hub "
+             "stand as they are at the frame's own instant.");
     v.exclude("shutter", "strobe");
     v.whole(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
             "How many exact instants the shutter sees, or how many of the latest flashes are shown.");
@@ -174,6 +176,7 @@ static void visit(SceneVisitor& v, Speed& speed) {
     };
     v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", !by_intervals, fields},
                     {{{"around", "intervals"}}, "Speeds of intervals of time.", by_intervals, intervals}});
+    v.check([&speed](ObjectReader& r) { judge_speed(r, speed); });
 }
 
 static void visit(SceneVisitor& v, FilmEvent& event) {
@@ -219,8 +222,8 @@ void VideoOutput::visit(SceneVisitor& v) {
     using output::Codec;
     static const std::vector<Named<Codec>> kCodecs = [] {
         std::vector<Named<Codec>> all;
-        for (const Codec codec :
-             {Codec::h264, Codec::vp9, Codec::av1, Codec::prores, Codec::ffv1, Codec::gif, Codec::apng, Codec::webp})
+        for (const Codec codec : {Codec::h264, Codec::hevc, Codec::vp9, Codec::av1, Codec::prores, Codec::ffv1,
+                                  Codec::gif, Codec::apng, Codec::webp})
             all.push_back({codec, output::name(codec)});
         return all;
     }();
@@ -237,11 +240,14 @@ void VideoOutput::visit(SceneVisitor& v) {
              {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
              "A file beside the film that tells of its impacts and captions: fall.vtt beside fall.mp4.");
     v.truth(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
-    v.choice(sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
-             "Codec; by the ending when left out: .mp4 h264 (or av1), .webm vp9 (av1), .mov prores (h264), .mkv ffv1 "
-             "(h264, vp9, av1).");
+    v.choice(
+        sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
+        "Codec; by the ending when left out: .mp4 h264 (or av1, hevc), .webm vp9 (av1), .mov prores (h264, hevc), .mkv "
+        "ffv1 "
+        "(h264, vp9, av1).");
     v.whole("crf", encoding.crf, 0, 63,
-            "Quality of h264 (to 51), vp9 and av1: 0 is best; 18, 24 and 26 look lossless and are the defaults.");
+            "Quality of h264 and hevc (to 51), vp9 and av1: 0 is best; 18, 20, 24 and 26 look lossless and are the "
+            "defaults.");
     v.choice(written_if(encoding.codec == Codec::h264, "preset"), encoding.preset,
              {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
              "x264's trade of time for size; of h264 alone.");
@@ -260,7 +266,7 @@ void FramesOutput::visit(SceneVisitor& v) {
     visit_span(v, span);
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, "-####.png");
-        judge_span(r, span, view);
+        judge_span(r, span, *this);
     });
 }
 
@@ -286,7 +292,7 @@ void PageOutput::visit(SceneVisitor& v) {
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".html");
-        judge_span(r, span, view);
+        judge_span(r, span, *this);
     });
 }
 
@@ -299,7 +305,7 @@ void ModelOutput::visit(SceneVisitor& v) {
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".glb");
-        judge_span(r, span, view);
+        judge_span(r, span, *this);
     });
 }
 

@@ -136,7 +136,9 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
     }
     if (span.speed.around)
         for (const double number : span.speed.around->collisions)
-            if (std::ranges::none_of(slowed, [&](const sim::Impact& i) { return i.collision + 1 == number; }))
+            if (std::ranges::none_of(slowed, [&](const sim::Impact& i) {
+                    return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
+                }))
                 out.unshown.push_back(fmt::format("the slow motion of collision {:g}", number));
     map.freeze(to, span.hold);
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);

@@ -35,9 +35,25 @@ struct OwnedFrame : FramePlanes {
     }
 };
 
+// Which pictures libx265 takes depends on how it was built.
+bool takes(const AVCodec& codec, AVPixelFormat wanted) {
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)
+    const void* found = nullptr;
+    if (avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_PIX_FORMAT, 0, &found, nullptr) < 0) return true;
+    const auto* format = static_cast<const AVPixelFormat*>(found);
+#else
+    const AVPixelFormat* format = codec.pix_fmts;
+#endif
+    if (format == nullptr) return true;  // FFmpeg does not know
+    while (*format != AV_PIX_FMT_NONE && *format != wanted) ++format;
+    return *format == wanted;
+}
+
 const AVCodec& first_encoder(const EncoderSettings& s) {
     for (const std::string& name : s.encoders)
-        if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str())) return *codec;
+        if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str());
+            codec != nullptr && takes(*codec, av_get_pix_fmt(s.pixel_format.c_str())))
+            return *codec;
     throw MissingCodec(s.missing);
 }
 
@@ -114,6 +130,7 @@ class FfmpegEncoder : public Encoder {
         codec_->framerate = {settings_.rate, settings_.rate_base};
         codec_->sample_aspect_ratio = {1, 1};
         codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format.c_str());
+        if (encoder_.id == AV_CODEC_ID_HEVC) codec_->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple's players ask it
         if (!is_yuv(codec_->pix_fmt)) return;
         codec_->color_primaries = AVCOL_PRI_BT709;
         codec_->color_trc = AVCOL_TRC_BT709;

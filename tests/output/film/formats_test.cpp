@@ -105,12 +105,27 @@ INSTANTIATE_TEST_SUITE_P(
     All, Formats,
     testing::Values(
         FormatCase{".mp4", Codec::h264, false, "h264", 3}, FormatCase{".mp4", Codec::av1, false, "av1", 4},
+        FormatCase{".mp4", Codec::hevc, false, "hevc", 3}, FormatCase{".mov", Codec::hevc, false, "hevc", 3},
         FormatCase{".webm", Codec::vp9, false, "vp9", 3}, FormatCase{".webm", Codec::vp9, true, "vp9", 3},
         FormatCase{".webm", Codec::av1, false, "av1", 4}, FormatCase{".mov", Codec::prores, false, "prores", 3},
         FormatCase{".mov", Codec::prores, true, "prores", 3}, FormatCase{".mkv", Codec::ffv1, false, "ffv1", 0},
         FormatCase{".mkv", Codec::ffv1, true, "ffv1", 0}, FormatCase{".gif", Codec::gif, false, "gif", 0},
         FormatCase{".apng", Codec::apng, false, "apng", 0}, FormatCase{".apng", Codec::apng, true, "apng", 0},
         FormatCase{".webp", Codec::webp, false, "webp", 0}, FormatCase{".webp", Codec::webp, true, "webp", 0}));
+
+// Which FFmpeg has an encoder of it depends on the machine; where none has, the message names other files.
+TEST(Formats, TransparentHevcIsMadeOrRefusedWithAnotherFile) {
+    Scratch scratch;
+    const FormatCase kind{".mov", Codec::hevc, true, "hevc", 3};
+    try {
+        VideoWriter film(scratch / "a.mov", options_of(kind, 96, 64));
+        film.write(halves(kind, 96, 64));
+        film.finish();
+        EXPECT_TRUE(std::filesystem::exists(scratch / "a.mov"));
+    } catch (const MissingCodec& error) {
+        EXPECT_NE(std::string(error.what()).find(".mov (prores)"), std::string::npos);
+    }
+}
 
 TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {
     EXPECT_NE(format_problem(".mp4", Codec::h264, true).find(".webm (vp9)"), std::string::npos);

@@ -374,6 +374,12 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
     EXPECT_GT(opaque, 10000U);
 }
 
+TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
+    const Color ink = palette(Theme::light).without_paper().ink;
+    for (const Theme ground : {Theme::light, Theme::dark}) EXPECT_GT(contrast(ink, palette(ground).paper), 4);
+    EXPECT_EQ(palette(Theme::dark).without_paper().ink.g, palette(Theme::dark).ink.g);
+}
+
 // Paper around letters would be a patch on whatever the picture is laid upon.
 TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
     const auto of_paper = [](bool transparent) {

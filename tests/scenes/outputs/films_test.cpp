@@ -494,6 +494,38 @@ TEST(Films, TellOfCollisionsThatDoNotCome) {
 
 // ---- what can come to nothing ----------------------------------------------------------------
 
+TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
+    const auto told = [](const std::string& keys) {
+        const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "video", )" + keys + "}]}");
+        return std::pair{reading.scene.has_value(), reading.report()};
+    };
+    const auto late = told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 2}]})");
+    EXPECT_TRUE(late.first);
+    EXPECT_THAT(late.second, HasSubstr("outputs.0.speed.intervals.0.to = 2 s is no instant of a film from 0 s to 1 s"));
+    const auto mixed =
+        told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 0.7}, {"from": 0.1, "to": 0.2}]})");
+    EXPECT_FALSE(mixed.first);
+    EXPECT_THAT(mixed.second, HasSubstr("outputs.0.speed.intervals.1.from = 0.1 s is before the end of the interval"));
+    EXPECT_TRUE(
+        told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 0.7}, {"from": 0.7, "to": 0.8}]})")
+            .second.empty());
+    EXPECT_THAT(told(R"("speed": {"around": "impacts", "collisions": [1.5]})").second,
+                HasSubstr("outputs.0.speed.collisions.0 = 1.5 must be a whole number"));
+    const auto keyframes = told(R"("view": {"camera": {"keyframes": [{"at": 3}, {"at": 0.2}, {"at": "impact:1"}]}})");
+    EXPECT_TRUE(keyframes.first);
+    EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.0.at = 3 s is no instant of a film"));
+    EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the keyframe before it"));
+}
+
+TEST(Films, TellOfCamerasThatLookPast) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96], "fps": 20,
+        "view": {"style": "flat", "camera": {"follow": [50, 50], "keyframes": [{"at": 0.2, "follow": "tip", "over": 0}]}}}]})");
+    const std::string told = shell(folder, "$BEAMCAM run s.json").err;
+    EXPECT_THAT(told, HasSubstr("shows nothing of the mechanism in 4 of"));
+}
+
 TEST(Films, TellOfWhatTheyWillNotShow) {
     const auto told = [](const std::string& output, const std::string& physics = {}) {
         const Reading reading = testing::read("{" + physics + "\"time\": {\"end\": 1}, \"outputs\": [" + output + "]}");
@@ -512,7 +544,7 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     const auto nowhere =
         told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
     EXPECT_FALSE(nowhere.first);
-    EXPECT_THAT(nowhere.second, HasSubstr("outputs.0.events.0.anchor: there is no cam"));
+    EXPECT_THAT(nowhere.second, HasSubstr("scene.json:1:111: outputs.0.events.0.anchor: there is no cam"));
     const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
     EXPECT_TRUE(alone.first);
     EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
