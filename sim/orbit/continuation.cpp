@@ -21,8 +21,10 @@ constexpr double kArcDifference =
     1e-6;                              // of the range: the derivative by the parameter, which only steers the corrector
 constexpr double kSmallestArc = 1e-9;  // of the range: what stops the branch is located so far
 constexpr double kArcShrink = 0.3, kArcGrowth = 1.4,
-                 kLeastCosine = 0.98;  // of a step; cosine between neighbouring tangents
-constexpr double kFirstArc = 0.1;      // of the longest
+                 kLeastCosine = 0.98;     // of a step; cosine between neighbouring tangents
+constexpr double kRealMultiplier = 1e-9;  // of the imaginary part: rounding
+constexpr double kOnCircle = 1e-7;        // of |μ| − 1: rounding, as of pairs that never leave the circle
+constexpr double kFirstArc = 0.1;         // of the longest
 
 // A corrected point of the branch: the orbit's state and the parameter's share of the range; the arc's direction there.
 struct ArcPoint {
@@ -117,13 +119,16 @@ Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
 double fold_test(const ArcPoint& p) { return p.tangent[p.tangent.size() - 1]; }
 double doubling_test(const ArcPoint& p) { return plus_identity(p, 1).determinant(); }
 double branching_test(const ArcPoint& p) { return plus_identity(p, -1).determinant() * (fold_test(p) > 0 ? 1 : -1); }
-// Of the complex pair nearest the unit circle; nothing without one.
-std::optional<double> circle_test(const ArcPoint& p) {
-    std::optional<double> nearest;
+// Of the complex pair nearest the unit circle; nothing without one. Where nothing is lost pairs stay on the circle.
+double circle_test(const ArcPoint& p) {
+    double nearest = std::numeric_limits<double>::quiet_NaN();
     for (const auto& m : p.orbit.multipliers)
-        if (std::fabs(m.imag()) > 1e-9 && (!nearest || std::fabs(std::abs(m) - 1) < std::fabs(*nearest)))
+        if (std::fabs(m.imag()) > kRealMultiplier && !(std::fabs(std::abs(m) - 1) >= std::fabs(nearest)))
             nearest = std::abs(m) - 1;
     return nearest;
+}
+bool crosses_circle(double before, double after) {
+    return before * after < 0 && std::min(std::fabs(before), std::fabs(after)) > kOnCircle;
 }
 
 void Continuation::locate(const ArcPoint& a, double step, OrbitChange change,
@@ -152,12 +157,8 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
     if (folds) locate(a, step, OrbitChange::fold, fold_test, branch);
     if (changes(doubling_test)) locate(a, step, OrbitChange::period_doubling, doubling_test, branch);
     if (!folds && changes(branching_test)) locate(a, step, OrbitChange::branching, branching_test, branch);
-    const auto before = circle_test(a), after = circle_test(b);
-    if (before && after && std::signbit(*before) != std::signbit(*after))
-        locate(
-            a, step, OrbitChange::neimark_sacker,
-            [](const ArcPoint& p) { return circle_test(p).value_or(std::numeric_limits<double>::quiet_NaN()); },
-            branch);
+    if (crosses_circle(circle_test(a), circle_test(b)))
+        locate(a, step, OrbitChange::neimark_sacker, circle_test, branch);
 }
 
 // The pattern of impacts changes within `step`, too short to halve.

@@ -120,6 +120,20 @@ TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
 }
 
 // The period doubling of ever stiffer contact tends to Newton's like K^(−2/5).
+// Without losses the multipliers of a stable orbit stay on the unit circle, which is no crossing of it.
+TEST(Continuation_, ConservativeImpactsHaveNoNeimarkSackerPoint) {
+    PressedBeam b;
+    b.restitution = 1;
+    const auto branches = branches_of([&](double w) { return b.on_orbit(w); }, 38, {32, 41, 0.02, 500, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    EXPECT_GT(branches.front().points.size(), 20u);
+    bool turns = false;  // a complex pair
+    for (const BranchPoint& point : branches.front().points)
+        for (const auto& m : point.orbit.multipliers) turns = turns || std::fabs(m.imag()) > 0.1;
+    EXPECT_TRUE(turns);
+    EXPECT_FALSE(first_of(branches.front(), OrbitChange::neimark_sacker));
+}
+
 TEST(LongContinuation, StiffContactTendsToNewtonsPeriodDoubling) {
     const PressedBeam b;
     const auto doubling = [&](double stiffness) {
