@@ -22,7 +22,7 @@ FOLDERS = {
     "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
     "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
     "output": ["files", "data", "image", "film"],
-    "scenes": ["scene", "figures", "format", "motions", "plan", "outputs", "sweep", "regression", "commands"],
+    "scenes": ["scene", "figures", "format", "motions", "sweep", "plan", "outputs", "regression", "commands"],
 }
 
 # Which headers only some files may see: the pattern, how many .cpp of which room.

@@ -2,6 +2,8 @@
 
 #include "output/data/manifest.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/motions/identity.hpp"
+#include "scenes/scene/version.hpp"
 #include "scenes/sweep/parts.hpp"
 
 namespace beamcam::scenes {
@@ -18,8 +20,10 @@ int act(const CollectArguments& args) {
     if (args.file == "-") throw UsageError("-o -: name a file that ends in .nc, .csv or .npz");
     output::Manifest manifest(args.common.force);
     manifest.require_replaceable(args.file);
-    const CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
-    output::write_sweep(manifest.target(args.file, sweep_origin(all.scene)), all.data);
+    CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
+    all.scene.set_outputs({SweepOutput{args.file}});
+    output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), to_json(all.scene)};
+    output::write_sweep(manifest.target(args.file, std::move(origin)), all.data);
     manifest.save();
     say(args.common, fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
     return 0;

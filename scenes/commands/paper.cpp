@@ -137,7 +137,7 @@ int act(const PaperArguments& args) {
     std::vector<sim::Result> made;
     for (std::size_t i = 0; i < all.size(); ++i) made.push_back(std::move(motions.take(i).front()));
     Results results;
-    for (const sim::Result& result : made) results.push_back(&result);
+    for (const sim::Result& result : made) results.studies.push_back(&result);
 
     std::string captions;
     for (const Job& job : jobs) {

@@ -1,28 +1,18 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <iostream>
-#include <map>
 
-#include "output/data/manifest.hpp"
-#include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
-#include "output/files/sha256.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/sweeps.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/motions/identity.hpp"
-#include "scenes/sweep/diagram.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "scenes/sweep/parts.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
-#include "sim/base/clock.hpp"
 #include "sim/problem/number_keys.hpp"
-#include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -34,8 +24,8 @@ struct SweepArguments {
     std::string scene, file;
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
-    std::optional<std::string> diagram, figure, ordinate, caption;
-    std::string column = "elsevier";
+    std::optional<std::string> diagram, figure, value, caption;
+    std::string column = "elsevier", lang = "en";
     std::optional<std::string> shard, emit;
     int parts = 0;  // 0: kUsualParts
 };
@@ -126,94 +116,22 @@ Scene with_options(Scene scene, const SweepArguments& args) {
     return scene;
 }
 
-// Where the points stand until the files are written: beside the first of these.
-std::filesystem::path store_of(const std::vector<std::string>& files) {
-    if (!files.empty()) return files.front() + ".part";
-    return std::filesystem::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
-}
-
-std::string summary(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part, double seconds) {
-    std::map<int, std::uint64_t> kinds;
-    std::uint64_t failed = 0, count = 0;
-    std::string why;
-    const std::vector<bool> mine = points_of(grid, part);
-    for (std::uint64_t k = 0; k < mine.size(); ++k) {
-        if (!mine[k]) continue;
-        const output::StoredPoint point = store.read(k);
-        ++kinds[point.kind];
-        ++count;
-        if (!point.failure.empty() && failed++ == 0) why = point.failure;
-    }
-    std::string text = fmt::format("{} points in {:.1f} s:", count, seconds);
-    for (const auto& [kind, n] : kinds)
-        text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
-                            name(static_cast<sim::AttractorClass>(kind)));
-    if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
-    return text;
-}
-
-// Throws WouldOverwrite where it is not beamcam's own.
-bool is_made(output::Manifest& manifest, const std::string& file, const std::string& inputs) {
-    manifest.require_replaceable(file);
-    return manifest.is_made_from(file, inputs);
-}
-
-FigureOutput picture(const SweepArguments& args, const std::string& name) {
-    FigureOutput how;
-    how.file = *args.diagram;
-    how.figure = name;
-    how.column = args.column;
-    how.caption_file = args.caption.value_or("");
-    return how;
-}
-
-void write_diagram(const SweepArguments& args, const SweepGrid& grid, const output::SweepData& data,
-                   output::Manifest& manifest, const output::Origin& origin) {
-    const std::string name = args.figure.value_or(diagram_names(grid).front());
-    const render::figure::Figure figure = diagram(name, grid, data, args.ordinate.value_or(usual_ordinate(grid)));
-    for (const auto& [file, bytes] : figure_files(figure, picture(args, name), to_json(grid.scene())))
-        output::write_file(manifest.target(file, origin), bytes);
-}
-
-void make_files(const SweepArguments& args, const SweepGrid& grid, const RunOptions& options) {
-    const SweepPart part = args.shard ? part_argument(*args.shard, std::getenv) : SweepPart();
-    std::vector<std::string> files;
-    if (!args.file.empty() && args.file != "-") files.push_back(part_file(args.file, part));
-    std::vector<std::string> pictures;
-    if (args.diagram) pictures.push_back(*args.diagram);
-    if (args.diagram && args.caption) pictures.push_back(*args.caption);
-    output::Origin origin = sweep_origin(grid.scene());
-    if (!part.whole()) origin.inputs = output::sha256(fmt::format("{}\n{}/{}", origin.inputs, part.part, part.parts));
-    const std::string& inputs = origin.inputs;
-    const std::string drawn = output::sha256(
-        fmt::format("{}\n{}\n{}\n{}", inputs, args.figure.value_or(""), args.ordinate.value_or(""), args.column));
-    output::Manifest manifest(options.force);
-    bool made = files.size() + pictures.size() > 0 && !options.force;
-    for (const std::string& file : files) made = made && is_made(manifest, file, inputs);
-    for (const std::string& file : pictures) made = made && is_made(manifest, file, drawn);
-    if (made) return say(args.common, fmt::format("{} is up to date", (files.empty() ? pictures : files).front()));
-
-    const auto started = Clock::now();
-    output::PointStore store(store_of(files.empty() ? pictures : files), grid.points(), grid.identity());
-    Progress progress(options.progress);
-    if (store.count() > 0) say(args.common, fmt::format("{} points are there already", store.count()));
-    try {
-        make_points(grid, part, options.threads, progress, store);
-    } catch (const sim::Interrupted&) {
-        progress.end();
-        say(args.common, fmt::format("{} points are kept; the same command goes on from there", store.count()));
-        throw;
-    }
-    const output::SweepData data = data_of(grid, store, part);
-    if (files.empty() && pictures.empty()) {
-        output::write_sweep_csv(std::cout, data);
-        output::flush_data();
-    }
-    for (const std::string& file : files) output::write_sweep(manifest.target(file, origin), data);
-    if (args.diagram) write_diagram(args, grid, data, manifest, {drawn, origin.version, origin.scene});
-    manifest.save();
-    say(args.common, summary(grid, store, part, seconds_since(started)));
-    store.remove();
+// The files of the sweep as outputs of its scene.
+std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
+    std::vector<Output> outputs;
+    if (!args.file.empty() || !args.diagram) outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
+    if (!args.diagram) return outputs;
+    FigureOutput diagram;
+    diagram.file = *args.diagram;
+    diagram.figure = args.figure.value_or(usual_diagram(scene));
+    if (const auto why = recipe_named(diagram.figure)->refusal(scene))
+        throw UsageError(fmt::format("--figure {}: {}", diagram.figure, *why));
+    diagram.value = args.value.value_or("");
+    diagram.column = args.column;
+    diagram.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+    diagram.caption_file = args.caption.value_or("");
+    outputs.emplace_back(std::move(diagram));
+    return outputs;
 }
 
 std::string quoted(const std::string& word) {
@@ -254,26 +172,34 @@ void refuse_idle_options(const SweepArguments& args) {
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
     if (args.figure) throw UsageError("--figure belongs to --diagram");
-    if (args.ordinate) throw UsageError("--ordinate belongs to --diagram");
+    if (args.value) throw UsageError("--value belongs to --diagram");
 }
 
 int act(const SweepArguments& args) {
     judge_parts(args);
     refuse_idle_options(args);
     if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
-    if (args.diagram) need_ending("--diagram", *args.diagram, {".pdf", ".svg", ".png"});
+    if (args.diagram) need_ending("--diagram", *args.diagram, kFigureEndings);
     if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
-    const Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
-    const RunOptions options = run_options(args.common, "");
+    Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
+    write_out_tables(scene);
+    scene.set_outputs(outputs_of(args, scene));
+    RunOptions options = run_options(args.common, "");
+    if (args.shard) {
+        const SweepPart part = part_argument(*args.shard, std::getenv);
+        options.ask = {.shard = static_cast<int>(part.part) + 1, .shards = static_cast<int>(part.parts)};
+    }
+    if (!args.emit && !args.common.dry_run) {
+        run(scene, options);
+        return 0;
+    }
     const SweepGrid grid(scene);
     if (args.emit)
         print_text(engine_script(
             *args.emit, command_of(args), args.file,
             static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
-    else if (args.common.dry_run)
-        print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
     else
-        make_files(args, grid, options);
+        print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
     return 0;
 }
 
@@ -295,14 +221,16 @@ void add_sweep(Grammar& grammar) {
                "Starts: same, carry-up, carry-down, both by a comma, or random:N (default: same)");
     app.option("-o,--output", &args->file, "FILE",
                "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
-    app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg or .png");
+    app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg, .eps, .png or .tif");
     app.option("--figure", &args->figure, "NAME",
                "Which: bifurcation, map, basins, poincare or impact-map (default: what suits the keys)")
-        .one_of({"bifurcation", "map", "basins", "poincare", "impact-map"});
-    app.option("--ordinate", &args->ordinate, "COLUMN",
-               "What a bifurcation diagram shows (default: v_n_before, theta)");
+        .one_of(diagram_names());
+    app.option("--value,--ordinate", &args->value, "WHAT",
+               "What it shows. bifurcation: a column of the samples (default: v_n_before, theta); map, basins: class "
+               "(default), exponent, impacts_per_period, or a column, whose mean it shows");
     app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
         .one_of(render::figure::column_names());
+    app.option("--lang", &args->lang, "LANG", "Language of the figure: en or zh").one_of({"en", "zh"});
     app.option("--caption", &args->caption, "FILE", "Write the caption of the figure too, .txt or .tex");
     app.option(
         "--shard", &args->shard, "I/N",

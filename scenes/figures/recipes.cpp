@@ -8,10 +8,10 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{&kSeries,        &kSchematic, &kFreeFall,   &kTipVibration,    &kDeflection,
-                          &kDistance,      &kAngle,     &kSpeeds,     &kCollision,       &kEnergy,
-                          &kContactPlaces, &kPhase,     &kApexModes,  &kModels,          &kKymograph,
-                          &kSpectrogram,   &kStrobe,    &kImpactMaps, &kImpactHistograms};
+const std::array kRecipes{
+    &kSeries,    &kSchematic,  &kFreeFall,         &kTipVibration, &kDeflection, &kDistance, &kAngle,     &kSpeeds,
+    &kCollision, &kEnergy,     &kContactPlaces,    &kPhase,        &kApexModes,  &kModels,   &kKymograph, &kSpectrogram,
+    &kStrobe,    &kImpactMaps, &kImpactHistograms, &kBifurcation,  &kBasins,     &kMap,      &kPoincare,  &kImpactMap};
 
 const std::vector<Recipe>& table() {
     static const std::vector<Recipe> all = [] {

@@ -29,6 +29,8 @@ struct Recipe {
     FigureMaker (*prepare)(const Scene& scene, const FigureOutput& how, Studies& studies);
     bool takes_stretch = false;  // the keys "from" and "to"
     bool takes_channel = false;  // one of "channels", and the keys of its windows
+    bool of_sweep = false;       // it shows the points of the scene's sweep
+    bool takes_value = false;    // the key "value"
 };
 
 std::span<const Recipe> recipes();
@@ -41,7 +43,7 @@ std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
 // The recipes of each file of this folder.
 extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
     kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
-    kImpactHistograms;
+    kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 // ---- what they share ------------------------------------------------------------------------------
 

@@ -1,12 +1,19 @@
 // What figures want of the mechanics: one simulation for each physics, however many figures look at it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/run/simulate.hpp"
 
+namespace beamcam::output {
+struct SweepData;
+}
+
 namespace beamcam::scenes {
+
+struct Scene;
 
 struct Study {
     sim::Problem problem;
@@ -51,8 +58,19 @@ class Studies {
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 
+// The points of a scene's sweep, the values of its tables written out.
+struct Swept {
+    const Scene* scene;
+    const output::SweepData* data;
+};
+
 // By study. A figure reads only what it asked for, and of a study that may fail asks `is_there` first.
-using Results = std::vector<const sim::Result*>;
+struct Results {
+    std::vector<const sim::Result*> studies = {};
+    std::optional<Swept> swept = {};  // for figures of sweeps
+
+    const sim::Result* operator[](std::size_t study) const { return studies[study]; }
+};
 inline bool is_there(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
 
 // A channel of a table; std::logic_error when it was not asked for.

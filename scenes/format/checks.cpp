@@ -308,6 +308,9 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
                    fmt::format("{} = {:g} s is more than half of the {:g} s that it moves along", r.path("window"),
                                *series.window, end - series.from));
     }
+    if (const Recipe* recipe = recipe_named(figure.figure); r.has("value") && recipe && !recipe->takes_value)
+        r.fail(r.place("value"), "value",
+               fmt::format("{} belongs to the figures \"bifurcation\", \"map\" and \"basins\"", r.path("value")));
     for (const char* key : {"window", "highest"})
         if (r.has(key) && figure.figure != "spectrogram")
             r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"spectrogram\"", r.path(key)));
@@ -394,6 +397,12 @@ void judge_table(ObjectReader& r, TrajectoryOutput& table) {
 void judge_shapes(ObjectReader& r, ShapesOutput& shapes) {
     name_after_scene(r, shapes.file, "-shapes.csv");
     refuse_many_rows(r, shapes.rate, shapes.stations);
+}
+
+void judge_sweep(ObjectReader& r, SweepOutput& sweep) {
+    name_after_scene(r, sweep.file, "-sweep.nc");
+    if (!r.context().scene.sweep && !r.findings().any())
+        r.fail(*r.node(), "type", fmt::format("{}: the scene has no \"sweep\", whose points it would hold", r.what()));
 }
 
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {

@@ -35,6 +35,7 @@ void judge_figure(ObjectReader& r, FigureOutput& figure);
 void judge_series_panel(ObjectReader& r, const SeriesPanel& panel);
 void judge_table(ObjectReader& r, TrajectoryOutput& table);
 void judge_shapes(ObjectReader& r, ShapesOutput& shapes);
+void judge_sweep(ObjectReader& r, SweepOutput& sweep);
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
 void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
 

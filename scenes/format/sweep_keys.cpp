@@ -236,21 +236,6 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
     return set_section(text.substr(kSection.size(), equals - kSection.size()), sampling, problem);
 }
 
-std::string text_of_sample(const sim::Sampling& sampling) {
-    switch (sampling.kind) {
-        case SampleKind::impacts:
-            return "impacts";
-        case SampleKind::apexes:
-            return "apexes";
-        case SampleKind::section:
-            return fmt::format("section:cam_angle={}", sampling.level);
-        case SampleKind::crossings:
-            break;
-    }
-    return fmt::format("section:{}={}:{}", name(sampling.channel), sampling.level,
-                       sampling.rising ? "rising" : "falling");
-}
-
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
     constexpr std::string_view kRandom = "random:";
     SweepSeeds read;

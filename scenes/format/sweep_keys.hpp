@@ -15,7 +15,6 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
 // "same", "carry-up,carry-down", "random:8".
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds);
 const char* name(SeedKind kind);
-std::string text_of_sample(const sim::Sampling& sampling);  // as parse_sample reads it
 
 // What is wrong with the sweep of this problem, each with the key it belongs to ("over.0.key").
 struct SweepProblem {

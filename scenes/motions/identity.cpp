@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "output/files/sha256.hpp"
+#include "scenes/figures/recipes.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -76,17 +77,20 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     const Output& wanted = scene.outputs.at(output);
     Scene alone = scene;
     alone.outputs = {wanted};
-    alone.sweep.reset();
+    const auto* figure = std::get_if<FigureOutput>(&wanted);
+    const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
+    const bool of_sweep = std::holds_alternative<SweepOutput>(wanted) || (recipe && recipe->of_sweep);
+    if (!of_sweep) alone.sweep.reset();
     if (is_data(wanted)) alone.title.clear();
     if (!is_picture(wanted)) alone.units = {};
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
-    if (extent != Extent::scene) alone.end_time = extent == Extent::run ? until : 0;
+    if (extent != Extent::scene || of_sweep) alone.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
     const bool shows_data = is_picture(wanted) || std::holds_alternative<FigureOutput>(wanted) ||
                             std::holds_alternative<SummaryOutput>(wanted);
     if (!shows_data) alone.data.clear();
     for (const Measurement& each : alone.data) other += "\n" + each.digest;
-    if (const auto* figure = std::get_if<FigureOutput>(&wanted)) {  // what the scene does not say
+    if (figure) {  // what the scene does not say
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");
     }

@@ -128,6 +128,11 @@ void FigureOutput::visit(SceneVisitor& v) {
            "A file for its caption: plain and as LaTeX, .tex as LaTeX alone; none when left out.");
     v.form("data", file_form(data_file, {".csv"}), "A file for the numbers that it shows; none when left out.");
     visit_series(v, series, figure);
+    const Recipe* recipe = recipe_named(figure);
+    v.text(
+        sim::written_if(recipe && recipe->takes_value, "value"), value,
+        "Of \"bifurcation\": the column of the samples that it shows, \"v_n_before\" or \"theta\" when left out. Of "
+        "\"map\" and \"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean it shows.");
     v.check([this](ObjectReader& r) { judge_figure(r, *this); });
 }
 
@@ -142,6 +147,10 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     };
     FigureFile planned{output, file, figure, {}, make, {}};
     planned.studies = studies.take();
+    if (recipe->of_sweep) {
+        if (planner.ask().shards > 1) return planner.skip(file, "a part has no diagram; collect the parts first");
+        planner.ask_for_sweep(file);
+    }
     planner.add(std::move(planned));
 }
 

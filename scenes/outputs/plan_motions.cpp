@@ -21,7 +21,7 @@ StoredPoses store_poses(sim::Request& request, std::size_t frames, std::size_t s
 
 Results PlanResults::of_figure(std::size_t figure) const {
     Results all;
-    for (const sim::Result& result : figures[figure]) all.push_back(&result);
+    for (const sim::Result& result : figures[figure]) all.studies.push_back(&result);
     return all;
 }
 

@@ -98,6 +98,7 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     // 2. Integrate each motion once.
     for (const auto& scene : all) scene->find_impacts(far(*scene, all));
     make_motions(context, all);
+    for (const auto& scene : all) scene->make_sweep();
     // 3. Write the files, and record what was written and what it took.
     for (const auto& scene : all) scene->write_outputs();
     context.manifest.save();

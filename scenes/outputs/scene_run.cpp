@@ -1,6 +1,7 @@
 #include "scenes/outputs/scene_run.hpp"
 
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,31 @@ void SceneRun::find_impacts(double far) {
     files_.claim(plan_);  // now that the number of frames is known
 }
 
+// ---- the sweep ---------------------------------------------------------------------------------
+
+// Until all files are written the points stand beside the first of them.
+static fs::path store_of_sweep(const std::string& file, const OutputFiles& files) {
+    if (!is_stdout(file)) return files.path_of(file).string() + ".part";
+    return fs::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
+}
+
+void SceneRun::make_sweep() {
+    if (plan_.sweep.empty()) return;
+    const Ask& ask = context_.options.ask;
+    sweep_ = std::make_unique<SweepRun>(
+        scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
+        store_of_sweep(plan_.sweep, files_));
+    if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
+    try {
+        sweep_->make(context_.options.threads, context_.progress);
+    } catch (const sim::Interrupted&) {
+        context_.progress.end();
+        context_.say("{} points are kept; the same command goes on from there\n", sweep_->points_there());
+        throw;
+    }
+    context_.say("{}\n", sweep_->summary());
+}
+
 // ---- files -------------------------------------------------------------------------------------
 
 // What tells of the work comes last.
@@ -101,12 +127,16 @@ void SceneRun::write_outputs() {
         attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
     for (const DataFile& d : plan_.data)
         if (d.tells_of_work) write_data(d);
+    if (sweep_ && !refused_) sweep_->remove();
 }
 
 void SceneRun::write_data(const DataFile& d) {
     stop_if_interrupted();
     const auto start = Clock::now();
-    DataSource from{scene_.problem, plan_.simulation->request, results_.run, context_.work, nullptr};
+    static const sim::Request kNone;
+    DataSource from{scene_.problem, plan_.simulation ? plan_.simulation->request : kNone,
+                    results_.run,   context_.work,
+                    nullptr,        sweep_ ? &sweep_->data() : nullptr};
     if (is_stdout(d.file)) {
         d.write(from);
     } else {
@@ -124,7 +154,9 @@ void SceneRun::write_figure(std::size_t figure) {
     const auto start = Clock::now();
     const FigureFile& f = plan_.figures[figure];
     const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
-    const auto made = figure_files(f.make(results_.of_figure(figure)), how, scene_of_figure(scene_, how));
+    Results results = results_.of_figure(figure);
+    if (sweep_) results.swept = {&sweep_->grid().scene(), &sweep_->data()};
+    const auto made = figure_files(f.make(results), how, scene_of_figure(scene_, how));
     for (const auto& [file, bytes] : made) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");
@@ -223,6 +255,7 @@ void SceneRun::refuse(std::size_t output, const std::string& why) {
     output::tell("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
                  file_of(scene_.outputs[output]), why);
     ++context_.refused;
+    refused_ = true;
 }
 
 }  // namespace beamcam::scenes

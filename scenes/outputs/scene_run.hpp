@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "scenes/outputs/output_files.hpp"
 #include "scenes/outputs/plan_motions.hpp"
 #include "scenes/plan/survey.hpp"
+#include "scenes/sweep/sweep_run.hpp"
 
 namespace beamcam::scenes {
 
@@ -23,6 +25,8 @@ class SceneRun {
     // Slow motion and pictures of impacts ask where the impacts are, before anything else can be asked. `far`: until
     // when the scene's motion is wanted [s].
     void find_impacts(double far);
+    // The points of the scene's sweep, if outputs show them.
+    void make_sweep();
     void ask_for_motions() { motions_.ask(); }
     void take_motions() { results_ = motions_.take(); }
     void write_outputs();
@@ -47,6 +51,8 @@ class SceneRun {
     OutputFiles files_;
     PlanMotions motions_;
     PlanResults results_;
+    std::unique_ptr<SweepRun> sweep_;
+    bool refused_ = false;  // an output
 };
 
 }  // namespace beamcam::scenes

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "render/base/error.hpp"
 #include "render/film/parameter_line.hpp"
@@ -70,13 +69,6 @@ std::vector<sim::Request> requests_of(const Plan& plan) {
         for (const Study& study : figure.studies)
             if (study.of_scene) all.push_back(study.request);
     return all;
-}
-
-std::string shard_file(const std::string& file, int shard, int shards) {
-    const std::filesystem::path path(file);
-    return (path.parent_path() /
-            fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
-        .string();
 }
 
 std::string no_room(const Size& size) {

@@ -126,15 +126,17 @@ struct DataSource {
     const sim::Problem& problem;
     const sim::Request& request;  // of the scene's motion
     const sim::Result& run;
-    const output::Work& work;    // so far
-    const output::Target* file;  // null: standard output
+    const output::Work& work;        // so far
+    const output::Target* file;      // null: standard output
+    const output::SweepData* sweep;  // null unless the plan asks for it
 };
-// A file that holds numbers of the scene's motion.
+// A file that holds numbers of the scene's motion, or of its sweep.
 struct DataFile {
     std::size_t output = 0;
     std::string file, stage;  // stage: what the plan calls it, "table"
     // Writes it, and returns what to say of it: "1501 rows".
     std::function<std::string(const DataSource& from)> write;
+    std::string part = {};                  // of a sweep: "2/3"; empty: the whole
     std::string content = {};               // for the plan in words: "1501 rows of 29 channels"
     Node details = object_node();           // for the plan as JSON
     std::size_t numbers = 0;                // how many it holds; 0: so few that writing them takes no time
@@ -152,6 +154,7 @@ struct Plan {
     // Until when a first run has to find impacts, because pictures that are not settled look at them.
     std::optional<double> impacts_until;
     std::vector<Variant> variants;
+    std::string sweep;  // the first file that shows the points of the scene's sweep; empty: none
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;
@@ -183,9 +186,6 @@ void note_unwritten(Plan& plan, const Scene& scene);
 
 // A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
 bool is_slow_motion(const Pictures& p);
-
-// "fall.mp4" as the second of three: "fall.2of3.mp4".
-std::string shard_file(const std::string& file, int shard, int shards);
 
 // Gives the pictures that wait for impacts their instants. `find` runs a problem for its impacts, and its apexes where
 // the request has them; it is called once for the scene's own motion, if a picture needs that, and for each compared

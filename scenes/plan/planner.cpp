@@ -6,6 +6,7 @@
 
 #include "scenes/motions/motions.hpp"
 #include "scenes/plan/picture_times.hpp"
+#include "scenes/scene/files.hpp"
 #include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
@@ -54,9 +55,10 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
     return std::nullopt;
 }
 
-// Films and sequences are what shards share.
+// Films, sequences and sweeps are what shards share.
 bool is_shared(const Output& output) {
-    return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output);
+    return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output) ||
+           std::holds_alternative<SweepOutput>(output);
 }
 
 }  // namespace
@@ -229,10 +231,11 @@ void Planner::note_skipped() {
     if (!needed_ && !compares && !plan_.variants.empty())
         return skip("simulation of the scene itself", "its figures look at variants of it");
     if (!needed_)
-        return skip(compares ? "simulation of the scene itself" : "simulation",
-                    compares        ? "only compared motions are shown"
-                    : finished_ > 0 ? "everything is there already"
-                                    : "no output looks at the motion");
+        return skip(compares || !plan_.sweep.empty() ? "simulation of the scene itself" : "simulation",
+                    compares               ? "only compared motions are shown"
+                    : !plan_.sweep.empty() ? "only the sweep is shown"
+                    : finished_ > 0        ? "everything is there already"
+                                           : "no output looks at the motion");
     const double end = plan_.simulation->request.end_time;
     if (end < scene_.end_time)
         skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");

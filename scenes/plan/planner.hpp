@@ -16,12 +16,17 @@ class Planner {
     // ---- for the types of outputs ----
 
     const Scene& scene() const { return scene_; }
+    const Ask& ask() const { return ask_; }
     // Where the run of all outputs ends, finished ones too.
     double run_end() const;
     // The scene's motion is needed until `t` [s], because of `file`.
     void look_until(double t, const std::string& file);
     std::size_t add_table(std::vector<double> times, std::vector<sim::Channel> channels);  // its index
     sim::Request& request() { return simulation_.request; }
+    void ask_for_sweep(const std::string& file) {
+        if (plan_.sweep.empty()) plan_.sweep = file;
+    }
+    void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
     void ask_for_horizon() { simulation_.request.horizon = simulation_.horizon = true; }
 
     void add(Pictures p, double ends);  // `ends`: the latest instant that the pictures can look at [s]
@@ -37,7 +42,6 @@ class Planner {
     void note_left_frames(const Pictures& p, std::size_t count);
     void note_skipped();
     void note_unread_channels();
-    void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
 
     const Scene& scene_;
     const Ask& ask_;

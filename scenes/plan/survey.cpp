@@ -41,6 +41,8 @@ class Surveyor {
     std::string part_of(std::size_t output) const {
         for (const Pictures& p : whole_.pictures)
             if (p.output == output) return p.part;
+        for (const DataFile& d : whole_.data)
+            if (d.output == output) return d.part;
         return {};
     }
 

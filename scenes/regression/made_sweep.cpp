@@ -35,10 +35,8 @@ Scene displaced(Scene scene, int times) {
 }  // namespace
 
 MadeSweep::MadeSweep(const Scene& scene, int threads, Progress& progress)
-    : grid_(scene),
-      folder_(own_folder()),
-      store_(std::make_unique<output::PointStore>(folder_ / "points", grid_.points(), grid_.identity())) {
-    make_points(grid_, {}, threads, progress, *store_);
+    : folder_(own_folder()), made_(std::make_unique<SweepRun>(scene, SweepPart(), folder_ / "points")) {
+    made_->make(threads, progress);
 }
 
 MadeSweep::~MadeSweep() {
@@ -48,24 +46,24 @@ MadeSweep::~MadeSweep() {
 
 output::NamedTable MadeSweep::table() const {
     const fs::path file = folder_ / kSweepRecord;
-    output::write_sweep(file, data_of(grid_, *store_, {}));
+    output::write_sweep(file, made_->data());
     return output::read_table(file);
 }
 
 std::vector<bool> MadeSweep::unsure(const Tolerance& tolerance, int threads, Progress& progress) const {
     const output::NamedTable own = table();
-    std::vector<bool> unsure(grid_.points());
+    std::vector<bool> unsure(points());
     for (std::uint64_t k = 0; k < unsure.size(); ++k)
-        unsure[k] = store_->read(k).kind == static_cast<int>(sim::AttractorClass::unsettled);
+        unsure[k] = made_->read(k).kind == static_cast<int>(sim::AttractorClass::unsettled);
     for (int twin = 1; twin <= kTwins; ++twin) {
-        const MadeSweep other(displaced(grid_.scene(), twin), threads, progress);
+        const MadeSweep other(displaced(made_->grid().scene(), twin), threads, progress);
         for (const std::size_t k : points_that_differ(own, other.table(), tolerance)) unsure[k] = true;
     }
     return unsure;
 }
 
 void MadeSweep::write(const output::Target& file, const std::vector<bool>& unsure) const {
-    output::SweepData data = data_of(grid_, *store_, {});
+    output::SweepData data = made_->data();
     data.rows = [&unsure, rows = data.rows](std::uint64_t k) { return unsure[k] ? 0 : rows(k); };
     data.read = [&unsure, read = data.read](std::uint64_t k) {
         if (!unsure[k]) return read(k);

@@ -8,7 +8,7 @@
 #include "output/data/table_reader.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/regression/tolerance.hpp"
-#include "scenes/sweep/make_points.hpp"
+#include "scenes/sweep/sweep_run.hpp"
 
 namespace beamcam::scenes {
 
@@ -21,7 +21,7 @@ class MadeSweep {
     MadeSweep& operator=(const MadeSweep&) = delete;
 
     output::NamedTable table() const;
-    std::uint64_t points() const { return grid_.points(); }
+    std::uint64_t points() const { return made_->grid().points(); }
     // Points that may be another one on another processor: unsettled ones, and those that are when the sweep is made
     // again with a little more gravity, speed and eccentricity of the cam.
     std::vector<bool> unsure(const Tolerance& tolerance, int threads, Progress& progress) const;
@@ -29,9 +29,8 @@ class MadeSweep {
     void write(const output::Target& file, const std::vector<bool>& unsure) const;
 
   private:
-    const SweepGrid grid_;
     const std::filesystem::path folder_;
-    std::unique_ptr<output::PointStore> store_;
+    std::unique_ptr<SweepRun> made_;
 };
 
 }  // namespace beamcam::scenes

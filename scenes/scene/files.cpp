@@ -160,4 +160,11 @@ std::vector<FileClaims::Clash> FileClaims::clashes() const {
     return found;
 }
 
+std::string shard_file(const std::string& file, int shard, int shards) {
+    const std::filesystem::path path(file);
+    return (path.parent_path() /
+            fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
+        .string();
+}
+
 }  // namespace beamcam::scenes

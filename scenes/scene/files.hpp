@@ -20,6 +20,9 @@ std::string numbered_file(std::string_view pattern, long number);
 // The number by which `file` is one of them; nothing when it is none.
 std::optional<long> number_of(std::string_view pattern, std::string_view file);
 
+// "fall.mp4" as the second of three parts: "fall.2of3.mp4".
+std::string shard_file(const std::string& file, int shard, int shards);
+
 // Who writes which files, and which of them could write the same path, or one a file where another needs a directory.
 // The time grows with the number of names, not with its square.
 class FileClaims {

@@ -266,6 +266,15 @@ struct SummaryOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
+struct SweepOutput {
+    static constexpr const char *kType = "sweep", *kMeaning = "The points of the scene's sweep: a row for each sample.";
+    static constexpr bool kIsData = true;
+    std::string file;  // .nc, .csv or .npz
+
+    Extent extent() const { return Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
 // One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
@@ -309,6 +318,7 @@ struct FigureOutput {
     bool editable = false;      // text of .svg as text
     bool serif = false;         // letters as those of text set by LaTeX
     SeriesKeys series;
+    std::string value = {};               // of a diagram of a sweep: what it shows; empty: the usual
     std::string data_file, caption_file;  // beside it; empty: none
 
     Extent extent() const { return series.to ? Extent::keys : Extent::scene; }
@@ -318,7 +328,7 @@ struct FigureOutput {
     void plan(Planner& planner, std::size_t output) const;
 };
 using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
-                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SummaryOutput>;
+                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput, SummaryOutput>;
 
 // About what a thread needs to draw it [bytes], and from where on people are told.
 double memory_of(const Picture& picture);

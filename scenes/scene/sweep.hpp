@@ -48,4 +48,8 @@ struct Sweep {
     bool operator==(const Sweep&) const = default;
 };
 
+// The motions at one value of the keys, in the order of their points.
+std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
+std::string text_of_sample(const sim::Sampling& sampling);  // as the key "sample" is written
+
 }  // namespace beamcam::scenes

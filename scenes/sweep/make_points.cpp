@@ -12,8 +12,6 @@
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
-#include "scenes/outputs/run.hpp"
-#include "scenes/outputs/run_context.hpp"
 #include "scenes/scene/version.hpp"
 #include "sim/sweep/sweep_point.hpp"
 
@@ -71,7 +69,7 @@ class PointMaker {
     void make(const SweepGrid::Task& task) {
         std::vector<double> state;
         for (const std::uint64_t index : task.points) {
-            stop_if_interrupted();
+            if (output::interrupted()) throw sim::Interrupted();
             if (store_.has(index)) {
                 if (task.carries) state = store_.read(index).state;
                 continue;

@@ -10,8 +10,8 @@
 #include "output/data/sweep_library.hpp"
 #include "output/files/numbers.hpp"
 #include "scenes/format/reader.hpp"
-#include "scenes/plan/plan.hpp"
 #include "scenes/scene/exit_code.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -33,7 +33,8 @@ std::vector<double> values_of(const SweptKey& over) {
     return values;
 }
 
-void read_column(SweptKey& over) {
+void write_out(SweptKey& over) {
+    if (over.file.empty()) return;
     const output::NamedTable table = output::read_table(over.file);
     const std::vector<double>* column = table.find(over.column);
     if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
@@ -55,19 +56,22 @@ double random_share(std::uint64_t point, std::uint64_t key) {
 
 }  // namespace
 
+void write_out_tables(Scene& scene) {
+    if (scene.sweep) std::ranges::for_each(scene.sweep->over, write_out);
+}
+
 SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     scene_.outputs.clear();
     scene_.output_places.clear();
     scene_.title.clear();
     scene_.end_time = Scene{}.end_time;
+    write_out_tables(scene_);
     Sweep& sweep = *scene_.sweep;
-    for (SweptKey& over : sweep.over) {
-        if (!over.file.empty()) read_column(over);
+    for (const SweptKey& over : sweep.over) {
         axes_.push_back({over.key, si_unit(sim::number_key(scene_.problem, over.key)->dimension), values_of(over)});
         cells_ *= axes_.back().values.size();
     }
-    for (const SeedKind kind : sweep.seeds.kinds)
-        seeds_.insert(seeds_.end(), kind == SeedKind::random ? static_cast<std::size_t>(sweep.seeds.random) : 1, kind);
+    seeds_ = starts_of(sweep.seeds);
     if (points() > kMostPoints)
         throw SceneError(fmt::format("sweep: {} points; at most {} fit into one sweep", points(), kMostPoints));
     for (std::uint64_t s = 0; s < seeds_.size(); ++s)
@@ -132,11 +136,5 @@ sim::Problem SweepGrid::problem(std::uint64_t point) const {
 
 std::string SweepGrid::digest() const { return output::sha256("sweep\n" + to_json(scene_)); }
 std::string SweepGrid::identity() const { return output::sha256(program_identity() + "\n" + digest()); }
-
-output::Origin sweep_origin(const Scene& scene) {
-    const std::string text = to_json(scene);
-    return {output::sha256(fmt::format("files of a sweep\n{}\n{}", program_identity(), text)), program_identity(),
-            text};
-}
 
 }  // namespace beamcam::scenes

@@ -11,10 +11,14 @@
 
 namespace beamcam::scenes {
 
+// Puts the values of the tables that a sweep names in place of them: what is made depends on these. Throws SceneError
+// where there is no such column, UnreadableFile, IoError.
+void write_out_tables(Scene& scene);
+
 class SweepGrid {
   public:
-    // Of a scene with a sweep. Reads the tables that it names. Throws SceneError: no such column, an impossible problem
-    // at one of the values, too many points; UnreadableFile, IoError.
+    // Of a scene with a sweep, whose tables are read. Throws SceneError: an impossible problem at one of the values,
+    // too many points; what write_out_tables throws.
     explicit SweepGrid(const Scene& scene);
 
     // Motions that are made one after the other: a row of carried starts, or a single one.
@@ -49,8 +53,5 @@ class SweepGrid {
     std::uint64_t cells_ = 1;
     std::vector<std::uint64_t> single_, carried_;  // seeds by whether they carry
 };
-
-// What the files of this sweep are made from, for the manifest.
-output::Origin sweep_origin(const Scene& scene);
 
 }  // namespace beamcam::scenes

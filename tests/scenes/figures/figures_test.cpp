@@ -57,7 +57,7 @@ render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = L
         }
     }
     Results results;
-    for (const sim::Result& r : made) results.push_back(&r);
+    for (const sim::Result& r : made) results.studies.push_back(&r);
     return make(results);
 }
 

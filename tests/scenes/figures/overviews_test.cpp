@@ -29,7 +29,7 @@ render::figure::Figure overview_of(const std::string& name, const std::string& k
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
     Results results;
-    for (const sim::Result& run : runs) results.push_back(&run);
+    for (const sim::Result& run : runs) results.studies.push_back(&run);
     return make(results);
 }
 
@@ -72,7 +72,7 @@ TEST(Overviews, ASpectrogramHasItsLargestAmplitudeAtTheFirstFrequency) {
                                  ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    const auto figure = make({&runs[0]});
+    const auto figure = make({{&runs[0]}});
     const auto& cells = figure.panels[0].cells.at(0);
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
     const double first = sim::natural_modes(reading.scene->problem).front().omega / (2 * M_PI);
@@ -103,7 +103,7 @@ TEST(Overviews, HistogramsCountEachImpactOnce) {
                                  ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    const auto figure = make({&runs[0]});
+    const auto figure = make({{&runs[0]}});
     for (const auto& panel : figure.panels) {
         double sum = 0;
         for (std::size_t k = 0; k < panel.series[0].y.size(); k += 2) sum += panel.series[0].y[k];

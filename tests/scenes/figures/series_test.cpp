@@ -34,7 +34,7 @@ Figure figure_of(const std::string& output, const std::string& mechanics = "") {
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
     Results results;
-    for (const sim::Result& run : runs) results.push_back(&run);
+    for (const sim::Result& run : runs) results.studies.push_back(&run);
     return make(results);
 }
 

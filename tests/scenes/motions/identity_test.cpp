@@ -229,14 +229,19 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (place.starts_with("/outputs/")) return place.starts_with(fmt::format("/outputs/{}/", output));
     const Output& any = scene.outputs[output];
     const bool data = std::holds_alternative<TrajectoryOutput>(any) || std::holds_alternative<ImpactsOutput>(any) ||
-                      std::holds_alternative<SummaryOutput>(any) || std::holds_alternative<ShapesOutput>(any);
+                      std::holds_alternative<SummaryOutput>(any) || std::holds_alternative<ShapesOutput>(any) ||
+                      std::holds_alternative<SweepOutput>(any);
+    const auto* diagram = std::get_if<FigureOutput>(&any);
+    const bool of_sweep = std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
     if (place.starts_with("/data/"))
         return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
                is_picture(any);
-    if (place == "/$schema" || place.starts_with("/sweep/")) return false;
+    if (place == "/$schema") return false;
+    if (place.starts_with("/sweep/")) return of_sweep;
     if (place == "/title") return !data;
     if (place.starts_with("/units/")) return is_picture(any);
     if (place != "/time/end") return true;
+    if (of_sweep) return false;
     if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;
     if (const auto* frames = std::get_if<FramesOutput>(&any)) return !frames->span.to;
     if (const auto* page = std::get_if<PageOutput>(&any)) return !page->span.to;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scenes/scene/files.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {

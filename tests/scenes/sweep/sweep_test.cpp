@@ -83,7 +83,7 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv").code, 0);
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("up to date"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("made from the same inputs"));
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv --keep 21").err, HasSubstr("31 points in"));
     folder.write("mine.csv", "1,2");
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o mine.csv").code, 6);

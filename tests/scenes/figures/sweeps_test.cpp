@@ -1,10 +1,13 @@
 // Figures of sweeps: what is drawn as a section, what only as a class, and that both starts are told apart.
-#include "scenes/sweep/diagram.hpp"
+#include "scenes/figures/sweeps.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/scene/exit_code.hpp"
+#include "output/data/sweep_data.hpp"
+#include "render/base/error.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -18,6 +21,15 @@ using ::testing::SizeIs;
 
 SweepGrid grid(const std::string& sweep) {
     return SweepGrid(*testing::read(R"({"beam": {"model": "rigid"}, "sweep": )" + sweep + "}").scene);
+}
+
+render::figure::Figure diagram(const char* name, const SweepGrid& grid, const output::SweepData& data,
+                               const std::string& value, Lang lang = Lang::en) {
+    FigureOutput how;
+    how.value = value;
+    how.lang = lang;
+    Studies none;
+    return recipe_named(name)->prepare(grid.scene(), how, none)({.swept = Swept{&grid.scene(), &data}});
 }
 
 // Each point of these classes has two samples.
@@ -73,8 +85,8 @@ TEST(Diagram, TellsUpAndDownApart) {
 TEST(Diagram, IsAMapOfTwoKeysAndBasinsOfTwoInitialValues) {
     const SweepGrid two =
         grid(R"({"over": [{"key": "cam.speed", "values": [2, 1, 3]}, {"key": "gravity", "values": [9, 10]}]})");
-    EXPECT_EQ(diagram_names(two).front(), "map");
-    const auto figure = diagram("map", two, data(two, {AttractorClass::periodic, AttractorClass::chaotic}), "");
+    EXPECT_EQ(usual_diagram(two.scene()), "map");
+    const auto figure = diagram("map", two, data(two, {AttractorClass::periodic, AttractorClass::chaotic}), "class");
     const auto& cells = figure.panels.at(0).cells.at(0);
     EXPECT_EQ(cells.x, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
     // Values are put in order: 2, 1, 3 are periodic, chaotic, periodic in the first row.
@@ -82,8 +94,36 @@ TEST(Diagram, IsAMapOfTwoKeysAndBasinsOfTwoInitialValues) {
     EXPECT_TRUE(cells.colors[1] == cells.colors[2]);
     const SweepGrid starts = grid(R"({"over": [{"key": "initial.angle", "values": [0.5, 0.6]},
         {"key": "initial.angular_velocity", "values": [0, 1]}]})");
-    EXPECT_EQ(diagram_names(starts).front(), "basins");
-    EXPECT_THROW(diagram("bifurcation", two, data(two, {AttractorClass::periodic}), "theta"), SceneError);
+    EXPECT_EQ(usual_diagram(starts.scene()), "basins");
+    EXPECT_TRUE(recipe_named("bifurcation")->refusal(two.scene()));
+}
+
+TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
+    const SweepGrid two =
+        grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}, {"key": "gravity", "values": [9, 10]}]})");
+    output::SweepData some = data(two, {AttractorClass::periodic});
+    some.read = [read = some.read](std::uint64_t k) {
+        output::StoredPoint p = read(k);
+        p.exponent = k == 3 ? -std::numeric_limits<double>::infinity() : double(k);
+        return p;
+    };
+    const auto figure = diagram("map", two, some, "exponent");
+    const auto& panel = figure.panels.at(0);
+    EXPECT_EQ(panel.cells.at(0).values[2], 2);
+    EXPECT_TRUE(std::isnan(panel.cells.at(0).values[3]));
+    EXPECT_EQ(panel.cells.at(0).colors[3].a, 0);
+    EXPECT_EQ(panel.color_bar->to, 2);
+    EXPECT_THAT(figure.caption, HasSubstr("White"));
+    // The mean of a column's samples, −1 and −2.
+    EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], -1.5);
+}
+
+TEST(Diagram, SpeaksChinese) {
+    const SweepGrid speeds = grid(kEightSpeeds);
+    const auto figure = diagram("bifurcation", speeds, data(speeds, {AttractorClass::chaotic}), "cam_phase", Lang::zh);
+    EXPECT_EQ(figure.panels.at(0).y.label, "凸轮相位 / 转");
+    EXPECT_EQ(figure.panels.at(1).swatches.at(0).label, "混沌");
+    EXPECT_THAT(figure.caption, HasSubstr("混沌 8"));
 }
 
 TEST(Diagram, PairsEachImpactWithTheNext) {
@@ -91,8 +131,9 @@ TEST(Diagram, PairsEachImpactWithTheNext) {
     const auto figure = diagram("impact-map", speeds, data(speeds, {AttractorClass::periodic}), "");
     EXPECT_THAT(figure.panels.at(0).clouds.at(0).x, Each(0.1));
     EXPECT_THAT(figure.panels.at(0).clouds.at(0).y, Each(0.2));
-    EXPECT_THROW(diagram("poincare", speeds, data(speeds, {AttractorClass::unsettled}), ""), SceneError);
-    EXPECT_THROW(diagram("bifurcation", speeds, data(speeds, {AttractorClass::periodic}), "theta"), SceneError);
+    EXPECT_THROW(diagram("poincare", speeds, data(speeds, {AttractorClass::unsettled}), ""), render::PictureError);
+    EXPECT_THROW(diagram("bifurcation", speeds, data(speeds, {AttractorClass::periodic}), "theta"),
+                 render::PictureError);
 }
 
 TEST(Diagram, TellsFewValuesApart) {
@@ -117,6 +158,34 @@ TEST(Diagram, IsAFileWithItsCaption) {
         EXPECT_GT(testing::slurp(folder / (std::string("d.") + ending)).size(), 3000u);
     }
     EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("transient 30 turns"));
+}
+
+TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
+    const testing::Folder folder;
+    const std::string physics =
+        R"({"beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
+            "cam": {"eccentricity": "2 mm"},
+            "sweep": {"over": [{"key": "cam.speed", "from": 40, "to": 45, "count": 9}],
+                      "transient": {"cam_turns": 30}, "keep": {"cam_turns": 12}})";
+    folder.write("s.json", physics + R"(, "outputs": [{"type": "sweep"}, {"type": "sweep", "file": "s.csv"},
+        {"type": "figure", "figure": "bifurcation", "value": "cam_phase"}, {"type": "figure", "figure": "poincare"}]})");
+    folder.write("t.json", physics + "}");
+    const auto done = testing::shell(folder, "$BEAMCAM run s.json");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("9 points in"));
+    for (const char* file : {"s-sweep.nc", "s.csv", "bifurcation.pdf", "poincare.pdf"})
+        EXPECT_GT(testing::slurp(folder / file).size(), 1000u) << file;
+    EXPECT_FALSE(std::filesystem::exists(folder / "s-sweep.nc.part"));
+    // The command makes the same.
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM sweep t.json -o t.csv").code, 0);
+    EXPECT_EQ(testing::slurp(folder / "t.csv"), testing::slurp(folder / "s.csv"));
+    const auto again = testing::shell(folder, "$BEAMCAM run s.json");
+    EXPECT_THAT(again.err, HasSubstr("left ./s.csv as it is"));
+    EXPECT_THAT(again.err, ::testing::Not(HasSubstr("points in")));
+    folder.write("none.json", R"({"outputs": [{"type": "sweep"}, {"type": "figure", "figure": "map"}]})");
+    const auto refused = testing::shell(folder, "$BEAMCAM check none.json");
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("no \"sweep\""));
 }
 
 TEST(Diagram, OfVeryManyPointsIsAPictureUnderVectorAxes) {

@@ -1,0 +1,43 @@
+#include "scenes/sweep/sweep_run.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sim/base/clock.hpp"
+#include "sim/sweep/attractor.hpp"
+
+namespace beamcam::scenes {
+
+SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store)
+    : grid_(scene),
+      part_(part),
+      store_(std::move(store), grid_.points(), grid_.identity()),
+      data_(data_of(grid_, store_, part_)) {}
+
+void SweepRun::make(int threads, Progress& progress) {
+    const auto started = Clock::now();
+    make_points(grid_, part_, threads, progress, store_);
+    seconds_ += seconds_since(started);
+}
+
+std::string SweepRun::summary() const {
+    std::map<int, std::uint64_t> kinds;
+    std::uint64_t failed = 0, count = 0;
+    std::string why;
+    for (std::uint64_t k = 0; k < grid_.points(); ++k) {
+        if (!data_.has(k)) continue;
+        const output::StoredPoint point = store_.read(k);
+        ++kinds[point.kind];
+        ++count;
+        if (!point.failure.empty() && failed++ == 0) why = point.failure;
+    }
+    std::string text = fmt::format("{} points in {:.1f} s:", count, seconds_);
+    for (const auto& [kind, n] : kinds)
+        text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
+                            name(static_cast<sim::AttractorClass>(kind)));
+    if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
+    return text;
+}
+
+}  // namespace beamcam::scenes

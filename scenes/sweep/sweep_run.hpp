@@ -1,0 +1,35 @@
+// A sweep that is made: its points, in a file that keeps them until what is written from them is whole.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "scenes/sweep/make_points.hpp"
+
+namespace beamcam::scenes {
+
+class SweepRun {
+  public:
+    // `store`: where the points stand until `remove`; what an earlier run left there is not made again. Throws what
+    // SweepGrid and PointStore throw.
+    SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store);
+
+    std::uint64_t points_there() const { return store_.count(); }
+    void make(int threads, Progress& progress);  // as make_points
+    const SweepGrid& grid() const { return grid_; }
+    const output::SweepData& data() const { return data_; }  // as long as this lives
+    output::StoredPoint read(std::uint64_t point) const { return store_.read(point); }
+    // "601 points in 1.2 s: 24 following, 577 periodic", and what could not be followed.
+    std::string summary() const;
+    void remove() { store_.remove(); }
+
+  private:
+    const SweepGrid grid_;
+    const SweepPart part_;
+    output::PointStore store_;
+    output::SweepData data_;
+    double seconds_ = 0;
+};
+
+}  // namespace beamcam::scenes
