@@ -187,7 +187,8 @@ int act(const SweepArguments& args) {
     RunOptions options = run_options(args.common, "");
     if (args.shard) {
         const SweepPart part = part_argument(*args.shard, std::getenv);
-        options.ask = {.shard = static_cast<int>(part.part) + 1, .shards = static_cast<int>(part.parts)};
+        options.ask.shard = static_cast<int>(part.part) + 1;
+        options.ask.shards = static_cast<int>(part.parts);
     }
     if (!args.emit && !args.common.dry_run) {
         run(scene, options);
