@@ -128,7 +128,7 @@ double start_value(const OrbitsArguments& args, const KeyRange& range) {
     return start >= range.from && start <= range.to ? start : middle;
 }
 
-bool is_table(const std::string& file) { return file == "-" || file.ends_with(".json") || file.ends_with(".csv"); }
+bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || file.ends_with(".csv"); }
 
 std::string content(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
                     const std::string& file) {
@@ -171,7 +171,7 @@ int act(const OrbitsArguments& args) {
     output::Manifest manifest(args.common.force);
     need_room(args.files, {".json", ".csv", ".png", ".svg", ".pdf"}, manifest);
     for (const std::string& file : args.files.names)
-        if (!range && !is_table(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
+        if (!range && !is_data_file(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
     std::optional<ProblemFamily> family;
     double start = 0;
     if (range) {

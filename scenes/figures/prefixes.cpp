@@ -20,22 +20,22 @@ using render::figure::Panel;
 using render::figure::Series;
 
 // What axes show without a power of ten (render/plot/axis.cpp).
-constexpr double kLeast = 0.01, kMost = 1e4;
+constexpr double kSmallest = 0.01, kLargest = 1e4;
 
-struct Unit {
+struct PrefixedUnit {
     std::string symbol;  // of the label, before " / "
     double factor = 1;   // of its prefix
     std::string base;
 };
 
-std::optional<Unit> unit_of(const std::string& label) {
+std::optional<PrefixedUnit> unit_of(const std::string& label) {
     const std::size_t at = label.rfind(" / ");
     if (at == std::string::npos) return std::nullopt;
     const std::string text = label.substr(at + 3);
     constexpr render::Prefix kPrefixes[] = {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"m", 1e-3}, {"µ", 1e-6}, {"n", 1e-9}};
     for (const char* base : {"m", "N", "J", "s"})
         for (const render::Prefix& prefix : kPrefixes)
-            if (text == std::string(prefix.symbol) + base) return Unit{label.substr(0, at), prefix.factor, base};
+            if (text == std::string(prefix.symbol) + base) return PrefixedUnit{label.substr(0, at), prefix.factor, base};
     return std::nullopt;
 }
 
@@ -57,8 +57,8 @@ class Largest {
 
 // By what the numbers under this label are multiplied, and the label then.
 std::pair<double, std::string> change(const std::string& label, double largest) {
-    const std::optional<Unit> unit = unit_of(label);
-    if (!unit || !(largest > 0) || (largest >= kLeast && largest < kMost)) return {1, label};
+    const std::optional<PrefixedUnit> unit = unit_of(label);
+    if (!unit || !(largest > 0) || (largest >= kSmallest && largest < kLargest)) return {1, label};
     const render::Prefix prefix = render::prefix_for(largest * unit->factor);
     return {unit->factor / prefix.factor, unit->symbol + " / " + prefix.symbol + unit->base};
 }

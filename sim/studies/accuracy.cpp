@@ -21,7 +21,7 @@ constexpr const char* kLeftOut = "left out";
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
 // One simulation with the compared angle at the instants.
-struct Run {
+struct TrialRun {
     std::vector<double> angle;
     Result result;
     double seconds = 0;
@@ -47,7 +47,7 @@ class Trials {
     }
 
     // With the angle at the instants if `sampled`. Throws what simulate throws, and TooLong beyond `limit` seconds.
-    Run simulate_until(const Problem& problem, double end, double limit, bool sampled) {
+    TrialRun simulate_until(const Problem& problem, double end, double limit, bool sampled) {
         Request request;
         request.end_time = end;
         if (sampled) {
@@ -58,7 +58,7 @@ class Trials {
         }
         const auto start = Clock::now();
         bool stopped = false;
-        Run run;
+        TrialRun run;
         try {
             run.result = simulate(problem, request, [&](double) {
                 stopped = seconds_since(start) <= limit && !tell();
@@ -76,7 +76,7 @@ class Trials {
     }
 
     // The same for a variant that need not be possible: `note` says why there is none.
-    std::optional<Run> try_until(const Problem& variant, double end, double limit, std::string& note) {
+    std::optional<TrialRun> try_until(const Problem& variant, double end, double limit, std::string& note) {
         try {
             return simulate_until(variant, end, limit, true);
         } catch (const TooLong&) {
@@ -90,11 +90,11 @@ class Trials {
     }
 
     // What a variant of the problem does, compared with `truth` over [0, end]. Timed without samples.
-    void measure(AccuracyRow& row, const Problem& variant, const Run& truth, double end, double limit) {
+    void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit) {
         measure(row, variant, truth, end, limit, repeats_);
     }
-    void measure(AccuracyRow& row, const Problem& variant, const Run& truth, double end, double limit, int repeats) {
-        const std::optional<Run> run = try_until(variant, end, limit, row.note);
+    void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit, int repeats) {
+        const std::optional<TrialRun> run = try_until(variant, end, limit, row.note);
         if (!run) return;
         compare(row, *run, truth, end);
         try {
@@ -120,7 +120,7 @@ class Trials {
     // False: the user wants an end.
     bool tell() { return !tell_ || tell_(what_, share_); }
 
-    void compare(AccuracyRow& row, const Run& run, const Run& truth, double end) const {
+    void compare(AccuracyRow& row, const TrialRun& run, const TrialRun& truth, double end) const {
         double worst = 0;
         row.trusted_until = end;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
@@ -201,8 +201,8 @@ class Assessment {
     void find_horizon() {
         trials_.about("reference", 0);
         const double limit = kSpare * request_.longest_run;
-        const Run mine = simulate_or_refuse(problem_, limit);
-        const Run truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
+        const TrialRun mine = simulate_or_refuse(problem_, limit);
+        const TrialRun truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
         double until = request_.end_time;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
             if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
@@ -212,7 +212,7 @@ class Assessment {
         }
         out_.until = until;
         reference_ = trials_.simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
-        const Run check = trials_.simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
+        const TrialRun check = trials_.simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
         for (std::size_t k = 0; k < check.angle.size(); ++k)
             out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
         // The angle itself has no more digits than this.
@@ -221,7 +221,7 @@ class Assessment {
         out_.reference_error = std::max(out_.reference_error, std::numeric_limits<double>::epsilon() * size);
     }
 
-    Run simulate_or_refuse(const Problem& problem, double limit) {
+    TrialRun simulate_or_refuse(const Problem& problem, double limit) {
         try {
             return trials_.simulate_until(problem, request_.end_time, limit, true);
         } catch (const TooLong&) {
@@ -261,7 +261,7 @@ class Assessment {
         if (std::find(ladder.begin(), ladder.end(), problem_.beam.modes) == ladder.end())
             ladder.push_back(problem_.beam.modes);
         std::sort(ladder.begin(), ladder.end(), std::greater<>());
-        std::optional<Run> truth;
+        std::optional<TrialRun> truth;
         for (std::size_t i = 0; i < ladder.size(); ++i) {
             trials_.about(fmt::format("{} shapes", ladder[i]),
                           0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
@@ -288,7 +288,7 @@ class Assessment {
                                ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
         const std::vector<ModelKind>& descending = request_.models;
         if (problem_.beam.model == ModelKind::rigid) return;
-        std::optional<Run> truth;
+        std::optional<TrialRun> truth;
         out_.models_until = out_.until;
         for (std::size_t i = 0; i < descending.size(); ++i) {
             trials_.about(fmt::format("model {}", name(descending[i])),
@@ -314,10 +314,10 @@ class Assessment {
     }
 
     // As much of [0, until] as fits the time, at least a sixteenth.
-    std::optional<Run> longest(const Problem& variant, double limit, AccuracyRow& row) {
+    std::optional<TrialRun> longest(const Problem& variant, double limit, AccuracyRow& row) {
         for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
             std::string note;
-            std::optional<Run> run = trials_.try_until(variant, share * out_.until, limit, note);
+            std::optional<TrialRun> run = trials_.try_until(variant, share * out_.until, limit, note);
             row.note = note;
             if (run) out_.models_until = share * out_.until;
             if (run || !note.starts_with(kLeftOut)) return run;
@@ -331,7 +331,7 @@ class Assessment {
             trials_.about("contact " + change, 0.92);
             ContactRow row;
             row.change = std::move(change);
-            const Run truth = trials_.simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
+            const TrialRun truth = trials_.simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
             trials_.measure(row, variant, truth, out_.until, kSpare * request_.longest_run, 1);
             out_.contact.push_back(std::move(row));
         };
@@ -407,7 +407,7 @@ class Assessment {
     AccuracyRequest request_;
     Trials trials_;
     Accuracy out_;
-    Run reference_;
+    TrialRun reference_;
 };
 
 }  // namespace
