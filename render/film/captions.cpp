@@ -26,7 +26,7 @@ class Captions {
   public:
     explicit Captions(const MechanismScene& scene) : s(scene), u(scene.at.unit), box(scene.at.box) {
         style = {.size = 22 * u, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * box.w};
-        if (s.at.problem().cam && s.at.labelled()) speed = s.at.speed_box(s.at.px(s.pose.cam_centre), 150 * u, s.view);
+        if (s.at.problem().cam && s.at.labelled()) speed = s.at.label_box(*s.at.labels->speed, s.view);
     }
 
     void draw() const {

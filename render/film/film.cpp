@@ -317,7 +317,7 @@ void Film::draw(int frame, Image& out) { out = draw(frame); }
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     Tools& t = tools_for(frame);
-    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts, {}};
+    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts, {}, {}};
     t.keep(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
@@ -328,6 +328,8 @@ FrameGeometry Film::geometry(int frame) {
         out.camera = p.mechanism->camera(frame);
         out.beam = p.mechanism->beam(frame);
         out.words = p.mechanism->words();
+        canvas.record = nullptr;
+        out.labels = p.mechanism->labels(canvas, frame);
     }
     return out;
 }

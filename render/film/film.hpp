@@ -155,7 +155,8 @@ struct FrameGeometry {
     double factor = 1;  // of exaggeration
     DrawnBeam beam;
     std::vector<Box> texts;  // ink of every text [px]
-    std::vector<Box> words;  // of the first mechanism: which motion it is, the scale bar [px]
+    // Of the first mechanism [px]: which motion it is, the scale bar; its angle, speed and force.
+    std::vector<Box> words, labels;
 };
 
 // What drawing has loaded and drawn so far, in all Films that share what is prepared.

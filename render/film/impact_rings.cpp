@@ -14,6 +14,7 @@ constexpr std::ptrdiff_t kMostRings = 6;  // more at once would be a heap
 
 void ImpactRings::find(const MechanismView& at) {
     frames_ = kRing * at.facts.setup->fps;
+    labelled_ = at.labelled();
     std::vector<double> times;
     for (int k = 0; k < at.facts.frames(); ++k) times.push_back(at.facts.at(at.member, k));
     for (const sim::Impact& impact : at.motion().impacts) {
@@ -53,11 +54,11 @@ void ImpactRings::draw(const MechanismScene& s) const {
     }
 }
 
-std::optional<Push> ImpactRings::peak(const MechanismScene& s) const {
-    if (!s.at.labelled()) return std::nullopt;  // nothing would say that it is one
+std::optional<Push> ImpactRings::peak(int frame) const {
+    if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
     for (const Ring& r : rings_) {
-        if (s.frame < r.frame || s.frame >= r.frame + frames_) continue;
+        if (frame < r.frame || frame >= r.frame + frames_) continue;
         if (!latest || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
     }
     return latest && latest->peak.force > 0 ? std::optional(latest->peak) : std::nullopt;

@@ -13,7 +13,7 @@ class ImpactRings {
     void find(const MechanismView& at);  // of a motion's frames
     void draw(const MechanismScene& s) const;
     // Of the latest contact that less than two frames show, while its ring is there: its largest force, where it was.
-    std::optional<Push> peak(const MechanismScene& s) const;
+    std::optional<Push> peak(int frame) const;
     bool play(int frame) const;  // one changes from the frame before to this one
 
   private:
@@ -23,7 +23,8 @@ class ImpactRings {
         Push peak = {};             // of a brief contact; of others no force
     };
     std::vector<Ring> rings_;
-    double frames_ = 1;  // that a ring lasts
+    double frames_ = 1;      // that a ring lasts
+    bool labelled_ = false;  // what is a peak is said to be one
 };
 
 }  // namespace beamcam::render

@@ -12,9 +12,46 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kReadable = 9;  // the least size of letters [px]
+constexpr double kFarLabel = 60;  // from there on a label has a line to what it tells of [design px]
+
+// One of the labels that keep their place, with a line to its owner, if that is wanted, where it is far.
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style,
+                std::optional<Vec2> owner = {}) {
+    const double opacity = label.opacity_at(s.frame);
+    const Box box = s.at.label_box(label, s.view);
+    if (opacity <= 0 || !s.at.shows(box.centre())) return;
+    style.color = style.color.faded(opacity);
+    if (!s.view) style.halo = s.at.palette.paper.faded(opacity);  // over a soft shadow it would only glow
+    const Vec2 to = owner.value_or(box.centre());
+    const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
+    if (const double way = norm(to - edge); way > kFarLabel * s.at.unit) {
+        const Vec2 gap = (to - edge) * (6 * s.at.unit / way);
+        s.canvas.move_to(edge + gap);
+        s.canvas.line_to(to - gap);
+        s.canvas.stroke({style.color.faded(0.6), 1.2 * s.at.unit});
+    }
+    const double left = style.align == HAlign::centre ? box.centre().x : box.x;
+    s.canvas.text({left, box.centre().y + 0.32 * style.size}, text, style);
+    if (s.labels) s.labels->push_back(box);
+}
 
 }  // namespace
+
+double speed_radius(const MechanismView& at) {
+    const sim::Cam& cam = *at.problem().cam;
+    return (cam.radius + cam.eccentricity) * at.look.camera.scale + 20 * at.unit;
+}
+
+double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
+
+// In proportion to the force.
+double arrow_length(const MechanismView& at, const Push& push) {
+    return push_length(std::min(1.0, push.force / at.facts.arrow_scale), at.small, at.marks);
+}
+
+TextStyle force_style(const MechanismView& at) {
+    return {.size = 22 * at.unit, .color = at.palette.contact, .weight = Weight::medium};
+}
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
@@ -33,65 +70,39 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
     return out;
 }
 
-void draw_angle_arc(const MechanismScene& s, double room) {
+void draw_angle_arc(const MechanismScene& s) {
     if (!s.at.labelled()) return;
-    double radius = std::min(92 * s.at.marks * s.at.zoom(), room);
-    if (s.at.problem().cam) {
-        const double free = norm(s.pose.cam_centre) - s.at.problem().cam->radius - s.at.problem().cam->eccentricity;
-        radius = std::min(radius, 0.86 * free * s.at.look.camera.scale);
+    const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
+    if (radius < s.at.hub() + 22 * s.at.marks) return;
+    const Vec2 o = s.at.px({0, 0});
+    if (std::abs(angle) >= 0.02) {
+        s.arc(o, radius, 0, angle);
+        s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }
-    const double letter = std::max(s.at.marks, kReadable / 21);  // [px] of a design pixel of θ
-    const double hub = s.at.hub();
-    const double angle = drawn_angle(s.pose);
-    if (radius < hub + 22 * s.at.marks || std::abs(angle) < 0.02) return;
-    s.arc(s.at.px({0, 0}), radius, 0, angle);
-    s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
-    // The letter stands in the middle of what the section leaves free; where that is too little it gives way to
-    // beyond the horizontal.
-    const double out = radius - 17 * letter, need = 19 * letter / out;
-    double free = std::abs(angle);
-    const auto keep_off = [&](const auto& edge) {
-        const double far = out / s.at.look.camera.scale;
-        for (std::size_t i = 1; i < s.beam.line.size(); ++i) {
-            const Vec2 a = edge(i - 1), b = edge(i);
-            const double from = norm(a), to = norm(b);
-            if (to < far || from == to) continue;
-            const Vec2 p = a + (b - a) * std::clamp((far - from) / (to - from), 0.0, 1.0);
-            const double beyond = std::remainder(std::atan2(p.y, p.x) - angle, 2 * pi);
-            free = std::min(free, std::abs(angle) + std::copysign(beyond, beyond * angle));
-            return;
-        }
-    };
-    keep_off([&](std::size_t i) { return s.beam.face(i); });
-    keep_off([&](std::size_t i) { return s.beam.back(i); });
-    const double at = std::min(free / 2, free - need);
-    if (radius > hub + 38 * letter)
-        s.canvas.text(
-            s.on(s.at.px({0, 0}) + down(std::copysign(1, angle) * at) * out) + Vec2{0, 6 * letter}, math("θ"),
-            {.size = 21 * letter, .color = s.at.palette.muted, .align = HAlign::centre, .halo = s.at.palette.paper});
+    if (s.at.labels->angle)
+        draw_label(s, *s.at.labels->angle, math("θ"),
+                   {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
+                   s.on(o + Vec2{radius, 0}));
 }
 
-// Outside the circle that the disc sweeps, on the side away from the beam; positive speed turns clockwise.
+// Outside the circle that the disc sweeps, on a side away from the beam; positive speed turns clockwise.
 void draw_cam_speed(const MechanismScene& s) {
     if (!s.at.problem().cam || !s.at.labelled()) return;
     const sim::Cam& cam = *s.at.problem().cam;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
-    const double swept = (cam.radius + cam.eccentricity) * s.at.look.camera.scale, radius = swept + 20 * s.at.unit;
-    if (!s.at.shows(s.on(axis + down(s.at.speed_way) * radius))) return;
-    const std::string label = math("ω") + "\u2009=\u2009" + turning_speed(cam.speed, s.at.facts.setup->units.rpm);
-    TextStyle style{.size = 21 * s.at.unit, .color = s.at.palette.muted};
-    if (!s.view) style.halo = s.at.palette.paper;  // over a soft shadow it would only glow
+    const double radius = speed_radius(s.at), middle = s.at.labels->speed_way;
+    if (!s.at.shows(s.on(axis + down(middle) * radius))) return;
     if (cam.speed != 0) {
-        const double span = std::min(0.8, 150 * s.at.unit / radius), middle = s.at.speed_way;
-        const double from = middle + (cam.speed > 0 ? span / 2 : -span / 2), to = 2 * middle - from;
+        const double half = speed_span(s.at) / 2;
+        const double from = middle + (cam.speed > 0 ? half : -half), to = 2 * middle - from;
         const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
         s.arc(axis, radius, from, to + back);
         s.canvas.stroke({s.at.palette.muted, 2.6 * s.at.unit, {}, Cap::butt});
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
-    const Box at = s.at.speed_box(axis, s.canvas.measure(label, style).w, s.view);
-    s.canvas.text({at.x, at.bottom()}, label, style);
+    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = 21 * s.at.unit, .color = s.at.palette.muted},
+               s.on(axis + down(middle) * radius));
 }
 
 // The straight line that deflection is drawn about.
@@ -193,36 +204,23 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
     });
 }
 
-void draw_force(const MechanismScene& s, const std::optional<Push>& peak) {
-    std::optional<Push> push = peak;
-    if (!push && shows_force(s.pose, s.beam))
-        push = {s.beam.contact->on_disc, s.beam.contact->normal, s.pose.nearest->force};
+std::optional<Push> push_of(const sim::Pose& pose, const DrawnBeam& beam, const std::optional<Push>& peak) {
+    if (peak || !shows_force(pose, beam)) return peak;
+    return Push{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
+}
+
+void draw_force(const MechanismScene& s, const std::optional<Push>& push) {
     if (!push) return;
     const Vec2 flat = s.at.px(push->foot), foot = s.on(flat), n{push->normal.x, -push->normal.y};
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
-    // In proportion to the force; where that is too short for an arrow, the dot and the number tell of it.
-    const double length = push_length(std::min(1.0, push->force / s.at.facts.arrow_scale), s.at.small, s.at.marks);
+    // Where the force is too small for an arrow, the dot and the number tell of it.
+    const double length = arrow_length(s.at, *push);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (!s.at.labelled() || !s.at.shows(foot)) return;
-    const TextStyle style{.size = 22 * s.at.unit,
-                          .color = s.at.palette.contact,
-                          .weight = Weight::medium,
-                          .align = HAlign::right,
-                          .halo = s.at.palette.paper};
-    const bool chinese = s.at.facts.setup->view.lang == Lang::zh;
-    const std::string peak_of = s.at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
-    const std::string label =
-        (push->is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + quantity(push->force, "N");
-    // Beside the tip and clear of the beam's back, however short the arrow.
-    const double clear = push_label(length, s.at.look.depth * s.at.look.camera.scale, s.at.unit);
-    const double w = s.canvas.measure(label, style).w;
-    const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
-    Vec2 at = s.on(flat + n * clear) + Vec2{right ? 14 * s.at.unit + w : -14 * s.at.unit, 6 * s.at.unit};
-    at.x = std::max(std::min(at.x, s.at.box.right()), s.at.box.x + w);
-    s.canvas.text(at, label, style);
+    if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
+        draw_label(s, *s.at.labels->force, force_label(s.at, *push), force_style(s.at));  // its colour is the arrow's
 }
 
 // ---- the motions that it is compared with ------------------------------------------------------

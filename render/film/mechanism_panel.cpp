@@ -19,6 +19,7 @@ using sim::Pose;
 
 using std::numbers::pi;
 constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
 
 }  // namespace
@@ -43,80 +44,20 @@ struct MechanismPanel::Threads final : Panel::State {
 };
 
 MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot) {
-    OccupancyGrid room = still_room();
-    note_extent(room);
-    place_words(std::move(room));
+    at_.labels = &labels_;
     rings_.find(at_);
+    const double cell = std::max(2.0, 4 * at_.unit);
+    SweptRegion swept(at_, at_.box, cell), pressed = swept;
+    note_survey(swept);
+    pressed.add_fixed(), swept.add_fixed();
+    const LabelNeeds needs = note_frames(swept, pressed);
+    labels_ = place_labels(at_, needs, swept, pressed);
+    place_words(std::move(swept.room));
     find_shots();
 }
 
 std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
     return std::make_unique<Threads>(at_.facts, at_.member, at_.look.camera.scale, at_.box);
-}
-
-// In pieces of a few stations, which the curve leaves by less than a pixel.
-void MechanismPanel::take_beam(OccupancyGrid& room, const std::vector<Vec2>& face,
-                               const std::vector<Vec2>& back) const {
-    const std::size_t step = face.size() > 40 ? 4 : 1;
-    for (std::size_t i = 0; i + 1 < face.size(); i += step) {
-        const std::size_t next = std::min(i + step, face.size() - 1);
-        room.cover_convex(std::array{face[i], face[next], back[next], back[i]});
-    }
-}
-
-// What the motions leave free as far as their survey tells: the same for mechanisms that stand beside each other.
-OccupancyGrid MechanismPanel::still_room() {
-    OccupancyGrid room(at_.box, std::max(2.0, 4 * at_.unit));
-    const Sight& sight = at_.facts.sight;
-    for (const std::vector<Vec2>& strip : sight.strips) {
-        std::vector<Vec2> face, back;
-        for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
-            face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
-        take_beam(room, face, back);
-    }
-    OccupancyGrid before_speed = room;
-    for (const sim::Problem* p : sight.problems)  // a ghost's disc that stands elsewhere
-        if (at_.ghosts && p->cam && at_.problem().cam && !(p->cam->centre == at_.problem().cam->centre))
-            before_speed.cover_disc(at_.px(p->cam->centre),
-                                    (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale);
-    place_speed(before_speed);
-    for (const sim::Problem* p : sight.problems) {
-        const Vec2 o = at_.px({0, 0});
-        const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
-        room.cover_disc(o, hub + 4 * at_.unit);
-        room.cover(Box{o.x - half, o.y, 2 * half, support_reach(hub, at_.marks)}, 1);
-        room.cover(Box{at_.box.x, o.y - 3 * at_.unit, at_.box.w, 6 * at_.unit}, 1);  // the horizontal
-        if (!p->cam || !at_.problem().cam) continue;
-        const Vec2 axis = at_.px(p->cam->centre);
-        const bool arrow = p->cam->speed != 0 && at_.labelled();
-        room.cover_disc(axis,
-                        (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale + (arrow ? 34 : 4) * at_.unit);
-        if (at_.labelled()) room.cover(at_.speed_box(axis, 150 * at_.unit, nullptr), 1);
-    }
-    for (const Sight::Push& push : sight.pushes) {
-        const Vec2 foot = at_.px(push.foot), n{push.normal.x, -push.normal.y};
-        const double length = push_length(push.share, at_.small, at_.marks), half = 8 * at_.marks;
-        const Vec2 side = Vec2{-n.y, n.x} * half, tip = foot + n * length;
-        room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
-        if (!at_.labelled()) continue;
-        const Vec2 at = foot + n * push_label(length, at_.look.depth * at_.look.camera.scale, at_.unit);
-        room.cover(Box{at.x - 150 * at_.unit, at.y - 16 * at_.unit, 136 * at_.unit, 28 * at_.unit},
-                   1);  // its number
-    }
-    return room;
-}
-
-// The cam's speed stands at its lower right, or on the first side that the beams leave it.
-void MechanismPanel::place_speed(const OccupancyGrid& beams) {
-    if (!at_.problem().cam || !at_.labelled()) return;
-    const Vec2 axis = at_.px(at_.problem().cam->centre);
-    double least = std::numeric_limits<double>::infinity(), best = at_.speed_way;
-    for (const double way : {-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi}) {
-        at_.speed_way = way;
-        const double cost = beams.covered(at_.speed_box(axis, 110 * at_.unit, nullptr));
-        if (cost < least) least = cost, best = way;
-    }
-    at_.speed_way = best;
 }
 
 std::vector<MechanismPanel::Entry> MechanismPanel::entries() const {
@@ -179,29 +120,61 @@ static double arc_room(Range angles, Vec2 centre, const Box& box) {
                      fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
 }
 
-void MechanismPanel::note_extent(OccupancyGrid& room) {
+// What the survey of all motions tells: the same for mechanisms that stand beside each other.
+void MechanismPanel::note_survey(SweptRegion& swept) const {
+    for (const std::vector<Vec2>& strip : at_.facts.sight.strips) {
+        std::vector<Vec2> face, back;
+        for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
+            face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
+        swept.add_beam(face, back);
+    }
+    for (const Sight::Push& push : at_.facts.sight.pushes)
+        swept.add_push({push.foot, push.normal, push.share * at_.facts.arrow_scale});
+}
+
+LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed) {
+    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
     Bounds seen;
-    Range turned{0, 0};  // [rad]
+    std::vector<Vec2> before;
+    int moved = 0;
     for (int k = 0; k < at_.facts.frames(); ++k) {
         const Pose pose = at_.facts.pose(at_.member, k);
         const DrawnBeam drawn = at_.drawn(at_.member, pose);
         const double angle = drawn_angle(pose);
-        turned = {std::min(turned.low, angle), std::max(turned.high, angle)};
+        needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
         followed_.push_back({at_.look.camera.to_world(tips_.back()),
                              drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tips_.back()),
                              at_.problem().cam ? pose.cam_centre : Vec2{}});
-        if (has_label() || has_bar()) take_beam(room, shape.face, shape.back);
+        const std::optional<Push> push = push_of(pose, drawn, rings_.peak(k));
+        for (SweptRegion* each : {&swept, &pressed}) {
+            if (each == &pressed && !push) continue;
+            each->add_beam(shape.face, shape.back);
+            each->add_way(before, shape.face);
+            if (push) each->add_push(*push);
+        }
+        if (push) needs.pushes.push_back(*push);
+        before = shape.face;
+        if (at_.problem().cam) {
+            const sim::Cam& cam = *at_.problem().cam;
+            const double free = norm(pose.cam_centre) - cam.radius - cam.eccentricity;
+            needs.arc_room = std::min(needs.arc_room, 0.86 * free * at_.look.camera.scale);
+        }
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
+        if (k > 0 && at_.facts.at(0, k) > at_.facts.at(0, k - 1)) ++moved;
+        moved_.push_back(moved);
     }
-    for (int k = 0; k < at_.facts.frames(); ++k)
-        moved_.push_back(k == 0 ? 0 : moved_.back() + (at_.facts.at(0, k) > at_.facts.at(0, k - 1) ? 1 : 0));
-    arc_room_ = arc_room(turned, at_.px({0, 0}), at_.box.inset(4 * at_.unit));
+    for (std::size_t k = 0; k + 1 < tips_.size(); ++k)
+        for (SweptRegion* each : {&swept, &pressed})
+            each->room.cover(smooth_piece(tips_, k, kArcStep * at_.unit), 1);  // the trail
+    const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
+    needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
     if (at_.facts.setup->view.tip_path) note_path();
     lit_box_ = lit_box({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, at_.box, at_.unit);
+    return needs;
 }
 
 // Through the motion's survey and the frames. A piece of the path is there when the instant at its end is.
@@ -371,14 +344,14 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     });
 }
 
-void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,
-                                 Threads& threads) const {
+void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads,
+                                 std::vector<Box>* labels) const {
     const Pose pose = at.facts.pose(at.member, frame);
     const DrawnBeam drawn = at.drawn(at.member, pose);
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
     const Perspective perspective = view_of(at, frame);
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr};
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr, labels};
     trail(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
@@ -389,7 +362,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (style == Style::solid) {
         bodies();
     } else {
-        draw_angle_arc(s, at.moved ? std::numeric_limits<double>::infinity() : arc_room_);
+        draw_angle_arc(s);
         draw_base_line(s);
     }
     draw_cam_speed(s);
@@ -399,7 +372,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
-    draw_force(s, rings_.peak(s));
+    draw_force(s, push_of(pose, drawn, rings_.peak(frame)));
     if (at.member == 0) draw_captions(s);
 }
 
@@ -471,7 +444,17 @@ bool MechanismPanel::plays(int frame) const {
     const auto now = static_cast<std::size_t>(frame);
     if (view.style == Style::solid && view.swing != 0) return true;
     if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
+    for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
+        if (*label && (*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1)) return true;
     return rings_.play(frame);
+}
+
+std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
+    std::vector<Box> out;
+    auto state = make_state();
+    const MechanismView at = shots_.empty() ? at_ : at_.seen_by(shots_[static_cast<std::size_t>(frame)]);
+    draw_moving(canvas, at, frame, Style::flat, static_cast<Threads&>(*state), &out);
+    return out;
 }
 
 std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {

@@ -24,6 +24,8 @@ class MechanismPanel final : public Panel {
 
     // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
     std::vector<Box> words() const;
+    // Where the angle, the speed and the force are written in a frame of the flat view, which is drawn for it [px].
+    std::vector<Box> labels(Canvas& canvas, int frame) const;
     const Camera& camera(int frame) const {
         return shots_.empty() ? at_.look.camera : shots_[static_cast<std::size_t>(frame)].camera;
     }
@@ -38,12 +40,11 @@ class MechanismPanel final : public Panel {
     void draw_words(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, Threads& threads) const;
     void draw_exposures(const MechanismScene& s, Style style, Threads& threads) const;
-    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads) const;
+    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads,
+                     std::vector<Box>* labels = nullptr) const;
 
-    OccupancyGrid still_room();
-    void place_speed(const OccupancyGrid& beams);
-    void take_beam(OccupancyGrid& room, const std::vector<Vec2>& face, const std::vector<Vec2>& back) const;
-    void note_extent(OccupancyGrid& room);
+    void note_survey(SweptRegion& swept) const;
+    LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
     // Which motion this is, where there are several, with ghosts all of them; and data that are drawn as a beam.
     struct Entry {
         Color color;
@@ -67,7 +68,7 @@ class MechanismPanel final : public Panel {
     MechanismView at_;
     std::optional<Box> label_, bar_;  // where they stand
     Box lit_box_;                     // what the lit mechanism ever covers, shadows included; whole pixels
-    double arc_room_ = 0;             // largest radius of the angle's arc that stays in the box at every frame [px]
+    MechanismLabels labels_;
     std::vector<Vec2> tips_;          // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace beamcam::render {
-namespace {
-using std::numbers::pi;
-}
-
 MechanismView::MechanismView(const FilmFacts& all, const PanelSlot& slot)
     : facts(all),
       palette(*all.palette),
@@ -60,16 +55,9 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
     return drawn_beam(its, pose, factor, look.depth, facts.with(whose));
 }
 
-Box MechanismView::speed_box(Vec2 axis, double w, const Perspective* view) const {
-    const sim::Cam& cam = *problem().cam;
-    const double radius = (cam.radius + cam.eccentricity) * look.camera.scale + 20 * unit;
-    const bool right = std::cos(speed_way) > 0;
-    Vec2 at = seen(axis + down(speed_way + (right ? 0.04 : -0.04) * pi) * (radius + 16 * unit), view) +
-              Vec2{(right ? 8 : -8) * unit - (right ? 0 : w), 12 * unit};
-    if (at.x + w > box.right() || at.x < box.x)
-        at = {box.right() - w, seen(axis + down(-0.5 * pi) * (radius + 26 * unit), view).y + 8 * unit};
-    at.y = std::min(at.y, box.bottom() - 34 * unit);
-    return {at.x, at.y - 22 * unit, w, 22 * unit};
+Box MechanismView::label_box(const LabelPlace& label, const Perspective* view) const {
+    const Vec2 middle = seen(px(label.middle), view);
+    return {middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
 }
 
 void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {

@@ -1,8 +1,7 @@
 // Where and how large a mechanism is drawn in a film, and one frame of it as it is being drawn.
 #pragma once
 
-#include <numbers>
-
+#include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
 #include "render/gl/solid.hpp"
 #include "render/mechanism/mechanism.hpp"
@@ -31,8 +30,8 @@ struct MechanismView {
         return !moved || (px.x > box.x && px.x < box.right() && px.y > box.y && px.y < box.bottom());
     }
     double hub() const { return hub_radius(problem(), look.camera, look.unit); }
-    double speed_way = -0.30 * std::numbers::pi;  // from the cam's axis to its arrow [rad]
-    bool moved = false;                           // the camera does not show all
+    const MechanismLabels* labels = nullptr;  // null: not yet placed
+    bool moved = false;                       // the camera does not show all
 
     const Motion& motion() const { return facts.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }
@@ -41,9 +40,7 @@ struct MechanismView {
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, facts.pose(whose, frame)); }
-    // Room for the cam's speed, so wide: beside its arrow; where the panel ends there, below it. Its bottom is the
-    // baseline.
-    Box speed_box(Vec2 axis, double w, const Perspective* view) const;
+    Box label_box(const LabelPlace& label, const Perspective* view) const;
 
   private:
     void place_camera();
@@ -57,7 +54,8 @@ struct MechanismScene {
     const DrawnBeam& beam;
     const MechanismShape& shape;
     const MechanismView& at;
-    const Perspective* view;  // of the solid view; null: as it is
+    const Perspective* view;             // of the solid view; null: as it is
+    std::vector<Box>* labels = nullptr;  // where each label was drawn is added here
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }

@@ -123,6 +123,28 @@ Box OccupancyGrid::choose(std::span<const Box> places) const {
     return *best;
 }
 
+Box OccupancyGrid::nearest_free(const Box& wanted) const {
+    const double most_x = std::max(area_.x, area_.right() - wanted.w);
+    const double most_y = std::max(area_.y, area_.bottom() - wanted.h);
+    const Box start{std::clamp(wanted.x, area_.x, most_x), std::clamp(wanted.y, area_.y, most_y), wanted.w, wanted.h};
+    if (covered(start) == 0) return start;
+    // Covered cells cost more than the way to any other place, so that only where none is free both count.
+    const double diagonal = std::hypot(area_.w, area_.h);
+    Box best = start;
+    double least = 1e9;
+    for (int j = -rows_; j <= rows_; ++j)
+        for (int i = -columns_; i <= columns_; ++i) {
+            const Box place{start.x + i * cell_, start.y + j * cell_, wanted.w, wanted.h};
+            if (place.x < area_.x || place.y < area_.y || place.x > most_x || place.y > most_y) continue;
+            const double way = std::hypot(place.x - wanted.x, place.y - wanted.y) / diagonal;
+            if (way >= least) continue;
+            const double hidden = covered(place);
+            const double cost = way + (hidden > 0 ? 2 + 4 * hidden : 0);
+            if (cost < least) best = place, least = cost;
+        }
+    return best;
+}
+
 Place best_place(const OccupancyGrid& taken, double width, double height, double margin) {
     const Box area = taken.area().inset(margin);
     Place best{{area.right() - width, area.y, width, height}, 1e9};

@@ -1,0 +1,239 @@
+#include "render/film/mechanism_labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/draw/formula.hpp"
+#include "render/film/mechanism_marks.hpp"
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+using std::numbers::pi;
+constexpr double kLabelFade = 0.2;                 // how long a label without a free place takes to go or come [s]
+constexpr std::size_t kMeasuredPushes = 60;        // whose numbers tell how wide the label of the force becomes
+
+Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
+
+}  // namespace
+
+double angle_letter(const MechanismView& at) { return std::max(at.marks, kReadable / 21); }
+
+std::string speed_label(const MechanismView& at) {
+    return math("ω") + "\u2009=\u2009" + turning_speed(at.problem().cam->speed, at.facts.setup->units.rpm);
+}
+
+std::string force_label(const MechanismView& at, const Push& push) {
+    const bool chinese = at.facts.setup->view.lang == Lang::zh;
+    const std::string peak_of = at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
+    return (push.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + quantity(push.force, "N");
+}
+
+// ---- what moves --------------------------------------------------------------------------------
+
+SweptRegion::SweptRegion(const MechanismView& at, const Box& area, double cell) : room(area, cell), at_(at) {
+    const View& view = at.facts.setup->view;
+    if (view.style != Style::solid) return;
+    for (const double way : {-1.0, 0.0, 1.0}) {
+        const auto seen = Perspective::looking({}, 2.4 * std::max(at.box.w, at.box.h), 1,
+                                               view.shot.yaw + way * view.swing, view.shot.pitch);
+        const Vec2 through = seen.to_pixels({0, 0, -0.5 * at.wide}) - seen.to_pixels({0, 0, 0.5 * at.wide});
+        const int steps = 1 + static_cast<int>(norm(through) / (2 * cell));
+        for (int i = 1; i <= steps; ++i) shifts_.push_back(through * (double(i) / steps));
+        if (view.swing == 0) break;
+    }
+}
+
+// In pieces of a few stations, which the curve leaves by less than a pixel.
+void SweptRegion::add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back) {
+    const std::size_t step = face.size() > 40 ? 4 : 1;
+    for (std::size_t i = 0; i + 1 < face.size(); i += step) {
+        const std::size_t next = std::min(i + step, face.size() - 1);
+        add_piece({face[i], face[next], back[next], back[i]});
+    }
+}
+
+// Between two instants the pieces move straight.
+void SweptRegion::add_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+    const std::size_t step = from.size() > 40 ? 4 : 1;
+    if (from.size() != to.size()) return;
+    for (std::size_t i = 0; i + 1 < from.size(); i += step) {
+        const std::size_t next = std::min(i + step, from.size() - 1);
+        if (norm(from[next] - to[next]) > at_.look.depth * at_.look.camera.scale)
+            add_piece({from[i], from[next], to[next], to[i]});
+    }
+}
+
+void SweptRegion::add_piece(const std::array<Vec2, 4>& corners) {
+    room.cover_convex(corners);
+    for (const Vec2 by : shifts_)
+        room.cover_convex(std::array{corners[0] + by, corners[1] + by, corners[2] + by, corners[3] + by});
+}
+
+void SweptRegion::add_disc(Vec2 centre, double radius) {
+    room.cover_disc(centre, radius);
+    for (const Vec2 by : shifts_) room.cover_disc(centre + by, radius);
+}
+
+void SweptRegion::add_push(const Push& push) {
+    const Vec2 foot = at_.px(push.foot), n{push.normal.x, -push.normal.y};
+    const Vec2 side = Vec2{-n.y, n.x} * (8 * at_.marks), tip = foot + n * arrow_length(at_, push);
+    room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
+}
+
+void SweptRegion::add_fixed() {
+    for (const sim::Problem* p : at_.facts.sight.problems) {
+        const Vec2 o = at_.px({0, 0});
+        const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
+        add_disc(o, hub + 4 * at_.unit);
+        room.cover(Box{o.x - half, o.y, 2 * half, support_reach(hub, at_.marks)}, 1);
+        room.cover(Box{at_.box.x, o.y - 3 * at_.unit, at_.box.w, 6 * at_.unit}, 1);  // the horizontal
+        if (p->cam && at_.problem().cam)
+            add_disc(at_.px(p->cam->centre),
+                     (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale + 4 * at_.unit);
+    }
+}
+
+// ---- places ------------------------------------------------------------------------------------
+
+namespace {
+
+class LabelPlacer {
+  public:
+    LabelPlacer(const MechanismView& view, const LabelNeeds& all) : at(view), u(view.unit), needs(all) {}
+
+    // The arc is as large as its letter wants to stand beside it, within reason and short of the cam.
+    double arc_radius() const {
+        const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
+        const double wanted = 17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3);
+        return std::min(std::clamp(wanted, 92 * at.marks, 150 * at.marks), needs.arc_room);
+    }
+
+    // In the middle of what the beam leaves free of the arc's inside.
+    std::optional<LabelPlace> angle(OccupancyGrid room, double radius) const {
+        const double letter = angle_letter(at);
+        if (radius <= at.hub() + 38 * letter) return std::nullopt;
+        const Vec2 o = at.px({0, 0});
+        const bool below = -needs.angles.low > needs.angles.high;
+        std::vector<Vec2> arc;
+        for (int i = 0; i <= 64; ++i)
+            arc.push_back(o + down((below ? needs.angles.low : needs.angles.high) * i / 64) * radius);
+        room.cover(arc, 1);
+        const Vec2 middle = o + down((below ? -0.5 : 0.5) * least_angle()) * (radius - 17 * letter);
+        return place(room, about(middle, {15 * letter, 20 * letter}));
+    }
+
+    // Beside its arrow, which takes the first side that the beams leave to both.
+    LabelPlace speed(const OccupancyGrid& room, double width, double& way) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const double each : {-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi, -0.5 * pi, 0.5 * pi, 0.0, pi}) {
+            double cost = room.covered(speed_box(each, width));
+            each_of_arrow(each, [&](const Box& box) { cost += room.covered(box); });
+            if (cost < least) least = cost, way = each;
+        }
+        OccupancyGrid taken = room;
+        each_of_arrow(way, [&](const Box& box) { taken.cover(box, 1); });
+        return place(taken, speed_box(way, width));
+    }
+
+    template <class Visit>
+    void each_of_arrow(double way, const Visit& visit) const {
+        if (at.problem().cam->speed == 0) return;
+        const double radius = speed_radius(at), half = speed_span(at) / 2;
+        for (int i = -2; i <= 2; ++i)
+            visit(about(at.px(at.problem().cam->centre) + down(way + half * i / 2) * radius, Vec2{14, 14} * u));
+    }
+
+    // Beside the tip of the strongest arrow and clear of the beam's back.
+    LabelPlace force(const OccupancyGrid& room, Canvas& canvas) const {
+        const Push& most = *std::ranges::max_element(needs.pushes, {}, &Push::force);
+        double width = 0;
+        const auto measure = [&](const Push& push) {
+            width = std::max(width, canvas.measure(force_label(at, push), force_style(at)).w);
+        };
+        measure(most);
+        const std::size_t step = 1 + needs.pushes.size() / kMeasuredPushes;
+        for (std::size_t i = 0; i < needs.pushes.size(); i += step) measure(needs.pushes[i]);
+        const Vec2 n{most.normal.x, -most.normal.y};
+        const double clear = push_label(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
+        const Vec2 tip = at.px(most.foot) + n * clear;
+        const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
+        return place(room, {tip.x + (right ? 14 * u : -14 * u - width), tip.y - 14 * u, width, 28 * u});
+    }
+
+  private:
+    double least_angle() const { return std::max({needs.angles.low, -needs.angles.high, 0.0}); }
+
+    Box speed_box(double way, double width) const {
+        const Vec2 axis = at.px(at.problem().cam->centre);
+        const bool right = std::cos(way) > 0;
+        const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
+        return {to.x + (right ? 8 * u : -8 * u - width), to.y - 10 * u, width, 26 * u};
+    }
+
+    LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
+        const Box found = room.nearest_free(wanted.inset(-3 * u));
+        LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
+        if (room.covered(found) > 0) fade_where_met(out);
+        return out;
+    }
+
+    void fade_where_met(LabelPlace& label) const {
+        const Box box = at.label_box(label, nullptr);
+        std::vector<int> met;
+        for (int k = 0; k < at.facts.frames(); ++k) {
+            SweptRegion now(at, box, 4 * u);
+            const sim::Pose pose = at.facts.pose(at.member, k);
+            const DrawnBeam beam = at.drawn(at.member, pose);
+            const MechanismShape shape = mechanism_shape(at.problem(), pose, beam, at.look, at.palette);
+            now.add_beam(shape.face, shape.back);
+            if (now.room.covered(box.inset(0.01)) > 0) met.push_back(k);
+        }
+        if (met.empty()) return;
+        const double fade = kLabelFade * at.facts.setup->fps;
+        for (int k = 0; k < at.facts.frames(); ++k) {
+            const auto after = std::ranges::lower_bound(met, k);
+            int far = at.facts.frames();
+            if (after != met.end()) far = *after - k;
+            if (after != met.begin()) far = std::min(far, k - *std::prev(after));
+            label.opacity.push_back(static_cast<float>(std::min(1.0, far / (1 + fade))));
+        }
+    }
+
+    const MechanismView& at;
+    const double u;
+    const LabelNeeds& needs;
+};
+
+}  // namespace
+
+MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, SweptRegion& swept,
+                             SweptRegion& pressed) {
+    MechanismLabels out;
+    const LabelPlacer placer(at, needs);
+    out.arc_radius = placer.arc_radius();
+    if (!at.labelled()) return out;
+    Image scratch(1, 1);
+    Canvas canvas(scratch, *at.facts.fonts);
+    const auto take = [&](const LabelPlace& label) {
+        for (SweptRegion* each : {&swept, &pressed}) each->room.cover(at.label_box(label, nullptr), 1);
+    };
+    if (at.problem().cam) {
+        out.speed = placer.speed(swept.room, canvas.measure(speed_label(at), {.size = 21 * at.unit}).w, out.speed_way);
+        take(*out.speed);
+        for (SweptRegion* each : {&swept, &pressed})
+            placer.each_of_arrow(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });
+    }
+    if (at.facts.setup->view.style != Style::solid) out.angle = placer.angle(swept.room, out.arc_radius);
+    if (out.angle) take(*out.angle);
+    if (!needs.pushes.empty()) {
+        out.force = placer.force(pressed.room, canvas);
+        take(*out.force);
+    }
+    return out;
+}
+
+}  // namespace beamcam::render
