@@ -123,7 +123,7 @@ class LabelPlacer {
             arc.push_back(o + down((below ? needs.angles.low : needs.angles.high) * i / 64) * radius);
         room.cover(arc, 1);
         const Vec2 middle = o + down((below ? -0.5 : 0.5) * least_angle()) * (radius - 17 * letter);
-        return place(room, about(middle, {15 * letter, 20 * letter}));
+        return place(room, about(middle, {13 * letter, 17 * letter}));
     }
 
     // Beside its arrow, which takes the first side that the beams leave to both.
@@ -175,7 +175,7 @@ class LabelPlacer {
     }
 
     LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
-        const Box found = room.nearest_free(wanted.inset(-3 * u));
+        const Box found = room.nearest_free(wanted.inset(-2 * u));
         LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;

@@ -46,7 +46,7 @@ struct MechanismPanel::Threads final : Panel::State {
 MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot) {
     at_.labels = &labels_;
     rings_.find(at_);
-    const double cell = std::max(2.0, 4 * at_.unit);
+    const double cell = std::max(1.5, 2 * at_.unit);
     SweptRegion swept(at_, at_.box, cell), pressed = swept;
     note_survey(swept);
     pressed.add_fixed(), swept.add_fixed();

@@ -31,7 +31,8 @@ void MechanismView::place_camera() {
     };
     as_deep_as(facts.sight);
     if (look.depth > problem().beam.depth) as_deep_as(sight_of(facts, look.depth));
-    marks = mark_unit(problem(), look.camera, unit);
+    marks = unit;  // the same for mechanisms beside each other
+    for (const sim::Problem* p : facts.sight.problems) marks = std::min(marks, mark_unit(*p, look.camera, unit));
 }
 
 MechanismView MechanismView::seen_by(const Sighting& sighting) const {

@@ -654,7 +654,7 @@ TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
     const Image image = drawn(film, 2);
     const Vec2 hub = g.camera.to_pixels({0, 0});
     const auto has_arc = [&](double side) {
-        for (double r = 60 * g.layout.unit; r < 100 * g.layout.unit; ++r) {
+        for (double r = 80 * g.layout.unit; r < 160 * g.layout.unit; ++r) {
             const auto x = std::size_t(hub.x), y = std::size_t(hub.y + side * r);
             const std::uint32_t p = image.pixels[y * std::size_t(image.width) + x];
             if (std::abs((p >> 16 & 255) / 255.0 - muted.r) + std::abs((p & 255) / 255.0 - muted.b) < 0.15) return true;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/draw/canvas.hpp"
@@ -42,6 +43,69 @@ bool same_within(const Image& a, const Image& b, const Box& box) {
             if (x >= 0 && y >= 0 && x < a.width && y < a.height && at(a, px) != at(b, px)) return false;
         }
     return true;
+}
+
+// ---- labels ------------------------------------------------------------------------------------
+
+bool within(Vec2 p, const std::array<Vec2, 4>& piece) {  // on or inside
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double side = cross(piece[(i + 1) % 4] - piece[i], p - piece[i]);
+        left += side > 0, right += side < 0;
+    }
+    return left == 0 || right == 0;
+}
+
+// In no frame does a label of the mechanism meet the beam or another label, and all keep their places.
+void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::string& name) {
+    Film film(setup);
+    std::vector<Box> places;
+    for (int k = 0; k < film.frames(); ++k) {
+        const FrameGeometry g = film.geometry(k);
+        for (const Box& label : g.labels) {
+            if (std::ranges::find(places, label) == places.end()) places.push_back(label);
+            for (std::size_t i = 0; i + 1 < g.beam.line.size(); ++i) {
+                std::array<Vec2, 4> piece{g.beam.face(i), g.beam.face(i + 1), g.beam.back(i + 1), g.beam.back(i)};
+                for (Vec2& p : piece) p = g.camera.to_pixels(p);
+                for (int n = 0; n <= 256; ++n) {  // places in the label
+                    const Vec2 p{label.x + label.w * (n % 16) / 15, label.y + label.h * (n / 16) / 16};
+                    ASSERT_FALSE(within(p, piece)) << name << ", frame " << k;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(places.size(), expected) << name;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(places[i].overlaps(places[j])) << name;
+}
+
+TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
+    labels_keep_clear(film_of(Style::flat, {.duration = 2}), 3, "as it is");
+    labels_keep_clear(film_of(Style::flat, {.duration = 2}, 10), 3, "exaggerated");
+    const auto turned = [&](double from, double rate) {  // a rod led about its hub
+        FilmSetup setup = film_of(Style::flat, {.duration = 1});
+        for (std::size_t k = 0; k < setup.poses.size(); ++k) {
+            sim::Pose& pose = setup.poses[k];
+            pose.theta = from + rate * pose.t;
+            const double last = double(pose.centreline.size() - 1);
+            for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+                pose.centreline[i] = sim::unit(pose.theta) * (setup.problem.beam.length * double(i) / last);
+            pose.nearest.reset();
+        }
+        return setup;
+    };
+    labels_keep_clear(turned(1.2, -40), 2, "fast beam");
+    labels_keep_clear(turned(0.05, -0.1), 2, "small angle");
+    labels_keep_clear(turned(-0.2, 4), 2, "through the horizontal");
+    FilmSetup tall = film_of(Style::flat, {.duration = 2});
+    tall.width = 1080, tall.height = 1920;
+    tall.others = {tall, tall};
+    labels_keep_clear(tall, 3, "portrait comparison");
+    FilmSetup held = film_of(Style::flat, {.duration = 2});
+    sim::Impact impact;
+    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
+    held.impacts = {impact};
+    labels_keep_clear(held, 3, "a peak that is held while the beam bounces");
 }
 
 // ---- a touching contact ------------------------------------------------------------------------
