@@ -135,11 +135,15 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
         }
     }
     if (span.speed.around)
-        for (const double number : span.speed.around->collisions)
-            if (std::ranges::none_of(slowed, [&](const sim::Impact& i) {
-                    return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
-                }))
-                out.unshown.push_back(fmt::format("the slow motion of collision {:g}", number));
+        for (const double number : span.speed.around->collisions) {
+            const bool slow = std::ranges::any_of(slowed, [&](const sim::Impact& i) {
+                return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
+            });
+            if (slow) continue;
+            const Instant collision{.kind = Instant::Kind::collision, .number = static_cast<int>(number)};
+            (void)reached(collision, span, to, motion);
+            out.unshown.push_back("the slow motion of " + name_of(collision));
+        }
     map.freeze(to, span.hold);
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
     if (count > kMostFrames)

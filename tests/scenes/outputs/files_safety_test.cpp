@@ -77,12 +77,15 @@ TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
                  "{\"time\": {\"end\": 0.3}, \"outputs\": [\n"
                  "  {\"type\": \"still\", \"file\": \"a.png\", \"at\": 0.1, \"size\": [96, 96]},\n"
                  "  {\"type\": \"still\", \"file\": \"b.png\", \"at\": \"impact:9\", \"size\": [96, 96]},\n"
+                 "  {\"type\": \"video\", \"file\": \"c.gif\", \"size\": [96, 96],\n"
+                 "   \"speed\": {\"around\": \"impacts\", \"collisions\": [1, 9]}},\n"
                  "  {\"type\": \"trajectory\", \"file\": \"t.csv\"}]}\n");
     folder.write("other.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "trajectory", "file": "other.csv"}]})");
     folder.write("broken.json", R"({"time": {"end": -1}})");
     const Finished finished = shell(folder, "$BEAMCAM run missing.json s.json broken.json other.json -o out -q");
     EXPECT_EQ(finished.code, 3);
     EXPECT_THAT(finished.err, HasSubstr("s.json:3:3: b.png: there is no impact 9"));
+    EXPECT_THAT(finished.err, HasSubstr("s.json:4:3: c.gif: there is no collision 9: the motion has 1 until 0.3 s"));
     EXPECT_THAT(finished.err, HasSubstr("missing.json: there is no such file"));
     EXPECT_THAT(finished.err, HasSubstr("broken.json:1:18"));
     for (const char* made : {"out/a.png", "out/t.csv", "out/other.csv"}) EXPECT_TRUE(fs::exists(folder / made)) << made;

@@ -483,10 +483,10 @@ TEST(Films, OfFewFramesSuggestADuration) {
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("\"duration\": \"4 s\" (speed 0.005)"));
 }
 
-TEST(Films, TellOfCollisionsThatDoNotCome) {
+TEST(Films, CutShortTellOfCollisionsThatDoNotCome) {
     const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
-        "view": {"style": "flat"}, "speed": {"around": "impacts", "factor": 0.5, "collisions": [1, 9]}}]})");
+    folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
+        "to": 0.4, "view": {"style": "flat"}, "speed": {"around": "impacts", "factor": 0.5, "collisions": [1, 9]}}]})");
     const std::string told = shell(folder, "$BEAMCAM run s.json").err;
     EXPECT_THAT(told, HasSubstr("f.mkv does not show the slow motion of collision 9: not within the film"));
     EXPECT_THAT(told, Not(HasSubstr("collision 1")));
