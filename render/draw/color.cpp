@@ -130,7 +130,7 @@ Palette Palette::without_paper() const {
     ink_of(out.grid, ink);
     ink_of(out.motion_faint, motion);
     ink_of(out.contact_faint, contact);
-    if (ink == kLight.ink) out.ink = kInkAnywhere;
+    if (ink == kLight.ink) out.ink = kInkAnywhere, out.motion = mix(motion, Color{1, 1, 1, 1}, 0.08);
     return out;
 }
 

@@ -209,8 +209,9 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     if (setup.view.show.legend && !setup.speeds.empty())
         pills.push_back({facts.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)])), widest_speed,
                          facts.palette->contact});
+    const bool clear = setup.view.transparent;  // its words are read on whatever it is laid upon
     const auto style_of = [&](const Pill& p) {
-        return TextStyle{.size = 20 * u, .color = p.color, .weight = Weight::medium, .align = HAlign::centre};
+        return TextStyle{.size = 20 * u, .color = clear ? facts.palette->paper : p.color, .weight = Weight::medium, .align = HAlign::centre};
     };
     const auto width = [&](const Pill& p) {
         const TextStyle style = style_of(p);
@@ -227,7 +228,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         x = box.right() + gap;
         if (p.words.empty() || box.right() > b.right()) continue;
         canvas.rounded(box, 18 * u);
-        canvas.fill(p.color.faded(0.14));
+        canvas.fill(clear ? p.color : p.color.faded(0.14));
         canvas.text({box.x + box.w / 2, b.y + 31 * u}, p.words, style_of(p));
     }
 }

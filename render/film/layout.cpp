@@ -38,7 +38,9 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
 constexpr double kPanelColumn = 540;  // width of panels beside the mechanism [design px]
 bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
 // How much wider the column may become where the mechanism does not need the room [px].
-double widening(double w, double u) { return std::clamp(w - 1600 * u, 0.0, 200 * u); }
+double widening(double w, double u) {
+    return std::clamp(w - 1600 * u, 0.0, 200 * u) + 0.6 * std::max(0.0, w - 2200 * u);  // very wide: charts, not paper
+}
 
 // What stands around the panels, and the room that is left for them.
 struct Frame {

@@ -271,6 +271,11 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     c.value = range_of(facts, c.curves, first);
     if (single && dotted) add_places(facts, c);
     add_data(facts, spec, c);
+    const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;
+    const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
+    if (of_contact && c.dots.empty() &&
+        std::ranges::none_of(c.curves, [&](const Curve& curve) { return std::ranges::any_of(curve.v, is_value); }))
+        c.instead = facts.say("no contact"), c.unit.clear(), c.value = {0, 1};
     return c;
 }
 

@@ -221,7 +221,11 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
 void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     const double axis = plot_.bottom() + 0.5;
     draw_heading(canvas, p);
-    draw_levels(canvas, p, axis_, plot_, unit_);
+    if (c_.instead.empty())
+        draw_levels(canvas, p, axis_, plot_, unit_);
+    else
+        canvas.text(plot_.centre() + Vec2{0, 6 * unit_}, c_.instead,
+                    {.size = 19 * unit_, .color = p.muted, .align = HAlign::centre, .max_width = plot_.w});
     if (!windowed()) {
         draw_time_axis(canvas, p, whole());
         draw_curves(canvas, whole(), c_.time, false, {});

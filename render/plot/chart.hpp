@@ -79,7 +79,8 @@ struct ChartContent {
     double time_unit = 1;          // [s]
     // The readings are told in this unit by themselves, as labels beside the mechanism tell them; empty: in the axis's.
     std::string reading_unit = {};
-    std::string time_label;  // markup, "t / s"
+    std::string time_label;    // markup, "t / s"
+    std::string instead = {};  // in place of the axis of values, where there is none to be shown: "no contact"
     std::vector<Curve> curves;
     std::vector<double> band_times;  // [s]
     std::vector<Band> bands;

@@ -57,6 +57,7 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"lost", "耗散"},
     {"force", "力"},
     {"peak", "峰值"},
+    {"no contact", "无接触"},
     {"beam", "梁"},
     {"cam", "凸轮"},
     {"root", "根部"},

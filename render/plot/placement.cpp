@@ -132,10 +132,11 @@ Box OccupancyGrid::nearest_free(const Box& wanted) const {
     const double diagonal = std::hypot(area_.w, area_.h);
     Box best = start;
     double least = 1e9;
-    for (int j = -rows_; j <= rows_; ++j)
-        for (int i = -columns_; i <= columns_; ++i) {
+    const auto first = [&](double from, double low) { return static_cast<int>(std::ceil((low - from) / cell_)); };
+    const auto last = [&](double from, double high) { return static_cast<int>(std::floor((high - from) / cell_)); };
+    for (int j = first(start.y, area_.y); j <= last(start.y, most_y); ++j)
+        for (int i = first(start.x, area_.x); i <= last(start.x, most_x); ++i) {
             const Box place{start.x + i * cell_, start.y + j * cell_, wanted.w, wanted.h};
-            if (place.x < area_.x || place.y < area_.y || place.x > most_x || place.y > most_y) continue;
             const double way = std::hypot(place.x - wanted.x, place.y - wanted.y) / diagonal;
             if (way >= least) continue;
             const double hidden = covered(place);

@@ -377,6 +377,8 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
 TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
     const Color ink = palette(Theme::light).without_paper().ink;
     for (const Theme ground : {Theme::light, Theme::dark}) EXPECT_GT(contrast(ink, palette(ground).paper), 4);
+    for (const Color& told : {palette(Theme::light).without_paper().motion, palette(Theme::light).contact})
+        for (const Theme ground : {Theme::light, Theme::dark}) EXPECT_GT(contrast(told, palette(ground).paper), 3.5);
     EXPECT_EQ(palette(Theme::dark).without_paper().ink.g, palette(Theme::dark).ink.g);
 }
 
@@ -507,6 +509,23 @@ double highest_past(Film& film, int frame) {
                 return (plot.bottom() - y) / plot.h;
         }
     return 0;
+}
+
+// Before the first touch there is no scale of forces to be shown: neither numbers nor levels.
+TEST(ForceStrip, WithoutContactHasNoInventedAxis) {
+    const auto texts_left_of_plot = [](double duration) {
+        FilmSetup setup = test::synthetic_film({.duration = duration});
+        setup.width = 960, setup.height = 540;
+        setup.layout = leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::contact_x, 0}}});
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(2);
+        const Box plot = plot_area(g.layout.panels.front().box, g.layout.unit);
+        return std::ranges::count_if(g.texts, [&](const Box& text) {
+            return text.right() < plot.x && text.bottom() < plot.bottom() - 12 && text.y > plot.y;
+        });
+    };
+    EXPECT_EQ(texts_left_of_plot(0.1), 0);
+    EXPECT_GT(texts_left_of_plot(2), 0);
 }
 
 TEST(ForceStrip, DrawsNothingAfterTheInstantAsPast) {
