@@ -89,7 +89,11 @@ void SweptRegion::add_fixed() {
         const Vec2 o = at_.px({0, 0});
         const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
         add_disc(o, hub + 4 * at_.unit);
-        room.cover(Box{o.x - half, o.y, 2 * half, support_reach(hub, at_.marks)}, 1);
+        const double reach = support_reach(hub, at_.marks);
+        room.cover(Box{o.x - half, o.y, 2 * half, reach}, 1);
+        for (const Vec2 by : shifts_)
+            for (const double far : {1.0, 2.0, 3.0})  // the mount is deeper than the beam
+                room.cover(Box{o.x - half + far * by.x, o.y + far * by.y, 2 * half, reach}, 1);
         room.cover(Box{at_.box.x, o.y - 3 * at_.unit, at_.box.w, 6 * at_.unit}, 1);  // the horizontal
         if (p->cam && at_.problem().cam)
             add_disc(at_.px(p->cam->centre),
@@ -171,11 +175,13 @@ class LabelPlacer {
         const Vec2 axis = at.px(at.problem().cam->centre);
         const bool right = std::cos(way) > 0;
         const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
-        return {to.x + (right ? 8 * u : -8 * u - width), to.y - 10 * u, width, 26 * u};
+        return {to.x + (right ? 8 * u : -8 * u - width), to.y - 7.72 * u, width, 26 * u};
     }
 
     LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
-        const Box found = room.nearest_free(wanted.inset(-2 * u));
+        // The solid view is drawn smaller than the flat one, its words are not.
+        const double grow = at.facts.setup->view.style == Style::solid ? 0.07 * wanted.w : 0;
+        const Box found = room.nearest_free(wanted.inset(-2 * u - grow));
         LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;
