@@ -148,7 +148,7 @@ class LabelPlacer {
         if (at.problem().cam->speed == 0) return;
         const double radius = speed_radius(at), half = speed_span(at) / 2;
         for (int i = -2; i <= 2; ++i)
-            visit(about(at.px(at.problem().cam->centre) + down(way + half * i / 2) * radius, Vec2{14, 14} * u));
+            visit(about(at.px(at.problem().cam->centre) + down(way + half * i / 2) * radius, Vec2{8, 8} * u));
     }
 
     // Beside the tip of the strongest arrow and clear of the beam's back.
@@ -175,13 +175,14 @@ class LabelPlacer {
         const Vec2 axis = at.px(at.problem().cam->centre);
         const bool right = std::cos(way) > 0;
         const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
-        return {to.x + (right ? 8 * u : -8 * u - width), to.y - 7.72 * u, width, 26 * u};
+        const double base = std::min(to.y + 12 * u, at.box.bottom() - 34 * u);  // above the scale bar
+        return {to.x + (right ? 8 * u : -8 * u - width), base - 17.72 * u, width, 22 * u};
     }
 
     LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
         // The solid view is drawn smaller than the flat one, its words are not.
         const double grow = at.facts.setup->view.style == Style::solid ? 0.07 * wanted.w : 0;
-        const Box found = room.nearest_free(wanted.inset(-2 * u - grow));
+        const Box found = room.nearest_free(wanted.inset(-u - grow));
         LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;
