@@ -26,7 +26,8 @@ class Captions {
   public:
     explicit Captions(const MechanismScene& scene) : s(scene), u(scene.at.unit), box(scene.at.box) {
         style = {.size = 22 * u, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * box.w};
-        if (s.at.problem().cam && s.at.labelled()) speed = s.at.label_box(*s.at.labels->speed, s.view);
+        for (const auto* label : {&s.at.labels->speed, &s.at.labels->angle, &s.at.labels->force})
+            if (*label) labels.push_back(s.at.label_box(**label, s.view));
     }
 
     void draw() const {
@@ -64,21 +65,27 @@ class Captions {
         plate.y = std::clamp(plate.y, box.y, std::max(box.y, box.bottom() - plate.h - kFreeBelow * u));
     }
 
-    // Off the cam's speed: below it, else above.
+    // The first of the mechanism's labels that it would hide; null: none.
+    const Box* hidden(const Box& plate) const {
+        const auto found = std::ranges::find_if(labels, [&](const Box& label) { return plate.overlaps(label); });
+        return found == labels.end() ? nullptr : &*found;
+    }
+
+    // Off the labels: below, else above.
     void place(Box& plate) const {
         keep_inside(plate);
-        if (speed && plate.overlaps(*speed)) plate.y = speed->bottom() + 12 * u;
+        if (const Box* label = hidden(plate)) plate.y = label->bottom() + 12 * u;
         keep_inside(plate);
-        if (speed && plate.overlaps(*speed)) plate.y = std::max(box.y, speed->y - 12 * u - plate.h);
+        if (const Box* label = hidden(plate)) plate.y = std::max(box.y, label->y - 12 * u - plate.h);
     }
 
     void lead(Vec2 from, Vec2 to, double opacity) const {
         s.canvas.move_to(from);
         s.canvas.line_to(to);
         s.canvas.stroke({s.at.palette.ink.faded(opacity), 1.6 * u});
-        for (int i = 0; speed && i <= 64; ++i) {  // under the cam's speed, whose halo keeps it off
+        for (int i = 0; s.at.labels->speed && i <= 64; ++i) {  // under the cam's speed, whose halo keeps it off
             const Vec2 at = from + (to - from) * (i / 64.0);
-            if (Box{at.x, at.y, 1, 1}.overlaps(*speed)) return draw_cam_speed(s);
+            if (labels.front().overlaps({at.x, at.y, 1, 1})) return draw_cam_speed(s);
         }
     }
 
@@ -102,7 +109,7 @@ class Captions {
         Caption caption = caption_of(words, {});
         caption.plate.x = box.centre().x - caption.plate.w / 2, caption.plate.y = free - caption.plate.h;
         keep_inside(caption.plate);
-        if (speed && caption.plate.overlaps(*speed)) caption.plate.y = speed->y - 12 * u - caption.plate.h;
+        if (const Box* label = hidden(caption.plate)) caption.plate.y = label->y - 12 * u - caption.plate.h;
         draw(caption);
         return caption.plate.y - 8 * u;
     }
@@ -163,10 +170,11 @@ class Captions {
         for (std::size_t i = 1; i < shown.size(); ++i) {
             Caption other = caption_of(*shown[i], {latest.plate.x, below});
             other.plate.x = std::max(box.x, std::min(other.plate.x, box.right() - other.plate.w));
-            if (speed && other.plate.overlaps(*speed)) other.plate.y = speed->bottom() + gap;
+            if (const Box* label = hidden(other.plate)) other.plate.y = label->bottom() + gap;
             const bool fits = other.plate.bottom() <= box.bottom() - kFreeBelow * u;
             if (!fits) other.plate.y = above - other.plate.h;
-            if (!fits && speed && other.plate.overlaps(*speed)) other.plate.y = speed->y - gap - other.plate.h;
+            const Box* label = fits ? nullptr : hidden(other.plate);
+            if (label) other.plate.y = label->y - gap - other.plate.h;
             if (other.plate.y < box.y) return;  // no room for more
             (fits ? below : above) = fits ? other.plate.bottom() + gap : other.plate.y - gap;
             draw(other);
@@ -177,7 +185,7 @@ class Captions {
     const double u;
     const Box& box;
     TextStyle style;
-    std::optional<Box> speed;  // the cam's, which captions keep off
+    std::vector<Box> labels;  // of the mechanism, which captions keep off; the cam's speed first
 };
 
 }  // namespace

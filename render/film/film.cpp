@@ -211,7 +211,10 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
                          facts.palette->contact});
     const bool clear = setup.view.transparent;  // its words are read on whatever it is laid upon
     const auto style_of = [&](const Pill& p) {
-        return TextStyle{.size = 20 * u, .color = clear ? facts.palette->paper : p.color, .weight = Weight::medium, .align = HAlign::centre};
+        return TextStyle{.size = 20 * u,
+                         .color = clear ? facts.palette->paper : p.color,
+                         .weight = Weight::medium,
+                         .align = HAlign::centre};
     };
     const auto width = [&](const Pill& p) {
         const TextStyle style = style_of(p);

@@ -13,8 +13,8 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kLabelFade = 0.2;                 // how long a label without a free place takes to go or come [s]
-constexpr std::size_t kMeasuredPushes = 60;        // whose numbers tell how wide the label of the force becomes
+constexpr double kLabelFade = 0.2;           // how long a label without a free place takes to go or come [s]
+constexpr std::size_t kMeasuredPushes = 60;  // whose numbers tell how wide the label of the force becomes
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
 

@@ -351,7 +351,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
     const Perspective perspective = view_of(at, frame);
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr, labels};
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr,
+                           labels};
     trail(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();

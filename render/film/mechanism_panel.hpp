@@ -69,7 +69,7 @@ class MechanismPanel final : public Panel {
     std::optional<Box> label_, bar_;  // where they stand
     Box lit_box_;                     // what the lit mechanism ever covers, shadows included; whole pixels
     MechanismLabels labels_;
-    std::vector<Vec2> tips_;          // drawn tip of every frame [px]
+    std::vector<Vec2> tips_;  // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
     GrowingPath path_;        // the same in the panel's box
     ImpactRings rings_;
