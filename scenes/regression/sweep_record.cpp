@@ -23,7 +23,7 @@ constexpr std::size_t kFewestBlocks = 5;  // that have samples, or nothing is kn
 constexpr double kSureErrors = 10;
 constexpr double kSureErrorsOfAll = 8;     // of sums over points
 constexpr std::size_t kMostOfOrbit = 500;  // samples of a periodic motion that are compared: all of its orbit
-constexpr std::size_t kMostPoints = 4;
+constexpr std::size_t kMostTold = 4;
 
 using Column = std::span<const double>;
 
@@ -166,7 +166,7 @@ class SweepComparer {
         else
             of_values.insert(of_values.end(), of_class.begin(), of_class.end());
         if (of_values.empty()) return all;
-        const std::size_t told = std::min(of_values.size(), kMostPoints);
+        const std::size_t told = std::min(of_values.size(), kMostTold);
         all = {Verdict::different, {of_values.begin(), of_values.begin() + static_cast<std::ptrdiff_t>(told)}};
         if (of_values.size() > told) all.lines.push_back(fmt::format("and {} more points", of_values.size() - told));
         return all;
