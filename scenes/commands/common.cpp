@@ -12,7 +12,6 @@
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
-#include "scenes/sweep/sweep_grid.hpp"
 
 namespace beamcam::scenes {
 void add_set(Command& app, Common& common) {
@@ -46,7 +45,6 @@ Scene read_or_refuse(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::tell("{}", reading.report());
-    write_out_tables(*reading.scene);
     return std::move(*reading.scene);
 }
 

@@ -182,7 +182,6 @@ int act(const SweepArguments& args) {
     if (args.diagram) need_ending("--diagram", *args.diagram, kFigureEndings);
     if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
     Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
-    write_out_tables(scene);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
     if (args.shard) {

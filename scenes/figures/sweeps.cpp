@@ -156,7 +156,7 @@ std::string caption_words(const SweptPoints& points) {
         if (points.data.has(k)) ++kinds[kind_of(points.data.read(k))];
     const sim::Sampling& s = points.scene.sweep->sampling;
     std::string text = axes_words(points);
-    text += filled(en ? "samples: {}; transient {}, then {} kept; starts: {}. SweptPoints: "
+    text += filled(en ? "samples: {}; transient {}, then {} kept; starts: {}. Points: "
                       : "样本：{}；舍去 {}，保留 {}；初值：{}。点数：",
                    text_of_sample(s), span_words(s.transient, points.lang), span_words(s.keep, points.lang),
                    starts_words(points));
@@ -239,8 +239,9 @@ figure::Figure bifurcation(const SweptPoints& points, const std::string& value) 
         const output::StoredPoint p = points.data.read(k);
         if (!is_section(kind_of(p))) continue;
         figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k % points.seeds() : 0];
+        const double at = points.data.place(k)[0];
         for (std::size_t i = column; i < p.samples.size(); i += width) {
-            cloud.x.push_back(points.data.place(k)[0]);
+            cloud.x.push_back(at);
             cloud.y.push_back(p.samples[i]);
         }
     }
@@ -295,9 +296,9 @@ std::string map_label(const SweptPoints& points, const std::string& value) {
 
 void color_by_class(const SweptPoints& points, const std::vector<output::StoredPoint>& entries, figure::Panel& panel) {
     std::map<std::string, Color> swatches;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const figure::Swatch entry = map_entry(entries[i], points.lang);
-        panel.cells[0].colors[entries[i].point] = entry.color;
+    for (const output::StoredPoint& p : entries) {
+        const figure::Swatch entry = map_entry(p, points.lang);
+        panel.cells[0].colors[p.point] = entry.color;
         swatches.emplace(entry.label, entry.color);
     }
     for (const auto& [label, color] : swatches) panel.swatches.push_back({label, color});
@@ -336,7 +337,6 @@ std::string white_words(const SweptPoints& points, const std::string& value) {
 }
 
 figure::Figure two_key_map(const SweptPoints& points, const std::string& value) {
-    if (points.data.axes.size() != 2) throw render::PictureError("a map needs two keys that vary; give --over twice");
     figure::Panel panel;
     panel.name = value;
     const output::SweepAxis &across = points.axis(0), &up = points.axis(1);

@@ -80,7 +80,10 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     const auto* figure = std::get_if<FigureOutput>(&wanted);
     const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
     const bool of_sweep = std::holds_alternative<SweepOutput>(wanted) || (recipe && recipe->of_sweep);
-    if (!of_sweep) alone.sweep.reset();
+    if (of_sweep)
+        write_out_tables(*alone.sweep);
+    else
+        alone.sweep.reset();
     if (is_data(wanted)) alone.title.clear();
     if (!is_picture(wanted)) alone.units = {};
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);

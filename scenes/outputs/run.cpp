@@ -121,9 +121,18 @@ void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptio
     PlanResults results = motions.take(std::move(capture.results));
     for (std::size_t i = 0; i < plan.pictures.size() && capture.compared; ++i)
         for (std::size_t k = 0; k < results.compared[i].size(); ++k) capture.compared(i, k, results.compared[i][k]);
-    for (std::size_t i = 0; i < plan.figures.size(); ++i)
-        capture.figure(figure_image(plan.figures[i].make(results.of_figure(i)),
+    std::optional<SweepRun> sweep;
+    if (!plan.sweep.empty()) {
+        sweep.emplace(scene, SweepPart(), temporary_store());
+        sweep->make(options.threads, context.progress);
+    }
+    for (std::size_t i = 0; i < plan.figures.size(); ++i) {
+        Results of_figure = results.of_figure(i);
+        if (sweep) of_figure.swept = sweep->swept();
+        capture.figure(figure_image(plan.figures[i].make(of_figure),
                                     std::get<FigureOutput>(scene.outputs[plan.figures[i].output])));
+    }
+    if (sweep) sweep->remove();
     for (std::size_t i = 0; i < plan.pictures.size(); ++i) {
         stop_if_interrupted();
         const render::Film film(film_setup(plan, i, scene, results));

@@ -1,7 +1,6 @@
 #include "scenes/outputs/scene_run.hpp"
 
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,17 +93,12 @@ void SceneRun::find_impacts(double far) {
 // ---- the sweep ---------------------------------------------------------------------------------
 
 // Until all files are written the points stand beside the first of them.
-static fs::path store_of_sweep(const std::string& file, const OutputFiles& files) {
-    if (!is_stdout(file)) return files.path_of(file).string() + ".part";
-    return fs::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
-}
-
 void SceneRun::make_sweep() {
     if (plan_.sweep.empty()) return;
     const Ask& ask = context_.options.ask;
     sweep_ = std::make_unique<SweepRun>(
         scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
-        store_of_sweep(plan_.sweep, files_));
+        is_stdout(plan_.sweep) ? temporary_store() : fs::path(files_.path_of(plan_.sweep).string() + ".part"));
     if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
     try {
         sweep_->make(context_.options.threads, context_.progress);
@@ -155,8 +149,9 @@ void SceneRun::write_figure(std::size_t figure) {
     const FigureFile& f = plan_.figures[figure];
     const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
     Results results = results_.of_figure(figure);
-    if (sweep_) results.swept = {&sweep_->grid().scene(), &sweep_->data()};
-    const auto made = figure_files(f.make(results), how, scene_of_figure(scene_, how));
+    Scene carried = scene_;
+    if (sweep_) results.swept = sweep_->swept(), carried.sweep = sweep_->grid().sweep();
+    const auto made = figure_files(f.make(results), how, scene_of_figure(std::move(carried), how));
     for (const auto& [file, bytes] : made) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");

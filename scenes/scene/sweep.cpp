@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "output/data/table_reader.hpp"
+#include "scenes/scene/exit_code.hpp"
+
 namespace beamcam::scenes {
 
 using sim::SampleKind;
@@ -27,5 +33,20 @@ std::string text_of_sample(const sim::Sampling& sampling) {
     return fmt::format("section:{}={}:{}", name(sampling.channel), sampling.level,
                        sampling.rising ? "rising" : "falling");
 }
+
+static void write_out(SweptKey& over) {
+    if (over.file.empty()) return;
+    const output::NamedTable table = output::read_table(over.file);
+    const std::vector<double>* column = table.find(over.column);
+    if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
+    over.values = *column;
+    std::erase_if(over.values, [](double value) { return std::isnan(value); });
+    if (over.values.empty())
+        throw SceneError(fmt::format("sweep.over: column {} of {} is empty", over.column, over.file));
+    over.file.clear();
+    over.column.clear();
+}
+
+void write_out_tables(Sweep& sweep) { std::ranges::for_each(sweep.over, write_out); }
 
 }  // namespace beamcam::scenes

@@ -50,6 +50,9 @@ struct Sweep {
 
 // The motions at one value of the keys, in the order of their points.
 std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
+// Puts the values of the tables that the sweep names in place of them: what is made depends on these. Throws SceneError
+// where there is no such column, UnreadableFile, IoError.
+void write_out_tables(Sweep& sweep);
 std::string text_of_sample(const sim::Sampling& sampling);  // as the key "sample" is written
 
 }  // namespace beamcam::scenes

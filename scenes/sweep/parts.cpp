@@ -11,7 +11,6 @@
 #include "output/files/numbers.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/scene/exit_code.hpp"
-#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -114,11 +113,6 @@ SweepPart part_argument(const std::string& text, const std::function<const char*
         fmt::format("--shard {}: no task of an array: neither SLURM_ARRAY_TASK_ID, SGE_TASK_ID nor "
                     "PBS_ARRAY_INDEX is set; write I/N",
                     text));
-}
-
-std::string part_file(const std::string& file, const SweepPart& part) {
-    if (part.whole()) return file;
-    return shard_file(file, static_cast<int>(part.part) + 1, static_cast<int>(part.parts));
 }
 
 CollectedSweep collect(const std::vector<std::filesystem::path>& files) {

@@ -15,8 +15,6 @@ namespace beamcam::scenes {
 // std::getenv. Throws UsageError.
 SweepPart part_argument(const std::string& text, const std::function<const char*(const char*)>& variable);
 
-std::string part_file(const std::string& file, const SweepPart& part);  // "r.nc": "r.2of3.nc"
-
 // The parts as one sweep, and its points by their grid. Throws IoError: a part that is missing, there twice or not
 // finished, a part of another sweep, a file that is no part; each by name.
 struct CollectedSweep {

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "output/data/table_reader.hpp"
 #include "output/files/sha256.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/identity.hpp"
@@ -33,19 +32,6 @@ std::vector<double> values_of(const SweptKey& over) {
     return values;
 }
 
-void write_out(SweptKey& over) {
-    if (over.file.empty()) return;
-    const output::NamedTable table = output::read_table(over.file);
-    const std::vector<double>* column = table.find(over.column);
-    if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
-    over.values = *column;
-    std::erase_if(over.values, [](double value) { return std::isnan(value); });
-    if (over.values.empty())
-        throw SceneError(fmt::format("sweep.over: column {} of {} is empty", over.column, over.file));
-    over.file.clear();
-    over.column.clear();
-}
-
 // Equal numbers on every machine: SplitMix64 (Steele, Lea & Flood 2014) of the point and the key, 0 … 1.
 double random_share(std::uint64_t point, std::uint64_t key) {
     std::uint64_t z = (point + 1) * 0x9e3779b97f4a7c15 + (key + 1) * 0xd1b54a32d192ed03;
@@ -56,17 +42,13 @@ double random_share(std::uint64_t point, std::uint64_t key) {
 
 }  // namespace
 
-void write_out_tables(Scene& scene) {
-    if (scene.sweep) std::ranges::for_each(scene.sweep->over, write_out);
-}
-
 SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     scene_.outputs.clear();
     scene_.output_places.clear();
     scene_.title.clear();
     scene_.end_time = Scene{}.end_time;
-    write_out_tables(scene_);
-    Sweep& sweep = *scene_.sweep;
+    write_out_tables(*scene_.sweep);
+    const Sweep& sweep = *scene_.sweep;
     for (const SweptKey& over : sweep.over) {
         axes_.push_back({over.key, si_unit(sim::number_key(scene_.problem, over.key)->dimension), values_of(over)});
         cells_ *= axes_.back().values.size();

@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "output/data/records.hpp"
 #include "output/data/sweep_data.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
-
-// Puts the values of the tables that a sweep names in place of them: what is made depends on these. Throws SceneError
-// where there is no such column, UnreadableFile, IoError.
-void write_out_tables(Scene& scene);
 
 class SweepGrid {
   public:

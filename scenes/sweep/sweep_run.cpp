@@ -1,6 +1,7 @@
 #include "scenes/sweep/sweep_run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -38,6 +39,10 @@ std::string SweepRun::summary() const {
                             name(static_cast<sim::AttractorClass>(kind)));
     if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
     return text;
+}
+
+std::filesystem::path temporary_store() {
+    return std::filesystem::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
 }
 
 }  // namespace beamcam::scenes

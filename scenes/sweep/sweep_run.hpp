@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "scenes/figures/studies.hpp"
 #include "scenes/sweep/make_points.hpp"
 
 namespace beamcam::scenes {
@@ -18,7 +19,8 @@ class SweepRun {
     std::uint64_t points_there() const { return store_.count(); }
     void make(int threads, Progress& progress);  // as make_points
     const SweepGrid& grid() const { return grid_; }
-    const output::SweepData& data() const { return data_; }  // as long as this lives
+    const output::SweepData& data() const { return data_; }   // as long as this lives
+    Swept swept() const { return {&grid_.scene(), &data_}; }  // for figures
     output::StoredPoint read(std::uint64_t point) const { return store_.read(point); }
     // "601 points in 1.2 s: 24 following, 577 periodic", and what could not be followed.
     std::string summary() const;
@@ -31,5 +33,8 @@ class SweepRun {
     output::SweepData data_;
     double seconds_ = 0;
 };
+
+// For points that no file keeps.
+std::filesystem::path temporary_store();
 
 }  // namespace beamcam::scenes

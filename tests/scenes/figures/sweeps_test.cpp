@@ -66,6 +66,7 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.panels[1].cells.at(0).colors, SizeIs(8));
     EXPECT_THAT(figure.panels[1].swatches, SizeIs(8));
     EXPECT_THAT(figure.caption, HasSubstr("transient 200 turns of the cam"));
+    EXPECT_THAT(figure.caption, HasSubstr("starts: same start. Points: 1 rest, 1 following"));
     EXPECT_THAT(figure.caption, HasSubstr("1 over-the-top"));
     EXPECT_THAT(figure.caption, HasSubstr("statistic"));
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
@@ -186,6 +187,26 @@ TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
     const auto refused = testing::shell(folder, "$BEAMCAM check none.json");
     EXPECT_EQ(refused.code, 3);
     EXPECT_THAT(refused.err, HasSubstr("no \"sweep\""));
+}
+
+TEST(Diagram, IsMadeAgainWhenATableChangesAndIsGuardedAsABaseline) {
+    const testing::Folder folder;
+    folder.write("w.csv", "w\n40\n41\n");
+    folder.write("s.json", R"({"beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
+        "cam": {"eccentricity": "2 mm"}, "outputs": [{"type": "figure", "figure": "bifurcation", "file": "d.png"}],
+        "sweep": {"over": [{"key": "cam.speed", "file": "w.csv", "column": "w"}],
+                  "transient": {"cam_turns": 30}, "keep": {"cam_turns": 12}}})");
+    const char* run = "$BEAMCAM run s.json";
+    EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("wrote ./d.png"));
+    EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("left ./d.png"));
+    folder.write("w.csv", "w\n40\n42\n");
+    EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("wrote ./d.png"));
+    folder.write("b.json", R"({"references": "refs", "entries": {"d": {"scene": "s.json",
+        "output": {"type": "figure", "figure": "bifurcation"}}}})");
+    testing::shell(folder, "$BEAMCAM test b.json --update d");
+    const auto same = testing::shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_THAT(same.out + same.err, HasSubstr("1 identical"));
 }
 
 TEST(Diagram, OfVeryManyPointsIsAPictureUnderVectorAxes) {
