@@ -84,7 +84,10 @@ std::vector<std::string> start_facts(const sim::Problem& p, bool en) {
     if (!prescribed)
         out.push_back(rate == 0 ? (en ? "released at rest" : "由静止释放")
                                 : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate)));
-    if (!rigid)
+    const bool given = !p.initial.q.empty() || !p.initial.q_dot.empty();
+    if (given)
+        out.push_back(en ? "in a given shape at the start" : "初始为给定挠形");
+    else if (!rigid)
         out.push_back(p.initial.shape == Shape::straight
                           ? (en ? "straight at the start" : "初始为直梁")
                           : (en ? "deflected by its weight at the start" : "初始为自重静挠形"));
@@ -213,7 +216,8 @@ bool is_of_the_paper(const sim::Problem& p) {
     const bool beam = b.length == 1 && as_printed(b.area, 7.2968e-5) && as_printed(b.second_moment, 8.2189e-9) &&
                       as_printed(b.density, 2766.7) && as_printed(b.youngs_modulus, 6.8952e10);
     const bool start = as_printed(p.initial.angle, M_PI / 4) && p.initial.angular_velocity == 0 &&
-                       p.initial.shape == sim::InitialShape::straight && as_printed(p.gravity, 9.81) &&
+                       p.initial.shape == sim::InitialShape::straight && p.initial.q.empty() &&
+                       p.initial.q_dot.empty() && as_printed(p.gravity, 9.81) &&
                        std::holds_alternative<sim::FreeDrive>(p.hub.drive);
     const bool cam = !p.cam || (p.cam->centre.x == 0.25 && p.cam->centre.y == 0 && as_printed(p.cam->radius, 0.1) &&
                                 std::ranges::count(kPaperSpeeds, p.cam->speed) > 0);
@@ -243,12 +247,11 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {
     if (problem.beam.model == sim::ModelKind::rigid) return std::nullopt;
     sim::Problem fewer = problem;
-    if (problem.beam.modes > 1) {
-        --fewer.beam.modes;
-        if (fewer.beam.damping_ratio.size() > 1) fewer.beam.damping_ratio.pop_back();
-    } else {
-        fewer.beam.model = sim::ModelKind::rigid;
-    }
+    const sim::Beam& beam = problem.beam;
+    if (beam.modes > 1)
+        set_shapes(fewer, beam.model, beam.basis, beam.modes - 1);
+    else
+        set_shapes(fewer, sim::ModelKind::rigid, beam.basis, beam.modes);
     return fewer;
 }
 

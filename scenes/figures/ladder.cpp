@@ -55,10 +55,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
     for (const Basis basis : {Basis::hub_beam, Basis::cantilever})
         for (const int modes : kModes) {
             sim::Problem p = scene.problem;
-            p.beam.model = ModelKind::first_order;
-            p.beam.basis = basis;
-            p.beam.modes = modes;
-            if (p.beam.damping_ratio.size() > 1) p.beam.damping_ratio.resize(static_cast<std::size_t>(modes), 0);
+            set_shapes(p, ModelKind::first_order, basis, modes);
             // Cantilever shapes with many modes lose the inertia of a light hub; see the model's limits.
             if (basis == Basis::cantilever && modes > 6) continue;
             runs.push_back({basis, modes, studies.of(p, scene.end_time, "apex-modes"), p});
@@ -137,14 +134,10 @@ std::vector<Rung> rungs(const Scene& scene, Lang lang) {
     all.push_back({ModelKind::exact, Basis::automatic, false, name(ModelKind::exact)});
     for (Rung& rung : all) {
         rung.problem = problem;
-        sim::Beam& beam = rung.problem.beam;
-        beam.model = rung.model;
-        beam.basis = rung.basis;
-        if (rung.model == ModelKind::exact) {
-            // The elastica's own shapes resolve what the scene's modes do with about twice as many.
-            beam.modes = std::min(2 * beam.modes + 1, 40);
-            if (beam.damping_ratio.size() > 1) beam.damping_ratio.resize(static_cast<std::size_t>(beam.modes), 0);
-        }
+        const sim::Beam& beam = rung.problem.beam;
+        // The elastica's own shapes resolve what the scene's modes do with about twice as many.
+        const int shapes = rung.model == ModelKind::exact ? std::min(2 * beam.modes + 1, 40) : beam.modes;
+        set_shapes(rung.problem, rung.model, rung.basis, shapes);
         int& steps = rung.problem.solver.max_steps;
         if (rung.model != ModelKind::rigid) steps = std::min(steps, affordable_steps(beam.model, beam.modes));
     }

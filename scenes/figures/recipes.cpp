@@ -78,7 +78,7 @@ sim::Problem without_cam(sim::Problem problem) {
 }
 
 sim::Problem rigid(sim::Problem problem) {
-    problem.beam.model = sim::ModelKind::rigid;
+    set_shapes(problem, sim::ModelKind::rigid, problem.beam.basis, problem.beam.modes);
     return problem;
 }
 

@@ -243,6 +243,18 @@ Eigen::VectorXd rod_on_cam(const System& system) {
     return xi;
 }
 
+// Puts the coordinates of the shapes that are given into the state; how far they turn the hub.
+double given(System& system, const std::vector<double>& coordinates, Eigen::VectorXd& xi) {
+    const double* hub = system.model().hub_row();
+    double turned = 0;
+    for (std::size_t i = 0; i < coordinates.size() && static_cast<Eigen::Index>(i) + 1 < xi.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i) + 1;
+        xi[row] = coordinates[i];
+        turned += hub[row] * coordinates[i];
+    }
+    return turned / hub[0];
+}
+
 }  // namespace
 
 InitialState initial_state(const Problem& problem) { return initial_state(System(problem)); }
@@ -257,7 +269,8 @@ InitialState initial_state(const System& of) {
     xi[0] = system.drive().prescribed() ? system.drive().motion(0).angle : problem.initial.angle;
     double* y = state.y.data();
     switch (problem.initial.shape) {
-        case InitialShape::straight:
+        case InitialShape::straight:  // but for what is given
+            xi[0] -= given(system, problem.initial.q, xi);
             break;
         case InitialShape::static_equilibrium:
             if (!hold(system, xi[0], xi))
@@ -285,7 +298,11 @@ InitialState initial_state(const System& of) {
         }
     }
     std::copy_n(xi.data(), n, y);
-    if (problem.initial.shape != InitialShape::resting) y[n] = problem.initial.angular_velocity;
+    if (problem.initial.shape != InitialShape::resting) {
+        Eigen::VectorXd rate = Eigen::VectorXd::Zero(n);
+        rate[0] = problem.initial.angular_velocity - given(system, problem.initial.q_dot, rate);
+        std::copy_n(rate.data(), n, y + n);
+    }
     if (system.drive().prescribed()) {
         const HubMotion hub = system.drive().motion(0);
         y[0] = hub.angle;

@@ -209,7 +209,8 @@ void check_geometry(Findings& out, const Problem& p) {
     }
     if (p.initial.shape == InitialShape::resting) return;
     try {
-        const auto [gap, x] = p.initial.shape == InitialShape::straight ? straight_gap(p) : gap_at_start(p);
+        const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
+        const auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
         if (gap < -1e-12 * std::max(1.0, p.beam.length))
             out.refuse("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
                                                     "the beam); raise the angle, turn cam.phase, "
@@ -217,6 +218,16 @@ void check_geometry(Findings& out, const Problem& p) {
                                                     -gap, x));
     } catch (const StepFailure& failure) {
         out.refuse("initial.shape", failure.what());
+    }
+}
+
+void check_given_shapes(Findings& out, const Problem& p) {
+    const int shapes = p.beam.model == ModelKind::rigid ? 0 : p.beam.modes;
+    for (const auto& [key, given] : {std::pair{"initial.q", &p.initial.q}, std::pair{"initial.q_dot", &p.initial.q_dot}}) {
+        if (static_cast<int>(given->size()) > shapes)
+            out.refuse(key, fmt::format("{} values, but the beam has {} shapes", given->size(), shapes));
+        if (!given->empty() && p.initial.shape != InitialShape::straight)
+            out.refuse(key, fmt::format("the shape \"{}\" has its own; use \"straight\"", name(p.initial.shape)));
     }
 }
 
@@ -238,6 +249,7 @@ std::vector<Finding> validate(const Problem& problem) {
             out.refuse("initial.shape",
                        "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
+    check_given_shapes(out, problem);
     bool sane = out.list.empty();
     if (sane) {
         out.list = beyond_arithmetic(problem);

@@ -1,6 +1,8 @@
 // Values that follow from a problem's numbers.
 #include "sim/problem/derived.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "sim/base/assert.hpp"
@@ -42,6 +44,19 @@ double impact_depth(double exponent, double stiffness, double mass, double speed
 double cam_period(const Problem& problem) {
     const bool turns = problem.cam && problem.cam->speed != 0;
     return turns ? 2 * std::numbers::pi / std::fabs(problem.cam->speed) : 1;
+}
+
+void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes) {
+    Beam& beam = problem.beam;
+    const bool bends = model == ModelKind::exact;  // its coordinates are angles
+    const bool same = basis == beam.basis && bends == (beam.model == ModelKind::exact) && model != ModelKind::rigid;
+    const auto count = static_cast<std::size_t>(modes);
+    for (std::vector<double>* given : {&problem.initial.q, &problem.initial.q_dot})
+        given->resize(same ? std::min(given->size(), count) : 0);
+    if (beam.damping_ratio.size() > 1) beam.damping_ratio.resize(count, double(beam.damping_ratio.back()));
+    beam.model = model;
+    beam.basis = basis;
+    beam.modes = modes;
 }
 
 }  // namespace beamcam::sim

@@ -141,6 +141,7 @@ struct Initial {
     double angle = 0.78539816339744830962;  // θ(0) [rad], of the hub
     double angular_velocity = 0;            // [rad/s], rigid rotation of the given shape
     InitialShape shape = InitialShape::straight;
+    std::vector<double> q = {}, q_dot = {};  // of a straight beam's first shapes, besides the rotation; others are 0
 };
 
 enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
@@ -171,6 +172,10 @@ double cam_period(const Problem& problem);         // 2π/|ω|; 1 s with a cam a
 double damping_factor(DampingLaw law, double restitution);
 // The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].
 double effective_restitution(double damping_factor);
+
+// Another model, other shapes or another number of them. The last damping ratio serves shapes that are added; initial
+// coordinates stay as far as they mean the same.
+void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes);
 
 // Names as scenes spell them ("first-order", "hub-beam", "lankarani-nikravesh", …).
 const char* name(ModelKind);

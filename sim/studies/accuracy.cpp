@@ -150,13 +150,6 @@ class Trials {
     Clock::time_point started_ = Clock::now();
 };
 
-// One damping ratio a shape: the last serves those that are added.
-void set_modes(Problem& problem, int modes) {
-    problem.beam.modes = modes;
-    std::vector<double>& ratios = problem.beam.damping_ratio;
-    if (ratios.size() > 1) ratios.resize(static_cast<std::size_t>(modes), double(ratios.back()));
-}
-
 class Assessment {
   public:
     Assessment(const Problem& problem, const AccuracyRequest& request, const Trials::Tell& tell)
@@ -266,7 +259,7 @@ class Assessment {
             trials_.about(fmt::format("{} shapes", ladder[i]),
                           0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
             Problem variant = problem_;
-            set_modes(variant, ladder[i]);
+            set_shapes(variant, variant.beam.model, variant.beam.basis, ladder[i]);
             ModesRow row;
             row.modes = ladder[i];
             const double limit = 5 * request_.longest_run;
@@ -294,8 +287,7 @@ class Assessment {
             trials_.about(fmt::format("model {}", name(descending[i])),
                           0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
             Problem variant = problem_;
-            variant.beam.model = descending[i];
-            set_modes(variant, std::max(problem_.beam.modes, kModelShapes));
+            set_shapes(variant, descending[i], variant.beam.basis, std::max(problem_.beam.modes, kModelShapes));
             if (descending[i] == ModelKind::exact || descending[i] == ModelKind::second_order)
                 variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
             ModelRow row;
@@ -384,7 +376,7 @@ class Assessment {
         }
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
-        set_modes(chosen, r.modes);
+        set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
         trials_.about("recommendation", 0.97);
         const double limit = kSpare * request_.longest_run;
         try {

@@ -1,4 +1,4 @@
-// The equilibria that a run may start from.
+// The equilibria and the given states that a run may start from.
 #include "sim/dynamics/initial.hpp"
 
 #include <gtest/gtest.h>
@@ -73,6 +73,63 @@ TEST(Equilibrium, ThatDoesNotExistIsNotFoundInABeamOfAMillimetre) {
     // Far too soft to lie on the cam.
     for (const double size : {1.0, 1e-3, 1e2})
         EXPECT_FALSE(equilibrium(ModelKind::first_order, InitialShape::resting, 1e5, size).has_value()) << size;
+}
+
+// The problem whose motion begins where the given one is at an instant in flight. Rates of the shapes are differences
+// of fourth order of channels.
+Problem continued(const Problem& from, double at) {
+    Problem p = from;
+    const double h = 2e-5;
+    const auto value = [&](const std::string& name) { return series(from, name.c_str(), {at}).front(); };
+    p.initial.angle = value("theta");
+    p.initial.angular_velocity = value("theta_dot");
+    for (int i = 1; i <= from.beam.modes; ++i) {
+        const std::string name = "q" + std::to_string(i);
+        const auto q = series(from, name.c_str(), {at - 2 * h, at - h, at, at + h, at + 2 * h});
+        p.initial.q.push_back(q[2]);
+        p.initial.q_dot.push_back((q[0] - 8 * q[1] + 8 * q[3] - q[4]) / (12 * h));
+    }
+    if (p.cam) p.cam->phase -= p.cam->speed * at;  // clockwise
+    return p;
+}
+
+TEST(GivenShapes, ContinueAMotionFromAnyInstantInFlight) {
+    for (const auto& [kind, basis] : {std::pair{ModelKind::first_order, Basis::hub_beam},
+                                      std::pair{ModelKind::first_order, Basis::cantilever},
+                                      std::pair{ModelKind::second_order, Basis::automatic},
+                                      std::pair{ModelKind::exact, Basis::automatic}}) {
+        Problem whole;
+        whole.beam.model = kind;
+        whole.beam.basis = basis;
+        whole.cam->speed = 5;
+        whole.solver.rtol = 1e-10;
+        const double at = 0.32;  // after the first impact
+        ASSERT_GT(series(whole, "gap", {at}).front(), 1e-4) << name(kind);
+        const Problem rest = continued(whole, at);
+        EXPECT_TRUE(validate(rest).empty()) << name(kind);
+        const std::vector<double> later = {0.01, 0.05, 0.1};
+        std::vector<double> instants;
+        for (const double t : later) instants.push_back(at + t);
+        for (const char* channel : {"theta", "theta_dot", "tip_deflection", "q2"}) {
+            const auto expected = series(whole, channel, instants), got = series(rest, channel, later);
+            for (std::size_t i = 0; i < later.size(); ++i)
+                EXPECT_NEAR(got[i], expected[i], 1e-5 * (1 + std::fabs(expected[i])))
+                    << name(kind) << " " << name(basis) << " " << channel << " after " << later[i] << " s";
+        }
+    }
+}
+
+TEST(GivenShapes, LeaveTheHubAtItsAngle) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
+        Problem p = falling_beam(kind);
+        p.initial.angular_velocity = 0.25;
+        p.initial.q = {1e-3, -2e-4};
+        p.initial.q_dot = {0.1};
+        EXPECT_NEAR(series(p, "theta", {0}).front(), kQuarterTurn, 1e-15) << name(kind);
+        EXPECT_NEAR(series(p, "theta_dot", {0}).front(), 0.25, 1e-12) << name(kind);
+        EXPECT_DOUBLE_EQ(series(p, "q1", {0}).front(), 1e-3) << name(kind);
+        EXPECT_DOUBLE_EQ(series(p, "q2", {0}).front(), -2e-4) << name(kind);
+    }
 }
 
 }  // namespace

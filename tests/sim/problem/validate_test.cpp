@@ -143,6 +143,22 @@ const Refusal kRefusals[] = {
          p.initial.shape = InitialShape::resting;
          p.hub.drive = ConstantSpeed{1};
      }},
+    {"initial.q",
+     [](Problem& p) {
+         p.initial.q.assign(static_cast<std::size_t>(p.beam.modes) + 1, 0.0);
+     }},
+    {"initial.q",
+     [](Problem& p) {
+         p.beam.model = ModelKind::rigid;
+         p.initial.q = {0.0};
+     }},
+    {"initial.q_dot",
+     [](Problem& p) {
+         p.initial.shape = InitialShape::static_equilibrium;
+         p.initial.q_dot = {0.0};
+     }},
+    {"initial.q", [](Problem& p) { p.initial.q = {kNan}; }},
+    {"initial.q_dot", [](Problem& p) { p.initial.q_dot = {INFINITY}; }},
     {"solver.rtol", [](Problem& p) { p.solver.rtol = 1e-14; }},
     {"solver.rtol", [](Problem& p) { p.solver.rtol = 0.1; }},
     {"solver.atol", [](Problem& p) { p.solver.atol = 0; }},
