@@ -25,6 +25,7 @@ struct Film::Prepared {
     Image ground;                                // all that never changes
     std::vector<Box> ground_texts;
     std::string widest_speed;  // of all frames
+    bool steady = true;        // one speed throughout
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
         for (const PanelSlot& slot : facts.places.panels) {
@@ -35,6 +36,7 @@ struct Film::Prepared {
         }
         draw_ground();
         widest_speed = facts.say(widest_speed_text(facts.setup->speeds));
+        steady = steady_speed(facts.setup->speeds);
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
@@ -207,7 +209,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         pills.push_back({words, words, facts.palette->motion});
     }
     if (setup.view.show.legend && !setup.speeds.empty())
-        pills.push_back({facts.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)])), widest_speed,
+        pills.push_back({facts.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)), widest_speed,
                          facts.palette->contact});
     const bool clear = setup.view.transparent;  // its words are read on whatever it is laid upon
     const auto style_of = [&](const Pill& p) {

@@ -110,21 +110,34 @@ std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& p
     return out;
 }
 
-std::string speed_text(double speed) {
+// But for rounding.
+static bool same_speed(double one, double other) { return std::abs(one - other) <= 1e-6 * other; }
+
+bool steady_speed(const std::vector<double>& speeds) {
+    const double fastest = speeds.empty() ? 0 : std::ranges::max(speeds);
+    return std::ranges::all_of(speeds, [&](double speed) { return speed == 0 || same_speed(speed, fastest); });
+}
+
+std::string speed_text(double speed, bool steady) {
     if (speed == 0) return "frozen";
-    if (std::abs(speed - 1) < 0.05) return {};
+    if (std::abs(speed - 1) < (steady ? 0.005 : 0.05)) return {};
     if (speed > 1) return fmt::format("{:.2g}× speed", speed);
     double slower = 1 / speed;
-    // Told exactly where it is a whole number, else to the next round one.
     const double whole = std::round(slower);
-    slower = std::abs(slower - whole) <= 1e-6 * slower ? whole : slower < 2 ? 1.5 : round_down_125(slower);
+    if (same_speed(1 / whole, speed))
+        slower = whole;
+    else if (steady)
+        return fmt::format("{:.3g}× speed", speed);
+    else
+        slower = slower < 2 ? 1.5 : round_down_125(slower);
     return slower == 1.5 ? "2/3 speed" : fmt::format("1/{:.7g} speed", slower);
 }
 
 std::string widest_speed_text(const std::vector<double>& speeds) {
     std::string widest;
+    const bool steady = steady_speed(speeds);
     for (double speed : speeds)
-        if (std::string text = speed_text(speed); text.size() > widest.size()) widest = std::move(text);
+        if (std::string text = speed_text(speed, steady); text.size() > widest.size()) widest = std::move(text);
     return widest;
 }
 

@@ -16,10 +16,12 @@ std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& p
 // "0.5 rad/s", "−300 rpm": without SI prefixes. `speed` in rad/s.
 std::string turning_speed(double speed, bool rpm);
 
-// "1/50 speed", "2× speed", "frozen"; empty at the true speed. Speeds on the way from one to another are told by
-// a round fraction.
-std::string speed_text(double speed);
-// The longest of them, which a film keeps room for.
+// Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at the true speed. Speeds on the way from one
+// to another are told by a round fraction.
+std::string speed_text(double speed, bool steady);
+// Whether a film runs at one speed, but where it stands.
+bool steady_speed(const std::vector<double>& speeds);
+// The longest of the texts, which a film keeps room for.
 std::string widest_speed_text(const std::vector<double>& speeds);
 
 // How instants are written: the unit and the decimals that tell neighbouring frames apart.

@@ -27,9 +27,10 @@ void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
     app.flag("--force", common.force, "Replace files that beamcam did not make");
 }
 
-void need_room(const AnswerFiles& files, std::initializer_list<const char*> endings, output::Manifest& manifest) {
-    for (const std::string& file : files.names) {
-        need_ending("-o", file, endings);
+void need_room(const char* option, const std::vector<std::string>& files, std::initializer_list<const char*> endings,
+               output::Manifest& manifest) {
+    for (const std::string& file : files) {
+        need_ending(option, file, endings);
         if (file == "-") continue;
         manifest.require_replaceable(file);
         output::AtomicFile(manifest.target(file));  // created and removed: a place that cannot be written is told now

@@ -26,7 +26,8 @@ struct AnswerFiles {
 void add_answer_files(Command& app, AnswerFiles& files, Common& common);
 
 // Before any work. Throws UsageError for another ending, WouldOverwrite, IoError where nothing can be written.
-void need_room(const AnswerFiles& files, std::initializer_list<const char*> endings, output::Manifest& manifest);
+void need_room(const char* option, const std::vector<std::string>& files, std::initializer_list<const char*> endings,
+               output::Manifest& manifest);
 
 // The answer as JSON or in words on standard output, and each file; data alone where "-" is one of them.
 struct Answer {

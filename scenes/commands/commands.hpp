@@ -84,6 +84,8 @@ using output::print_text;
 Scene read_or_refuse(const std::string& path, const Common& common);
 // The scene with the film that one without outputs yields.
 Scene with_default_output(Scene scene);
+// What new films of a scene look like: its first film, sequence or still, else the default film.
+VideoOutput film_to_imitate(const Scene& scene);
 RunOptions run_options(const Common& common, std::string directory);
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans

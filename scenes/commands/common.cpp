@@ -71,6 +71,27 @@ Scene with_default_output(Scene scene) {
     return scene;
 }
 
+VideoOutput film_to_imitate(const Scene& scene) {
+    VideoOutput film = default_film(scene);
+    for (const Output& output : scene.outputs) {
+        if (const auto* video = std::get_if<VideoOutput>(&output)) {
+            film = *video;
+            film.span.poster.reset();  // what is asked for is made, nothing beside it
+            return film;
+        }
+        if (const auto* frames = std::get_if<FramesOutput>(&output)) {
+            static_cast<Picture&>(film) = *frames;
+            film.span = frames->span;
+            return film;
+        }
+        if (const auto* still = std::get_if<StillOutput>(&output)) {
+            static_cast<Picture&>(film) = *still;
+            return film;
+        }
+    }
+    return film;
+}
+
 RunOptions run_options(const Common& common, std::string directory) {
     RunOptions options;
     options.directory = std::move(directory);

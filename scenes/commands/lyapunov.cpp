@@ -49,7 +49,7 @@ int act(const LyapunovArguments& args) {
     request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
     if (!(request.duration > 0)) throw UsageError("--duration must be positive");
     output::Manifest manifest(args.common.force);
-    need_room(args.files, {".json", ".png", ".svg", ".pdf"}, manifest);
+    need_room("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
     progress.begin("exponents", request.transient + request.duration, "s");
     const sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, [&](double t) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
 #include "output/data/records.hpp"
+#include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/answer_files.hpp"
 #include "scenes/figures/branches.hpp"
@@ -21,7 +23,7 @@ struct OrbitsArguments {
     Common common;
     std::string scene;
     AnswerFiles files;
-    std::optional<std::string> transient, over;
+    std::optional<std::string> transient, over, scene_file;
     std::optional<double> at;
     int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000;
     double step = 0.01;
@@ -164,12 +166,53 @@ std::string in_words(const output::BranchTable& table) {
     return text + branches_text(table);
 }
 
+// The scene that moves on the orbit, with one film: the second period, whose first picture follows on its last. It
+// looks like the scene's own film and lasts as long, at least three seconds.
+Scene scene_on(const Scene& scene, const sim::PeriodicOrbit& orbit, const sim::Problem& begun, std::string name) {
+    constexpr double kShortest = 3;  // [s]
+    VideoOutput film = film_to_imitate(scene);
+    const FrameSpan before = film.span;
+    film.span = {.fps = before.fps};
+    film.span.from = orbit.period;
+    film.span.to = 2 * orbit.period;
+    const double length = std::max(kShortest, before.duration.value_or(orbit.period / before.speed.factor));
+    film.span.duration = std::max(1.0, std::round(length * before.fps.value())) / before.fps.value();
+    film.file = name + ".mp4";
+    Scene out = scene;
+    out.name = std::move(name);
+    out.problem = begun;
+    out.end_time = 2 * orbit.period;
+    out.sweep.reset();
+    out.data.clear();
+    out.set_outputs({std::move(film)});
+    return out;
+}
+
+void write_scene(const OrbitsArguments& args, const Scene& scene, const std::vector<sim::PeriodicOrbit>& orbits,
+                 output::Manifest& manifest) {
+    for (const sim::PeriodicOrbit& orbit : orbits)
+        if (const std::optional<sim::Problem> begun = sim::begun_on(scene.problem, orbit)) {
+            const Scene on = scene_on(scene, orbit, *begun, std::filesystem::path(*args.scene_file).stem().string());
+            output::write_file(manifest.target(*args.scene_file), to_json(on));
+            manifest.save();
+            return say(args.common, "wrote " + *args.scene_file);
+        }
+    if (!orbits.empty())
+        say(args.common, fmt::format("{} is not written: on these orbits the beam never leaves the cam; film "
+                                     "the scene itself, after its transient",
+                                     *args.scene_file));
+}
+
 int act(const OrbitsArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     std::optional<KeyRange> range;
     if (args.over) range = range_argument(*args.over, scene.problem);
     output::Manifest manifest(args.common.force);
-    need_room(args.files, {".json", ".csv", ".png", ".svg", ".pdf"}, manifest);
+    need_room("-o", args.files.names, {".json", ".csv", ".png", ".svg", ".pdf"}, manifest);
+    if (args.scene_file) {
+        if (*args.scene_file == "-") throw UsageError("--scene -: give a file; films are named after it");
+        need_room("--scene", {*args.scene_file}, {".json"}, manifest);
+    }
     for (const std::string& file : args.files.names)
         if (!range && !is_data_file(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
     std::optional<ProblemFamily> family;
@@ -207,6 +250,7 @@ int act(const OrbitsArguments& args) {
     write_answer({[&] { return output::orbits_json(table); }, [&] { return in_words(table); },
                   [&](const std::string& file) { return content(table, args, scene, file); }},
                  args.files, args.common, manifest);
+    if (args.scene_file) write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty())
         say(args.common, "no periodic orbit was found: try another initial state, --turns, --impacts or --transient");
     else if (range && table.branches.empty())
@@ -237,6 +281,8 @@ void add_orbits(Grammar& grammar) {
         .range(1e-6, 0.5);
     app.option("--most-points", &args->most_points, "N", "Points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
+    app.option("--scene", &args->scene_file, "FILE.json",
+               "Also a scene that begins on the first orbit, with a film of one period that loops: render it next");
     add_answer_files(app, args->files, args->common);
     app.bind(args, act);
 }

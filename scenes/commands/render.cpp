@@ -25,28 +25,6 @@ struct RenderArguments {
         shard, poster, show, duration;
 };
 
-// What `render` draws like: the scene's first film, sequence or still, else the default film.
-VideoOutput film_to_imitate(const Scene& scene) {
-    VideoOutput film = default_film(scene);
-    for (const Output& output : scene.outputs) {
-        if (const auto* video = std::get_if<VideoOutput>(&output)) {
-            film = *video;
-            film.span.poster.reset();  // `render` makes what it is asked for
-            return film;
-        }
-        if (const auto* frames = std::get_if<FramesOutput>(&output)) {
-            static_cast<Picture&>(film) = *frames;
-            film.span = frames->span;
-            return film;
-        }
-        if (const auto* still = std::get_if<StillOutput>(&output)) {
-            static_cast<Picture&>(film) = *still;
-            return film;
-        }
-    }
-    return film;
-}
-
 // "0.1", or "impacts": slow motion around them.
 void apply_speed(const std::string& text, Speed& speed) {
     if (text == "impacts") {

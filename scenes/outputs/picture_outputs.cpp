@@ -202,7 +202,7 @@ static void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.form("from", bound_form(span.from, span.from_event), "First instant.");
     v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.either(
-        "speed", speed_form(span.speed),
+        written_if(!span.duration, "speed"), speed_form(span.speed),
         [&span](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), span.speed); },
         "How fast time runs: a factor, 1 is real time; \"impacts\": slow motion around them, or an object that says "
         "how "

@@ -311,4 +311,16 @@ InitialState initial_state(const System& of) {
     return state;
 }
 
+Initial initial_of(const System& of, const std::vector<double>& y) {
+    System system(of);
+    system.place(0, y.data());
+    const auto rates = y.begin() + system.coordinates();
+    Initial initial;
+    initial.angle = system.model().hub_angle();
+    initial.angular_velocity = system.model().hub_rate();
+    initial.q.assign(y.begin() + 1, rates);
+    initial.q_dot.assign(rates + 1, rates + system.coordinates());
+    return initial;
+}
+
 }  // namespace beamcam::sim

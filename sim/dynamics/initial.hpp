@@ -1,4 +1,4 @@
-// The state at t = 0: straight, in static equilibrium with the hub held, or resting on the cam.
+// The state at t = 0: straight or as given, in static equilibrium with the hub held, or resting on the cam.
 #pragma once
 
 #include <vector>
@@ -17,5 +17,8 @@ struct InitialState {
 InitialState initial_state(const Problem& problem);
 // The same with a system of that problem at hand, which is copied.
 InitialState initial_state(const System& of);
+
+// What a problem says to begin in a state of the system, of its `size`, that does not touch the cam.
+Initial initial_of(const System& of, const std::vector<double>& y);
 
 }  // namespace beamcam::sim

@@ -211,4 +211,13 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
     return found;
 }
 
+std::optional<Problem> begun_on(const Problem& problem, const PeriodicOrbit& orbit) {
+    Place place{orbit.section, orbit.start};
+    if (place.state.phase.touching) place = longest_flight(for_orbits(problem), place, orbit.period, {});
+    if (place.state.phase.touching) return std::nullopt;
+    Problem begun = at_section(problem, place.section);
+    begun.initial = initial_of(System(begun), place.state.y);
+    return begun;
+}
+
 }  // namespace beamcam::sim

@@ -49,4 +49,8 @@ struct OrbitRequest {
 std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitRequest& request,
                                        const Progress& progress = {});
 
+// The same machine, begun on the orbit in the middle of a flight. Nothing where the beam never leaves the cam. Throws
+// SolverError, Interrupted.
+std::optional<Problem> begun_on(const Problem& problem, const PeriodicOrbit& orbit);
+
 }  // namespace beamcam::sim

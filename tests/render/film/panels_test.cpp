@@ -888,13 +888,18 @@ TEST(Colors, WordsStandOutFromThePaper) {
 }
 
 TEST(Labels, SpeedsAreToldAsFractions) {
-    EXPECT_EQ(speed_text(1), "");
-    EXPECT_EQ(speed_text(0.02), "1/50 speed");
-    EXPECT_EQ(speed_text(0.004 * (1 + 1e-9)), "1/250 speed");  // rounding is no other speed
-    EXPECT_EQ(speed_text(0.5), "1/2 speed");
-    EXPECT_EQ(speed_text(0.037), "1/20 speed");
-    EXPECT_EQ(speed_text(0), "frozen");
-    EXPECT_EQ(speed_text(4), "4× speed");
+    EXPECT_EQ(speed_text(1, true), "");
+    EXPECT_EQ(speed_text(0.02, true), "1/50 speed");
+    EXPECT_EQ(speed_text(0.004 * (1 + 1e-9), true), "1/250 speed");  // rounding is no other speed
+    EXPECT_EQ(speed_text(0.5, true), "1/2 speed");
+    EXPECT_EQ(speed_text(0.037, false), "1/20 speed");  // on the way from one speed to another
+    EXPECT_EQ(speed_text(0.97, false), "");
+    EXPECT_TRUE(steady_speed({0.037, 0, 0.037}));
+    EXPECT_FALSE(steady_speed({0.037, 0.04}));
+    EXPECT_EQ(speed_text(0.037, true), "0.037× speed");
+    EXPECT_EQ(speed_text(0.97, true), "0.97× speed");
+    EXPECT_EQ(speed_text(0, true), "frozen");
+    EXPECT_EQ(speed_text(4, true), "4× speed");
 }
 
 TEST(Labels, BothCoefficientsOfStickSlipAreTold) {

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "scenes/scene/film_times.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -72,15 +75,61 @@ TEST(OrbitsCommand, BeginsElsewhereInTheRangeWhereTheSceneHasNoOrbit) {
     EXPECT_THAT(done.out, HasSubstr("fold             cam.speed = 42.235"));
 }
 
+// The film shows one period, the second: as the motion stands at its beginning and at its end, so it stood at the
+// start.
+TEST(OrbitsCommand, WritesASceneThatStaysOnTheOrbitAndWhoseFilmLoops) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": {"speed": 12}, "beam": {"damping_ratio": 0.01}})");
+    const Finished done =
+        shell(folder,
+              "$BEAMCAM orbits s.json --transient '100 s' -q --json --scene loop.json && $BEAMCAM check loop.json -q");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const Reading reading = testing::read(testing::slurp((folder / "loop.json").string()));
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const Scene& scene = *reading.scene;
+    ASSERT_EQ(scene.outputs.size(), 1u);
+    const auto& film = std::get<VideoOutput>(scene.outputs.front());
+    const double period = 3 * 2 * std::numbers::pi / 12;
+    EXPECT_DOUBLE_EQ(scene.end_time, 2 * period);
+    EXPECT_DOUBLE_EQ(film.span.from, period);
+    EXPECT_DOUBLE_EQ(film.span.to.value(), 2 * period);
+
+    sim::Request request;
+    std::vector<sim::Channel> channels;
+    for (const char* name : {"theta", "theta_dot", "q1", "q2", "tip_rate"})
+        channels.push_back(sim::channel_named(name).value());
+    request.tables.push_back({{0, period, 2 * period}, channels});
+    const sim::Result motion = sim::simulate(scene.problem, request);
+    for (const std::vector<double>& values : motion.tables.front().values)
+        for (const double later : {values[1], values[2]}) EXPECT_NEAR(later, values[0], 1e-6);
+    EXPECT_EQ(motion.impacts.size(), 2 * nlohmann::json::parse(done.out)["orbits"][0]["impacts"].size());
+
+    const FilmTimes times = film_times(film.span, scene.end_time, motion);
+    ASSERT_EQ(times.frames.size(), 180u);  // three seconds
+    EXPECT_NEAR(times.frames.front(), period, 1e-12);
+    EXPECT_NEAR(times.frames.back() + period / 180, 2 * period, 1e-12);
+}
+
+TEST(OrbitsCommand, TellsThatABeamThatNeverLeavesTheCamHasNoFlightToBeginIn) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(folder, "$BEAMCAM orbits s.json --set cam.speed=5 --scene loop.json");
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("never leaves the cam"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "loop.json"));
+}
+
 TEST(OrbitsCommand, TellsWhatItCannotDo) {
     const Folder folder;
     folder.write("s.json", kPressed);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json -o b.pdf").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.speed").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --scene -").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.sped=1:2").code, 3);
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set cam.speed=0").err, HasSubstr("cam.speed"));
     EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json --set beam.model=exact").err, HasSubstr("first-order"));
-    for (const char* command : {"lyapunov s.json -o nowhere/l.svg", "orbits s.json -o nowhere/o.csv"})  // before any work
+    for (const char* command :
+         {"lyapunov s.json -o nowhere/l.svg", "orbits s.json -o nowhere/o.csv"})  // before any work
         EXPECT_EQ(shell(folder, std::string("$BEAMCAM ") + command + " --set cam.speed=0").code, 6);
 }
 

@@ -102,7 +102,7 @@ TEST(Corpus, ReaderAndSchemaAgreeOnEveryMutant) {
 }
 
 TEST(Corpus, AResolvedSceneReadsBackToItself) {
-    for (const char* folder : {"valid", "whole"})
+    for (const char* folder : {"valid", "whole", "full"})
         for (const auto& file : files_in(folder)) {
             const Reading first = read_file(file);
             ASSERT_TRUE(first.scene);
