@@ -1,5 +1,5 @@
-// Loads the program's own modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/lit.hpp), when they are first needed:
-// linking their libraries would cost every start some tens of milliseconds.
+// Loads the program's own modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/lit.hpp), when they are first
+// needed: linking their libraries would cost every start some tens of milliseconds.
 //
 // A module exports one function, `beamcam_module`, and offers one C++ interface through it. Program and module must
 // come from the same headers and compiler; `kModuleInterface`, a digest of both, is compared before anything else.

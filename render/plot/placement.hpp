@@ -24,7 +24,8 @@ class OccupancyGrid {
     double covered(const Box& box) const;
     // The first of the places (at least one) that is free, else the one that is covered least.
     Box choose(std::span<const Box> places) const;
-    // The free place nearest to this one, moved by whole cells; where none is free, one that is covered little and near.
+    // The free place nearest to this one, moved by whole cells; where none is free, one that is covered little and
+    // near.
     Box nearest_free(const Box& wanted) const;
 
     const Box& area() const { return area_; }

@@ -35,7 +35,8 @@ std::optional<PrefixedUnit> unit_of(const std::string& label) {
     constexpr render::Prefix kPrefixes[] = {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"m", 1e-3}, {"µ", 1e-6}, {"n", 1e-9}};
     for (const char* base : {"m", "N", "J", "s"})
         for (const render::Prefix& prefix : kPrefixes)
-            if (text == std::string(prefix.symbol) + base) return PrefixedUnit{label.substr(0, at), prefix.factor, base};
+            if (text == std::string(prefix.symbol) + base)
+                return PrefixedUnit{label.substr(0, at), prefix.factor, base};
     return std::nullopt;
 }
 

@@ -223,7 +223,8 @@ void check_geometry(Findings& out, const Problem& p) {
 
 void check_given_shapes(Findings& out, const Problem& p) {
     const int shapes = p.beam.model == ModelKind::rigid ? 0 : p.beam.modes;
-    for (const auto& [key, given] : {std::pair{"initial.q", &p.initial.q}, std::pair{"initial.q_dot", &p.initial.q_dot}}) {
+    for (const auto& [key, given] :
+         {std::pair{"initial.q", &p.initial.q}, std::pair{"initial.q_dot", &p.initial.q_dot}}) {
         if (static_cast<int>(given->size()) > shapes)
             out.refuse(key, fmt::format("{} values, but the beam has {} shapes", given->size(), shapes));
         if (!given->empty() && p.initial.shape != InitialShape::straight)

@@ -137,7 +137,6 @@ class SundialsSolver : public Integrator, protected Segment {
         return *this;
     }
 
-
   protected:
     SundialsSolver(Ode& ode, double rtol, double atol)
         : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)), context_(make_context()), end_(n_, 0) {

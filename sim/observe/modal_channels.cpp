@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNearlyStraight = 2;  // a bent beam moves the contact by at most this times what a straight one does
 constexpr double kMixed = 3;           // products of up to three modes vibrate no faster than this times the fastest
-constexpr double kWidest = 0.2;         // of the step: no instant is farther from a node than half of this
+constexpr double kWidest = 0.2;        // of the step: no instant is farther from a node than half of this
 constexpr double kResolved = 2;        // [rad] within a step: a polynomial of degree 7 follows to 10⁻⁷
 
 bool touches(ChannelKind kind) {

@@ -2,7 +2,6 @@
 #include "sim/problem/derived.hpp"
 
 #include <algorithm>
-
 #include <cmath>
 
 #include "sim/base/assert.hpp"

@@ -162,9 +162,10 @@ static void visit(Visitor& v, Initial& initial) {
              "Angular velocity of the given shape.");
     v.choice("shape", initial.shape,
              "straight; static: in equilibrium with the hub held; resting: in equilibrium on the cam.");
-    v.numbers(written_if(!initial.q.empty(), "q"), initial.q, dim::kLength, kAny, {0, 40},
-              "Coordinates of the first shapes, as the channels q1, q2 … say them, in place of a straight beam; of the model "
-              "\"exact\" in rad. With \"angle\", \"angular_velocity\" and \"q_dot\" the whole state.");
+    v.numbers(
+        written_if(!initial.q.empty(), "q"), initial.q, dim::kLength, kAny, {0, 40},
+        "Coordinates of the first shapes, as the channels q1, q2 … say them, in place of a straight beam; of the model "
+        "\"exact\" in rad. With \"angle\", \"angular_velocity\" and \"q_dot\" the whole state.");
     v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, dim::kSpeed, kAny, {0, 40}, "Their rates.");
 }
 

@@ -93,7 +93,8 @@ class Trials {
     void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit) {
         measure(row, variant, truth, end, limit, repeats_);
     }
-    void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit, int repeats) {
+    void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit,
+                 int repeats) {
         const std::optional<TrialRun> run = try_until(variant, end, limit, row.note);
         if (!run) return;
         compare(row, *run, truth, end);

@@ -70,7 +70,8 @@ TEST(Recipes, CtestRunsThemAsATest) {
     project.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.20)\nproject(guarded NONE)\nenable_testing()\n" +
                                         block("add_test(NAME pictures COMMAND beamcam test "
                                               "${CMAKE_CURRENT_SOURCE_DIR}/baselines.json)"));
-    const Finished failed = project.run("cmake -G Ninja -S . -B build >/dev/null && ctest --test-dir build --output-on-failure");
+    const Finished failed =
+        project.run("cmake -G Ninja -S . -B build >/dev/null && ctest --test-dir build --output-on-failure");
     EXPECT_EQ(failed.code, 8) << failed.err;
     EXPECT_THAT(failed.out, AllOf(HasSubstr("pictures"), HasSubstr("different   fall")));
     project.write("s.json", R"({"time": {"end": 0.35}})");

@@ -94,10 +94,9 @@ Problem continued(const Problem& from, double at) {
 }
 
 TEST(GivenShapes, ContinueAMotionFromAnyInstantInFlight) {
-    for (const auto& [kind, basis] : {std::pair{ModelKind::first_order, Basis::hub_beam},
-                                      std::pair{ModelKind::first_order, Basis::cantilever},
-                                      std::pair{ModelKind::second_order, Basis::automatic},
-                                      std::pair{ModelKind::exact, Basis::automatic}}) {
+    for (const auto& [kind, basis] :
+         {std::pair{ModelKind::first_order, Basis::hub_beam}, std::pair{ModelKind::first_order, Basis::cantilever},
+          std::pair{ModelKind::second_order, Basis::automatic}, std::pair{ModelKind::exact, Basis::automatic}}) {
         Problem whole;
         whole.beam.model = kind;
         whole.beam.basis = basis;

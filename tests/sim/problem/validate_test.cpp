@@ -143,10 +143,7 @@ const Refusal kRefusals[] = {
          p.initial.shape = InitialShape::resting;
          p.hub.drive = ConstantSpeed{1};
      }},
-    {"initial.q",
-     [](Problem& p) {
-         p.initial.q.assign(static_cast<std::size_t>(p.beam.modes) + 1, 0.0);
-     }},
+    {"initial.q", [](Problem& p) { p.initial.q.assign(static_cast<std::size_t>(p.beam.modes) + 1, 0.0); }},
     {"initial.q",
      [](Problem& p) {
          p.beam.model = ModelKind::rigid;
