@@ -16,6 +16,8 @@
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
 #include "output/files/numbers.hpp"
+#include "sim/problem/keys.hpp"
+#include "sim/sweep/attractor.hpp"
 
 namespace beamcam::output {
 
@@ -95,9 +97,10 @@ class CsvParser {
         for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t count) {
             cells = count + 1;
             if (count >= table_.columns.size()) return;
-            const std::optional<double> value = cell.empty() ? kNothing : number(cell);
+            std::optional<double> value = cell.empty() ? kNothing : number(cell);
+            if (!value) value = class_number(cell);
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
-            if (std::isinf(*value))
+            if (std::isinf(*value) && table_.names[count] != "exponent")  // of a sweep: −∞ forgets every difference
                 refuse(column, in_quotes(cell) + " is no finite number; leave a cell without a value empty");
             table_.columns[count].push_back(*value);
         });
@@ -109,6 +112,13 @@ class CsvParser {
     static std::optional<double> number(std::string_view cell) {
         if (cell.starts_with('+')) cell.remove_prefix(1);
         return number_in<double>(cell);
+    }
+
+    // Of the class of motion that tables of sweeps give by name: as .npz and .nc number it.
+    static std::optional<double> class_number(std::string_view cell) {
+        for (const auto& each : sim::names(sim::AttractorClass{}))
+            if (each.name == cell) return static_cast<double>(each.value);
+        return std::nullopt;
     }
 
     // Short, without bytes that would speak to a terminal.

@@ -17,8 +17,8 @@ struct NamedTable {
     const std::vector<double>* find(std::string_view name) const;
 };
 
-// By the name's ending, .csv or .npz. Throws IoError with the line and column of what is wrong (CSV), or the name of
-// the array (NPZ).
+// Classes of motion, which tables of sweeps give by name in .csv, are numbered as in .npz. By the name's ending, .csv
+// or .npz. Throws IoError with the line and column of what is wrong (CSV), or the name of the array (NPZ).
 NamedTable read_table(const std::filesystem::path& file);
 
 // Texts of numbers.cpp's kind, of spreadsheets (a byte order mark, "\r\n") and of numpy.savetxt with a header.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "output/data/records.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/answer_files.hpp"
@@ -15,6 +16,7 @@
 #include "scenes/motions/progress.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/problem/number_keys.hpp"
+#include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -23,7 +25,7 @@ struct OrbitsArguments {
     Common common;
     std::string scene;
     AnswerFiles files;
-    std::optional<std::string> transient, over, scene_file;
+    std::optional<std::string> transient, over, scene_file, sweep_file;
     std::optional<double> at;
     int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000;
     double step = 0.01;
@@ -130,13 +132,37 @@ double start_value(const OrbitsArguments& args, const KeyRange& range) {
     return start >= range.from && start <= range.to ? start : middle;
 }
 
+// What a table of impacts, as `sweep` writes it, has in the range.
+SweptImpacts swept_impacts(const std::string& file, const KeyRange& range) {
+    const output::NamedTable table = output::read_table(file);
+    const std::vector<double>*value = table.find(range.key.path), *speed = table.find("v_n_before");
+    for (const auto& [column, name] : {std::pair{value, range.key.path.c_str()}, std::pair{speed, "v_n_before"}})
+        if (!column)
+            throw UsageError(
+                fmt::format("--sweep {}: it has no column {}; write it by beamcam sweep --over {}=... "
+                            "--sample impacts -o {}",
+                            file, name, range.key.path, file));
+    SweptImpacts out;
+    const std::vector<double>* kind = table.find("class");
+    std::vector<double> sections;
+    for (const auto& [section, name] : sim::names(sim::AttractorClass{}))
+        if (sim::has_section(section)) sections.push_back(static_cast<double>(section));
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (kind && std::ranges::none_of(sections, [&](double section) { return section == (*kind)[i]; })) continue;
+        if (!((*value)[i] >= range.from && (*value)[i] <= range.to) || std::isnan((*speed)[i])) continue;
+        out.parameter.push_back((*value)[i]);
+        out.approach.push_back(-(*speed)[i]);
+    }
+    return out;
+}
+
 bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || file.ends_with(".csv"); }
 
-std::string content(const output::BranchTable& table, const OrbitsArguments& args, const Scene& scene,
-                    const std::string& file) {
+std::string content(const output::BranchTable& table, const SweptImpacts& swept, const OrbitsArguments& args,
+                    const Scene& scene, const std::string& file) {
     if (file == "-" || file.ends_with(".json")) return output::orbits_json(table);
     if (file.ends_with(".csv")) return output::orbits_csv(table);
-    return args.files.drawn(branches_figure(table, scene.problem, args.files.lang()), scene, file);
+    return args.files.drawn(branches_figure(table, swept, scene.problem, args.files.lang()), scene, file);
 }
 
 // The first that can be continued.
@@ -215,6 +241,9 @@ int act(const OrbitsArguments& args) {
     }
     for (const std::string& file : args.files.names)
         if (!range && !is_data_file(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
+    if (args.sweep_file && !range)
+        throw UsageError("--sweep: the points of a sweep stand beneath branches; give --over");
+    const SweptImpacts swept = args.sweep_file ? swept_impacts(*args.sweep_file, *range) : SweptImpacts{};
     std::optional<ProblemFamily> family;
     double start = 0;
     if (range) {
@@ -248,7 +277,7 @@ int act(const OrbitsArguments& args) {
     progress.end();
 
     write_answer({[&] { return output::orbits_json(table); }, [&] { return in_words(table); },
-                  [&](const std::string& file) { return content(table, args, scene, file); }},
+                  [&](const std::string& file) { return content(table, swept, args, scene, file); }},
                  args.files, args.common, manifest);
     if (args.scene_file) write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty())
@@ -281,6 +310,8 @@ void add_orbits(Grammar& grammar) {
         .range(1e-6, 0.5);
     app.option("--most-points", &args->most_points, "N", "Points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
+    app.option("--sweep", &args->sweep_file, "FILE",
+               "Impacts of a sweep over the same key, .csv or .npz, beneath the branches of the diagram");
     app.option("--scene", &args->scene_file, "FILE.json",
                "Also a scene that begins on the first orbit, with a film of one period that loops: render it next");
     add_answer_files(app, args->files, args->common);

@@ -11,6 +11,7 @@ namespace {
 
 using render::figure::Figure, render::figure::Panel, render::figure::Series;
 
+constexpr std::uint32_t kSweptColor = 0x9A9A9A;  // beneath the branches
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 
 // The impacts of a branch, one after the other, as far as they are stable or not; pieces meet at the change.
@@ -72,7 +73,8 @@ std::string add_special(const output::BranchTable& table, double range, Panel& p
 
 }  // namespace
 
-Figure branches_figure(const output::BranchTable& table, const sim::Problem& problem, Lang lang) {
+Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const sim::Problem& problem,
+                       Lang lang) {
     const bool en = lang == Lang::en;
     Series stable, unstable;
     stable.label = en ? "stable" : "稳定";
@@ -94,6 +96,8 @@ Figure branches_figure(const output::BranchTable& table, const sim::Problem& pro
     panel.x = {.label = key_label(table.key, problem), .tight = true};
     panel.y = {.label = en ? "approach speed of impacts / (m s^{−1})" : "碰撞接近速度 / (m s^{−1})"};
     panel.legend = render::figure::Legend::box;
+    if (!swept.parameter.empty())
+        panel.clouds.push_back({en ? "sweep" : "扫描", swept.parameter, swept.approach, render::rgb(kSweptColor)});
     const std::string special = add_special(table, high - low, panel);
     for (Series* series : {&stable, &unstable})
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
@@ -103,12 +107,16 @@ Figure branches_figure(const output::BranchTable& table, const sim::Problem& pro
     figure.name = "branches";
     figure.title = en ? "Branches of periodic orbits" : "周期轨道分支";
     figure.panels.push_back(std::move(panel));
-    figure.caption =
-        filled(en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
-                    "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, R release. {}. {}"
-                  : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-                    "Neimark–Sacker，BP 分支点，G 擦边，R 脱离。{}。{}",
-               symbol_of(table.key), special, facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+    figure.caption = filled(
+        en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
+             "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, R release. {}. {}{}"
+           : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
+             "Neimark–Sacker，BP 分支点，G 擦边，R 脱离。{}。{}{}",
+        symbol_of(table.key), special,
+        swept.parameter.empty() ? ""
+        : en                    ? "Dots: impacts of a sweep. "
+                                : "点：扫描所得碰撞。",
+        facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
     figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
                          : "截面映射上的 Newton 法，相对容差 10^{−12}。";
     return figure;

@@ -1,4 +1,5 @@
-// Branches of periodic orbits over a parameter: speeds of the impacts, stable ones solid, unstable ones dashed.
+// Branches of periodic orbits over a parameter: speeds of the impacts, stable ones solid, unstable ones dashed, over
+// the impacts of a sweep where it is given.
 #pragma once
 
 #include "output/data/records.hpp"
@@ -7,7 +8,12 @@
 
 namespace beamcam::scenes {
 
+// Impacts of a sweep of the same key: values of the key and approach speeds [m/s].
+struct SweptImpacts {
+    std::vector<double> parameter, approach;
+};
 // Throws PictureError where no branch has impacts.
-render::figure::Figure branches_figure(const output::BranchTable& table, const sim::Problem& problem, Lang lang);
+render::figure::Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept,
+                                       const sim::Problem& problem, Lang lang);
 
 }  // namespace beamcam::scenes

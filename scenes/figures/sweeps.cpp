@@ -79,12 +79,6 @@ class SweptPoints {
 
 AttractorClass kind_of(const output::StoredPoint& p) { return static_cast<AttractorClass>(p.kind); }
 
-// Only these have samples that mean a section of their attractor.
-bool is_section(AttractorClass kind) {
-    return kind == AttractorClass::periodic || kind == AttractorClass::quasi_periodic ||
-           kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
-}
-
 std::string label_of(const std::string& name, const std::string& unit, Lang lang) {
     if (name == "cam_phase") return lang == Lang::en ? "cam phase / turn" : "凸轮相位 / 转";
     return axis_label(symbol_of(name), unit);
@@ -208,7 +202,6 @@ figure::Panel class_strip(const SweptPoints& points) {
     }
     strip.cells.push_back(std::move(cells));
     for (const auto& [kind, any] : shown) strip.swatches.push_back({class_label(kind, points.lang), color_of(kind)});
-    strip.x = {.label = label_of(points.axis(0)), .scale = points.scale(0), .tight = true};
     strip.y = {.label = {}, .from = 0, .to = static_cast<double>(lanes), .numbered = false, .ticked = false};
     for (std::uint64_t lane = lanes; lanes > 1 && lane-- > 0;) strip.y.label += look_of(points.seed(lane)).lane;
     strip.legend = figure::Legend::box;
@@ -229,37 +222,57 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     return clouds;
 }
 
+void add(figure::Cloud& cloud, double x, double y) {
+    cloud.x.push_back(x);
+    cloud.y.push_back(y);
+}
+bool all_empty(const std::vector<figure::Cloud>& clouds) {
+    return std::ranges::all_of(clouds, [](const figure::Cloud& cloud) { return cloud.x.empty(); });
+}
+
+const char* exponent_words(Lang lang) {
+    return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite. "
+                            : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
+}
+
 figure::Figure bifurcation(const SweptPoints& points, const std::string& value) {
     const std::size_t column = points.column(value), width = points.data.columns.size();
-    figure::Panel panel;
-    panel.name = value;
-    panel.clouds = clouds_of_starts(points);
+    figure::Panel panel, exponents;
+    panel.clouds = exponents.clouds = clouds_of_starts(points);
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
-        if (!is_section(kind_of(p))) continue;
-        figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k % points.seeds() : 0];
+        const std::size_t cloud = panel.clouds.size() > 1 ? k % points.seeds() : 0;
         const double at = points.data.place(k)[0];
-        for (std::size_t i = column; i < p.samples.size(); i += width) {
-            cloud.x.push_back(at);
-            cloud.y.push_back(p.samples[i]);
-        }
+        if (std::isfinite(p.exponent)) add(exponents.clouds[cloud], at, p.exponent);
+        if (!has_section(kind_of(p))) continue;
+        for (std::size_t i = column; i < p.samples.size(); i += width) add(panel.clouds[cloud], at, p.samples[i]);
     }
-    figure::Figure out;
-    figure::Panel strip = class_strip(points);
-    panel.x = {.label = label_of(points.axis(0)),
-               .scale = points.scale(0),
-               .from = strip.cells[0].x.front(),
-               .to = strip.cells[0].x.back(),
-               .tight = true};
-    strip.x.from = panel.x.from;
-    strip.x.to = panel.x.to;
+    panel.name = value;
     panel.y = {.label = label_of(value, points.data.columns[column].unit, points.lang)};
-    if (std::ranges::all_of(panel.clouds, [](const auto& c) { return c.x.empty(); })) panel.y.from = 0, panel.y.to = 1;
+    if (all_empty(panel.clouds)) panel.y.from = 0, panel.y.to = 1;
     panel.legend = figure::Legend::box;
-    out.panels = {std::move(panel), std::move(strip)};
+    exponents.name = "exponent";
+    exponents.y = {.label = "$λ_1$ / s^{−1}"};
+    exponents.rules = {{.at = 0}};
+    exponents.legend = figure::Legend::none;
+    exponents.share = 0.35;
+
+    figure::Figure out;
+    const bool known = !all_empty(exponents.clouds);
+    out.panels = {std::move(panel)};
+    if (known) out.panels.push_back(std::move(exponents));
+    out.panels.push_back(class_strip(points));
+    const std::vector<double> edges = out.panels.back().cells[0].x;
+    for (figure::Panel& each : out.panels)
+        each.x = {.label = label_of(points.axis(0)),
+                  .scale = points.scale(0),
+                  .from = edges.front(),
+                  .to = edges.back(),
+                  .tight = true};
     out.stack = out.share_x = true;
-    out.aspect = 0.8;
+    out.aspect = known ? 1.05 : 0.8;
+    if (known) out.caption = exponent_words(points.lang);
     return out;
 }
 
@@ -387,15 +400,13 @@ figure::Figure plane(const SweptPoints& points, const std::string& x, const std:
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
-        if (!is_section(kind_of(p))) continue;
+        if (!has_section(kind_of(p))) continue;
         figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k / points.seeds() : 0];
         const std::size_t later = next ? width : 0;
-        for (std::size_t i = 0; i + later < p.samples.size(); i += width) {
-            cloud.x.push_back(p.samples[i + cx]);
-            cloud.y.push_back(p.samples[i + later + cy]);
-        }
+        for (std::size_t i = 0; i + later < p.samples.size(); i += width)
+            add(cloud, p.samples[i + cx], p.samples[i + later + cy]);
     }
-    if (std::ranges::all_of(panel.clouds, [](const auto& c) { return c.x.empty(); }))
+    if (all_empty(panel.clouds))
         throw render::PictureError(
             "no point has a section to show: all rest, follow the cam, have left it or have not settled");
     const bool en = points.lang == Lang::en;

@@ -141,6 +141,11 @@ std::span<const Named<AttractorClass>> names(AttractorClass) {
 
 const char* name(AttractorClass kind) { return names(kind)[static_cast<std::size_t>(kind)].name; }
 
+bool has_section(AttractorClass kind) {
+    return kind == AttractorClass::periodic || kind == AttractorClass::quasi_periodic ||
+           kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
+}
+
 Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent) {
     attractor.exponent = exponent;
     attractor.kind = class_without_period(problem, exponent, false);

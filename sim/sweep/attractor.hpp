@@ -20,6 +20,8 @@ enum class AttractorClass {
 };
 std::span<const Named<AttractorClass>> names(AttractorClass);
 const char* name(AttractorClass);
+// Whether samples of such a motion are a section of its attractor.
+bool has_section(AttractorClass kind);
 
 // The largest Lyapunov exponent over the samples, per second, with the standard error of its mean over blocks.
 struct LargestExponent {

@@ -292,14 +292,22 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
     EXPECT_TRUE(std::isnan(excel.find("x")->back()));
 }
 
+// A class by its number, and an exponent of −∞.
+TEST(TableReader, ReadsTheTablesOfSweeps) {
+    const NamedTable table = parse_csv("cam.speed,class,exponent\n1,following,-inf\n2,periodic,-3\n3,rest,\n", "r.csv");
+    EXPECT_EQ(*table.find("class"), (std::vector<double>{1, 2, 0}));
+    EXPECT_EQ((*table.find("exponent"))[0], -std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isnan((*table.find("exponent"))[2]));
+}
+
 TEST(TableReader, SaysWhereACsvIsWrong) {
     const auto error = [](const std::string& text) { return io_error_of([&] { parse_csv(text, "a.csv"); }); };
     EXPECT_EQ(error("t,x\n1,2\n3,abc\n"), "a.csv:3:3: \"abc\" is not a number");
     EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: 1 cells"), std::string::npos);
+    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is no finite number"), std::string::npos);
     EXPECT_NE(error("").find("empty"), std::string::npos);
     EXPECT_NE(error("t,t\n").find("twice"), std::string::npos);
     EXPECT_NE(error("1,2\n").find("name"), std::string::npos);
-    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is no finite number"), std::string::npos);
     EXPECT_NE(error("t;x\n0,5;2\n").find("a.csv:1:2: columns are parted by semicolons"), std::string::npos);
     EXPECT_NE(error("t\tx\n1\t2\n").find("by tabs"), std::string::npos);
 }

@@ -64,6 +64,22 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     EXPECT_THAT(testing::slurp((folder / "b.pdf").string()), StartsWith("%PDF"));
 }
 
+TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder,
+              "$BEAMCAM sweep s.json --over cam.speed=44:46:1 --transient 40 --keep 4 -q -o r.csv && "
+              "$BEAMCAM orbits s.json --over cam.speed=44.5:46.5 --impacts 1 --transient 0 -q --sweep "
+              "r.csv -o b.svg && $BEAMCAM info b.svg");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(testing::slurp((folder / "b.svg").string()), HasSubstr("impacts of a sweep"));
+    const Finished other = shell(folder, "$BEAMCAM orbits s.json --over gravity=0:1 --sweep r.csv -o c.svg");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("no column gravity"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --sweep r.csv").code, 2);
+}
+
 // Below the fold there is no orbit to begin with.
 TEST(OrbitsCommand, BeginsElsewhereInTheRangeWhereTheSceneHasNoOrbit) {
     const Folder folder;

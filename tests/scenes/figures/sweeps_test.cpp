@@ -6,6 +6,7 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
+#include "scenes/figures/branches.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -70,6 +71,47 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.caption, HasSubstr("1 over-the-top"));
     EXPECT_THAT(figure.caption, HasSubstr("statistic"));
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
+}
+
+TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 2, 3]}]})");
+    using enum AttractorClass;
+    output::SweepData points = data(speeds, {periodic, chaotic, following});
+    const double known[] = {-2, 3, -std::numeric_limits<double>::infinity()};
+    const auto read = points.read;
+    points.read = [=](std::uint64_t k) {
+        output::StoredPoint p = read(k);
+        p.exponent = known[k];
+        return p;
+    };
+    const auto figure = diagram("bifurcation", speeds, points, "v_n_before");
+    ASSERT_THAT(figure.panels, SizeIs(3));
+    EXPECT_EQ(figure.panels[1].name, "exponent");
+    EXPECT_EQ(figure.panels[1].clouds.at(0).x, (std::vector<double>{1, 2}));
+    EXPECT_EQ(figure.panels[1].clouds.at(0).y, (std::vector<double>{-2, 3}));
+    EXPECT_EQ(figure.panels[1].rules.at(0).at, 0);
+    EXPECT_EQ(figure.panels[1].x.from, figure.panels[2].x.from);
+    EXPECT_THAT(figure.caption, HasSubstr("largest Lyapunov exponent"));
+}
+
+TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
+    output::BranchTable table;
+    table.key = "cam.speed";
+    sim::BranchPoint point;
+    point.orbit.impacts = {{0, 0.3}};
+    sim::Branch branch;
+    for (const double parameter : {1.0, 2.0}) {
+        point.parameter = parameter;
+        branch.points.push_back(point);
+    }
+    table.branches = {branch};
+    const sim::Problem problem;
+    EXPECT_THAT(branches_figure(table, {}, problem, Lang::en).panels[0].clouds, SizeIs(0));
+    const auto figure = branches_figure(table, {{1.5, 1.6}, {0.2, 0.1}}, problem, Lang::en);
+    ASSERT_THAT(figure.panels[0].clouds, SizeIs(1));
+    EXPECT_EQ(figure.panels[0].clouds[0].y, (std::vector<double>{0.2, 0.1}));
+    EXPECT_THAT(figure.panels[0].series, SizeIs(1));
+    EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
 }
 
 TEST(Diagram, TellsUpAndDownApart) {
