@@ -156,17 +156,19 @@ static void visit(Visitor& v, Contact& contact) {
 
 // ---- initial state, solver -------------------------------------------------------------------
 
-static void visit(Visitor& v, Initial& initial) {
+static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
+    const bool angles = model == ModelKind::exact;
     v.number("angle", initial.angle, dim::kAngle, kAny, "Hub angle θ(0), counter-clockwise from the horizontal.");
     v.number("angular_velocity", initial.angular_velocity, dim::kAngularSpeed, kAny,
-             "Angular velocity of the given shape.");
+             "Angular velocity of the given shape, at the hub.");
     v.choice("shape", initial.shape,
              "straight; static: in equilibrium with the hub held; resting: in equilibrium on the cam.");
     v.numbers(
-        written_if(!initial.q.empty(), "q"), initial.q, dim::kLength, kAny, {0, 40},
+        written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
         "Coordinates of the first shapes, as the channels q1, q2 … say them, in place of a straight beam; of the model "
         "\"exact\" in rad. With \"angle\", \"angular_velocity\" and \"q_dot\" the whole state.");
-    v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, dim::kSpeed, kAny, {0, 40}, "Their rates.");
+    v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, angles ? dim::kAngularSpeed : dim::kSpeed,
+              kAny, {0, 40}, "Their rates.");
 }
 
 static void visit(Visitor& v, Solver& solver) {
@@ -184,7 +186,9 @@ void visit(Visitor& v, Problem& problem) {
     v.object("cam", problem.cam, "The cam, a disc that rotates about an axis off its centre; null: no cam.");
     v.object("contact", problem.contact, "Contact between beam and cam.");
     v.number("gravity", problem.gravity, dim::kAcceleration, kAny, "Acceleration of gravity, downwards.");
-    v.object("initial", problem.initial, "State at t = 0.");
+    v.object(
+        "initial", [&](Visitor& inside) { visit_initial(inside, problem.initial, problem.beam.model); },
+        "State at t = 0.", nullptr);
     v.object("solver", problem.solver, "Numerical integration.");
 }
 

@@ -19,6 +19,13 @@ using testing::messages;
 using testing::read;
 using ::testing::StartsWith;
 
+TEST(Reader, InitialCoordinatesHaveTheUnitOfTheModel) {
+    EXPECT_EQ(read(R"({"initial": {"q": ["5 mm"]}})").scene->problem.initial.q, std::vector<double>{5e-3});
+    const std::string exact = R"({"beam": {"model": "exact"}, "initial": )";
+    EXPECT_THAT(read(exact + R"({"q": ["5 mm"]}})").report(), HasSubstr("measured in rad"));
+    EXPECT_TRUE(read(exact + R"({"q": ["0.1 deg"], "q_dot": ["1 deg/s"]}})").scene);
+}
+
 TEST(Reader, AnEmptySceneIsThePapersSystem) {
     const Reading reading = read("{}");
     ASSERT_TRUE(reading.scene) << reading.report();
