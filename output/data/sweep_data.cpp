@@ -133,6 +133,11 @@ void write_sweep_csv(std::ostream& out, const SweepData& data) {
     if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
 }
 
+const std::string* SweepData::attribute(const std::string& name) const {
+    const auto found = std::ranges::find(attributes, name, &std::pair<std::string, std::string>::first);
+    return found == attributes.end() ? nullptr : &found->second;
+}
+
 void write_sweep(const Target& file, const SweepData& data) {
     const std::string ending = file.path.extension().string();
     if (ending == ".npz") return npz(file, data);

@@ -37,6 +37,7 @@ struct SweepData {
     std::uint64_t rows_in_all() const;                     // of CSV and NPZ: a point without samples has one
     std::uint64_t most_rows() const;                       // samples of one point
     std::vector<double> place(std::uint64_t point) const;  // values of the axes
+    const std::string* attribute(const std::string& name) const;
 };
 
 // Here, because the module of NetCDF uses them too.

@@ -99,6 +99,10 @@ void SceneRun::make_sweep() {
     sweep_ = std::make_unique<SweepRun>(
         scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
         is_stdout(plan_.sweep) ? temporary_store() : fs::path(files_.path_of(plan_.sweep).string() + ".part"));
+    for (const Output& output : scene_.outputs)
+        if (const auto* finished = std::get_if<SweepOutput>(&output);
+            finished && !is_stdout(finished->file) && !context_.options.force)
+            sweep_->take_from(files_.path_of(finished->file));
     if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
     try {
         sweep_->make(context_.options.threads, context_.progress);

@@ -35,11 +35,6 @@ constexpr ArrayTask kArrayTasks[] = {
     {"PBS_ARRAYID", nullptr, nullptr, nullptr, nullptr},
 };
 
-const std::string* attribute(const output::SweepData& data, const std::string& name) {
-    const auto found = std::ranges::find(data.attributes, name, &std::pair<std::string, std::string>::first);
-    return found == data.attributes.end() ? nullptr : &found->second;
-}
-
 // One file of a sweep that was cut.
 struct Part {
     std::filesystem::path file;
@@ -49,7 +44,7 @@ struct Part {
 
 Part open_part(const std::filesystem::path& file) {
     Part found{file, output::sweep_library().open(file), {}};
-    const std::string *which = attribute(found.data, "beamcam_part"), *scene = attribute(found.data, "beamcam_scene");
+    const std::string *which = found.data.attribute("beamcam_part"), *scene = found.data.attribute("beamcam_scene");
     if (!scene) throw output::IoError(file.string() + ": is no sweep of beamcam");
     if (!which) throw output::IoError(file.string() + ": is a whole sweep and no part of one");
     found.part = part_argument(*which, [](const char*) { return nullptr; });
@@ -62,7 +57,7 @@ void require_whole(const std::vector<Part>& parts) {
     std::map<std::uint64_t, const Part*> found;
     for (const Part& part : parts) {
         for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
-            const std::string *one = attribute(first.data, name), *other = attribute(part.data, name);
+            const std::string *one = first.data.attribute(name), *other = part.data.attribute(name);
             if (!one || !other || *one != *other)
                 throw output::IoError(fmt::format(
                     "{}: is part of another {} than {}", part.file.string(),
@@ -120,7 +115,7 @@ CollectedSweep collect(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) parts->push_back(open_part(file));
     require_whole(*parts);
     Reading reading =
-        read_scene({"scene of " + files.front().string(), *attribute(parts->front().data, "beamcam_scene"), true});
+        read_scene({"scene of " + files.front().string(), *parts->front().data.attribute("beamcam_scene"), true});
     if (!reading.scene || !reading.scene->sweep)
         throw output::IoError(files.front().string() + ": its scene has no sweep");
     CollectedSweep out{std::move(*reading.scene), parts->front().data};

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "output/data/sweep_library.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/sweep/attractor.hpp"
 
@@ -15,6 +16,18 @@ SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::p
       part_(part),
       store_(std::move(store), grid_.points(), grid_.identity()),
       data_(data_of(grid_, store_, part_)) {}
+
+void SweepRun::take_from(const std::filesystem::path& file) try {
+    if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
+    const output::SweepData there = output::sweep_library().open(file);
+    for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
+        const std::string *one = data_.attribute(name), *other = there.attribute(name);
+        if (!other || *one != *other) return;
+    }
+    for (std::uint64_t k = 0; k < there.points(); ++k)
+        if (!store_.has(k) && there.has(k)) store_.add(there.read(k));
+} catch (const output::IoError&) {  // what could not be read is made again
+}
 
 void SweepRun::make(int threads, Progress& progress) {
     const auto started = Clock::now();

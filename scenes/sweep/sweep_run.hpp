@@ -17,6 +17,8 @@ class SweepRun {
     SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store);
 
     std::uint64_t points_there() const { return store_.count(); }
+    // The points of a finished .nc file of the same sweep by the same program; none of another or a damaged one.
+    void take_from(const std::filesystem::path& file);
     void make(int threads, Progress& progress);  // as make_points
     const SweepGrid& grid() const { return grid_; }
     const output::SweepData& data() const { return data_; }   // as long as this lives

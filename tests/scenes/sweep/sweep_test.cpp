@@ -90,6 +90,19 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     EXPECT_EQ(slurp(folder / "mine.csv"), "1,2");
 }
 
+TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    const std::string sweep = "$BEAMCAM sweep s.json --seed carry-up,same ";
+    ASSERT_EQ(shell(folder, sweep + "-o a.nc -q && " + sweep + "--diagram fresh.svg -q").code, 0);
+    const Finished drawn = shell(folder, sweep + "-o a.nc --diagram d.svg");
+    EXPECT_THAT(drawn.err, AllOf(HasSubstr("62 points are there already"), HasSubstr("left a.nc as it is")));
+    EXPECT_EQ(slurp(folder / "d.svg"), slurp(folder / "fresh.svg"));
+    // Not those of another sweep, nor where all is to be made anew.
+    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("there already")));
+    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg --force").err, Not(HasSubstr("there already")));
+}
+
 TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
     Folder folder;
     folder.write("s.json", kSweptScene);
