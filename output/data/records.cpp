@@ -1,19 +1,17 @@
 #include "output/data/records.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <type_traits>
 
+#include "output/data/json_text.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
 namespace beamcam::output {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A value of any member below, absent ones as null. NaN and infinities become null as well: JSON has no other word.
 template <typename T>
@@ -87,9 +85,6 @@ void append_cell(std::string& line, int value) { line += std::to_string(value); 
 void append_cell(std::string& line, const std::optional<double>& value) {
     if (value) append_number(line, *value);
 }
-
-// Messages may quote a user's bytes, which need not be UTF-8; they become U+FFFD.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json units(const sim::Problem& problem) {
     Json map = Json::object();
@@ -285,121 +280,6 @@ std::string modes_json(const std::vector<sim::Mode>& modes) {
                        {"shape", std::move(shape)}});
     }
     return Json{{"modes", std::move(all)}}.dump(2) + "\n";
-}
-
-std::string exponents_json(const sim::Exponents& e) {
-    Json all = Json::array();
-    for (std::size_t i = 0; i < e.lambda.size(); ++i)
-        all.push_back({{"lambda", e.lambda[i]}, {"error", e.error[i]}, {"history", e.history[i]}});
-    return text_of({{"units", {{"lambda", "1/s"}, {"error", "1/s"}, {"history", "1/s"}, {"time", "s"}}},
-                    {"exponents", std::move(all)},
-                    {"chaotic", e.chaotic()},
-                    {"settled", e.settled},
-                    {"transient", e.transient},
-                    {"duration", e.duration},
-                    {"impacts", e.impacts},
-                    {"near_grazing", e.near_grazing},
-                    {"slowest_impact", e.slowest_impact},
-                    {"time", e.time},
-                    {"warnings", e.warnings}});
-}
-
-namespace {
-
-Json json_of(const sim::PeriodicOrbit& orbit) {
-    Json impacts = Json::array(), multipliers = Json::array();
-    for (const sim::OrbitImpact& impact : orbit.impacts)
-        impacts.push_back({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}});
-    for (const std::complex<double>& m : orbit.multipliers) multipliers.push_back({m.real(), m.imag()});
-    return {{"turns", orbit.turns},
-            {"period", orbit.period},
-            {"stable", orbit.stable()},
-            {"chatters", orbit.chatters},
-            {"always_touching", orbit.always_touching()},
-            {"residual", orbit.residual},
-            {"multipliers", std::move(multipliers)},
-            {"section", {{"cam_angle", orbit.section}, {"state", orbit.start.y}}},
-            {"impacts", std::move(impacts)}};
-}
-
-// At a value of the parameter.
-Json json_of(const sim::BranchPoint& point) {
-    Json json = {{"value", point.parameter}};
-    json.update(json_of(point.orbit));
-    return json;
-}
-
-Json json_of(const sim::Branch& branch) {
-    Json points = Json::array(), special = Json::array();
-    for (const sim::BranchPoint& point : branch.points) points.push_back(json_of(point));
-    for (const sim::SpecialPoint& point : branch.special) {
-        Json json = {{"change", name(point.change)}, {"uncertainty", point.uncertainty}};
-        json.update(json_of(point.at));
-        special.push_back(std::move(json));
-    }
-    return {
-        {"special", std::move(special)}, {"ends", {branch.first_end, branch.last_end}}, {"points", std::move(points)}};
-}
-
-void append_impacts(std::string& text, const std::string& head, const sim::PeriodicOrbit& orbit) {
-    const double largest = orbit.multipliers.empty() ? 0 : std::abs(orbit.multipliers.front());
-    const auto line = [&](const std::optional<sim::OrbitImpact>& impact, std::size_t index) {
-        text += head;
-        text += std::to_string(orbit.turns);
-        text += orbit.stable() ? ",1," : ",0,";
-        append_number(text, largest);
-        text += ',';
-        if (impact) {
-            text += std::to_string(index);
-            text += ',';
-            append_number(text, impact->cam_angle);
-            text += ',';
-            append_number(text, impact->approach);
-        } else {
-            text += ",,";
-        }
-        text += '\n';
-    };
-    for (std::size_t i = 0; i < orbit.impacts.size(); ++i) line(orbit.impacts[i], i + 1);
-    if (orbit.impacts.empty()) line(std::nullopt, 0);
-}
-
-}  // namespace
-
-std::string orbits_json(const BranchTable& table) {
-    Json orbits = Json::array(), branches = Json::array();
-    for (const sim::PeriodicOrbit& orbit : table.orbits) orbits.push_back(json_of(orbit));
-    for (const sim::Branch& branch : table.branches) branches.push_back(json_of(branch));
-    Json json = {{"units", {{"period", "s"}, {"cam_angle", "rad"}, {"approach", "m/s"}}},
-                 {"orbits", std::move(orbits)}};
-    if (!table.key.empty()) {
-        json["key"] = table.key;
-        json["start"] = table.start;
-        json["branches"] = std::move(branches);
-    }
-    return text_of(json);
-}
-
-std::string orbits_csv(const BranchTable& table) {
-    std::string text = "branch,point,value,turns,stable,largest_multiplier,impact,cam_angle,approach\n";
-    const auto head = [](std::size_t branch, std::size_t point, std::optional<double> value) {
-        std::string line;
-        line += std::to_string(branch);
-        line += ',';
-        line += std::to_string(point);
-        line += ',';
-        if (value) append_number(line, *value);
-        return line + ',';
-    };
-    for (std::size_t b = 0; b < table.branches.size(); ++b)
-        for (std::size_t i = 0; i < table.branches[b].points.size(); ++i) {
-            const sim::BranchPoint& point = table.branches[b].points[i];
-            append_impacts(text, head(b + 1, i + 1, point.parameter), point.orbit);
-        }
-    if (table.branches.empty())
-        for (std::size_t i = 0; i < table.orbits.size(); ++i)
-            append_impacts(text, head(0, i + 1, std::nullopt), table.orbits[i]);
-    return text;
 }
 
 std::string accuracy_json(const sim::Accuracy& a) {

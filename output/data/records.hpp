@@ -1,5 +1,5 @@
 // Impacts, collisions and the summary of a run as JSON and CSV, with the names scripts rely on; and the text of the
-// manifest. The only place in output/ that knows the JSON library.
+// manifest.
 //
 // Keys come in a fixed order, numbers with as many digits as it takes to read the same bits back, undefined
 // values as null (an empty cell in CSV).
@@ -18,8 +18,6 @@
 #include "output/files/work.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/observe/channels.hpp"
-#include "sim/orbit/continuation.hpp"
-#include "sim/orbit/exponents.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/studies/accuracy.hpp"
@@ -47,20 +45,6 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
-
-// Exponents with their errors, and their convergence; null where one is −∞.
-std::string exponents_json(const sim::Exponents& exponents);
-
-// Periodic orbits of a scene, and the branches that were followed from one of them.
-struct BranchTable {
-    std::string key;   // of the scene, over which the branches go; empty: none were
-    double start = 0;  // its value for `orbits`
-    std::vector<sim::PeriodicOrbit> orbits;
-    std::vector<sim::Branch> branches;
-};
-std::string orbits_json(const BranchTable& table);
-// A line for each impact of each point of the branches; without branches, of the orbits.
-std::string orbits_csv(const BranchTable& table);
 
 // What a file was made from.
 struct Origin {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
-#include "output/data/sweep_library.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
@@ -143,7 +143,7 @@ void write_sweep(const Target& file, const SweepData& data) {
     if (ending == ".npz") return npz(file, data);
     if (ending == ".nc") {
         AtomicFile atomic(file);
-        sweep_library().write(atomic.temporary_path(), file.path, data);
+        netcdf_library().write(atomic.temporary_path(), file.path, data);
         atomic.commit();
         return;
     }

@@ -1,9 +1,11 @@
 #include "output/data/tables.hpp"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
@@ -14,16 +16,26 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 16;  // [bytes] gathered before they are written
 
-// Columns by name.
+// Columns by name, which stand elsewhere.
 struct Columns {
-    std::vector<std::string> names;
-    const std::vector<std::vector<double>>& values;
+    std::vector<std::string> names = {};
+    std::vector<std::span<const double>> values = {};
     std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
 };
 Columns columns_of(const sim::Table& table) {
-    std::vector<std::string> names;
-    for (const sim::Channel& channel : table.channels) names.push_back(sim::name(channel));
-    return {std::move(names), table.values};
+    Columns columns;
+    for (const sim::Channel& channel : table.channels) columns.names.push_back(sim::name(channel));
+    columns.values.assign(table.values.begin(), table.values.end());
+    return columns;
+}
+Columns columns_of(const NamedTable& table) { return {table.names, {table.columns.begin(), table.columns.end()}}; }
+Columns columns_of(const ColumnTable& table) {
+    Columns columns;
+    for (const TableColumn& column : table.columns) {
+        columns.names.push_back(column.name);
+        columns.values.emplace_back(column.values);
+    }
+    return columns;
 }
 
 void csv(const Columns& table, const std::function<void(const std::string&)>& write) {
@@ -55,8 +67,7 @@ void write_csv(const Target& file, const Columns& table) {
 void write_npz(const Target& file, const Columns& table) {
     std::vector<NpzArray> arrays;
     for (std::size_t c = 0; c < table.names.size(); ++c)
-        arrays.push_back({table.names[c], table.rows(),
-                          [&table, c](const auto& put) { put(std::span(table.values[c].data(), table.rows())); }});
+        arrays.push_back({table.names[c], table.rows(), [&table, c](const auto& put) { put(table.values[c]); }});
     write_npz(file, arrays);
 }
 
@@ -80,6 +91,19 @@ void write_csv(std::ostream& out, const sim::Table& table) {
 void write_csv(const Target& file, const sim::Table& table) { write_csv(file, columns_of(table)); }
 void write_npz(const Target& file, const sim::Table& table) { write_npz(file, columns_of(table)); }
 void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
-void write_table(const Target& file, const NamedTable& table) { write_columns(file, {table.names, table.columns}); }
+void write_table(const Target& file, const NamedTable& table) { write_columns(file, columns_of(table)); }
+
+void write_table(const Target& file, const ColumnTable& table) {
+    if (file.path.extension() != ".nc") return write_columns(file, columns_of(table));
+    AtomicFile atomic(file);
+    netcdf_library().write(atomic.temporary_path(), file.path, table);
+    atomic.commit();
+}
+
+std::string csv_text(const ColumnTable& table) {
+    std::string all;
+    csv(columns_of(table), [&all](const std::string& text) { all += text; });
+    return all;
+}
 
 }  // namespace beamcam::output

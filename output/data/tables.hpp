@@ -1,8 +1,9 @@
-// Channel tables as files: CSV for people and spreadsheets, NPZ for numpy.
+// Tables as files: CSV for people and spreadsheets, NPZ for numpy, NetCDF-4 for those that say what they are.
 #pragma once
 
 #include <ostream>
 
+#include "output/data/column_table.hpp"
 #include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
@@ -22,5 +23,9 @@ void write_npz(const Target& file, const sim::Table& table);
 // By the name's ending, .csv or .npz. Throws UnsupportedOption for another.
 void write_table(const Target& file, const sim::Table& table);
 void write_table(const Target& file, const NamedTable& table);
+
+// By the name's ending, .csv, .npz or .nc. Throws UnsupportedOption for another, IoError.
+void write_table(const Target& file, const ColumnTable& table);
+std::string csv_text(const ColumnTable& table);
 
 }  // namespace beamcam::output

@@ -95,7 +95,9 @@ struct Shape {
     bool small = false;  // label
 };
 
-enum class Legend { direct, box, none };  // labels at the curves where they have room, else a box; a box; nothing
+// Labels at the curves where they have room, else a box; a box, in the plot where it has room; a box above the plot;
+// nothing.
+enum class Legend { direct, box, above, none };
 
 struct Panel;
 struct Inset {

@@ -40,7 +40,7 @@ bool LegendBox::place_inside(OccupancyGrid& taken) {
     const Box& plot = taken.area();
     const Box box = size(plot.w);
     const Place place = best_place(taken, box.w, box.h, 1.6 * style_.gap);
-    if (place.cost <= kCovers && box.w < plot.w && box.h < plot.h) {
+    if (panel_.legend != Legend::above && place.cost <= kCovers && box.w < plot.w && box.h < plot.h) {
         box_ = place.box;
         taken.cover(place.box);
         return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/figures/make.hpp"
@@ -27,6 +28,10 @@ void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
     app.flag("--force", common.force, "Replace files that beamcam did not make");
 }
 
+bool is_table(const std::string& file) {
+    return file.ends_with(".csv") || file.ends_with(".npz") || file.ends_with(".nc");
+}
+
 void need_room(const char* option, const std::vector<std::string>& files, std::initializer_list<const char*> endings,
                output::Manifest& manifest) {
     for (const std::string& file : files) {
@@ -44,12 +49,14 @@ void write_answer(const Answer& answer, const AnswerFiles& files, const Common& 
     else if (!prints_data)
         print_text(answer.words());
     for (const std::string& file : files.names) {
-        const std::string text = answer.file(file);
         if (file == "-") {
-            print_data(text);
+            print_data(answer.file(file));
             continue;
         }
-        output::write_file(manifest.target(file), text);
+        if (answer.table && is_table(file))
+            output::write_table(manifest.target(file), answer.table());
+        else
+            output::write_file(manifest.target(file), answer.file(file));
         say(common, "wrote " + file);
     }
     manifest.save();

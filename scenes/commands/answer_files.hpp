@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "output/data/column_table.hpp"
 #include "output/data/manifest.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/commands/commands.hpp"
@@ -25,6 +26,8 @@ struct AnswerFiles {
 
 void add_answer_files(Command& app, AnswerFiles& files, Common& common);
 
+bool is_table(const std::string& file);  // by its ending
+
 // Before any work. Throws UsageError for another ending, WouldOverwrite, IoError where nothing can be written.
 void need_room(const char* option, const std::vector<std::string>& files, std::initializer_list<const char*> endings,
                output::Manifest& manifest);
@@ -33,6 +36,7 @@ void need_room(const char* option, const std::vector<std::string>& files, std::i
 struct Answer {
     std::function<std::string()> json, words;
     std::function<std::string(const std::string& file)> file;  // its content
+    std::function<output::ColumnTable()> table = {};           // of .csv, .npz and .nc
 };
 void write_answer(const Answer& answer, const AnswerFiles& files, const Common& common, output::Manifest& manifest);
 

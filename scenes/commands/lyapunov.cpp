@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "output/data/records.hpp"
+#include "output/data/orbit_records.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/answer_files.hpp"
 #include "scenes/figures/exponents.hpp"

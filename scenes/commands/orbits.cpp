@@ -6,14 +6,17 @@
 #include <numbers>
 #include <optional>
 
-#include "output/data/records.hpp"
+#include "output/data/orbit_records.hpp"
 #include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/answer_files.hpp"
 #include "scenes/figures/branches.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/format/units.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/version.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -156,13 +159,21 @@ SweptImpacts swept_impacts(const std::string& file, const KeyRange& range) {
     return out;
 }
 
-bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || file.ends_with(".csv"); }
+bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || is_table(file); }
 
 std::string content(const output::BranchTable& table, const SweptImpacts& swept, const OrbitsArguments& args,
                     const Scene& scene, const std::string& file) {
     if (file == "-" || file.ends_with(".json")) return output::orbits_json(table);
-    if (file.ends_with(".csv")) return output::orbits_csv(table);
     return args.files.drawn(branches_figure(table, swept, scene.problem, args.files.lang()), scene, file);
+}
+
+// Of a NetCDF file.
+std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scene) {
+    return {{"Conventions", "CF-1.8"},
+            {"source", fmt::format("beamcam {}", kVersion)},
+            {"title", "Periodic orbits"},
+            {"beamcam_scene", to_json(scene)},
+            {"beamcam_program", program_identity()}};
 }
 
 // The first that can be continued.
@@ -234,7 +245,7 @@ int act(const OrbitsArguments& args) {
     std::optional<KeyRange> range;
     if (args.over) range = range_argument(*args.over, scene.problem);
     output::Manifest manifest(args.common.force);
-    need_room("-o", args.files.names, {".json", ".csv", ".png", ".svg", ".pdf"}, manifest);
+    need_room("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, manifest);
     if (args.scene_file) {
         if (*args.scene_file == "-") throw UsageError("--scene -: give a file; films are named after it");
         need_room("--scene", {*args.scene_file}, {".json"}, manifest);
@@ -267,6 +278,7 @@ int act(const OrbitsArguments& args) {
     table.orbits = sim::find_orbits(scene.problem, request, goes_on);
     if (range) {
         table.key = range->key.path;
+        table.unit = si_unit(range->key.dimension);
         table.start = start;
         if (!first_smooth(table.orbits)) begin_elsewhere(table, *family, *range, request, goes_on);
         const sim::ContinuationRequest how{range->from, range->to, args.step, args.most_points, args.doublings};
@@ -277,7 +289,8 @@ int act(const OrbitsArguments& args) {
     progress.end();
 
     write_answer({[&] { return output::orbits_json(table); }, [&] { return in_words(table); },
-                  [&](const std::string& file) { return content(table, swept, args, scene, file); }},
+                  [&](const std::string& file) { return content(table, swept, args, scene, file); },
+                  [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, args.common, manifest);
     if (args.scene_file) write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty())
@@ -294,7 +307,7 @@ void add_orbits(Grammar& grammar) {
     Command& app = grammar.command("orbits", "Periodic orbits, their stability, and their branches over a parameter");
     add_scene(app, args->scene, args->common);
     app.option("-o,--output", &args->files.names, "FILE",
-               "Also as .json or .csv, or a branch diagram as .png, .svg or .pdf (repeatable)");
+               "Also as .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
     app.option("--over", &args->over, "KEY=FROM:TO",
                "Continue the orbit over this key of the scene, through folds, for example cam.speed=40:60");
     app.option("--at", &args->at, "VALUE",

@@ -24,7 +24,7 @@ struct SweepArguments {
     std::string scene, file;
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
-    std::optional<std::string> diagram, figure, value, caption;
+    std::optional<std::string> diagram, figure, value, caption, film;
     std::string column = "elsevier", lang = "en";
     std::optional<std::string> shard, emit;
     int parts = 0;  // 0: kUsualParts
@@ -40,12 +40,18 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-// KEY=FIRST:LAST:STEP; KEY=FIRST:LAST:COUNTn, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
+// "601", or "601n": so many values; else it is a step, as "0.02", "2.0" and "2 rad/s" are. No range has one value.
+bool is_count(const std::string& text) {
+    const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    return text.ends_with('n') || (digits && text != "0" && text != "1");
+}
+
+// KEY=FIRST:LAST:COUNT, then :log; KEY=FIRST:LAST:STEP; KEY=v,v,…; KEY=@FILE:COLUMN.
 SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw UsageError(option + ": write KEY=FIRST:LAST:STEP, for example cam.speed=40:52:0.02");
+        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, for example cam.speed=40:52:601");
     SweptKey over;
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
@@ -66,20 +72,21 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     }
     if (parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear")) over.logarithmic = parts[3] == "log";
     if (parts.size() != 3 && !(parts.size() == 4 && (over.logarithmic || parts[3] == "linear")))
-        throw UsageError(option +
-                         ": write KEY=FIRST:LAST:STEP, or KEY=FIRST:LAST:COUNTn, with :log for logarithmic spacing");
+        throw UsageError(
+            option +
+            ": write KEY=FIRST:LAST:COUNT, with :log for logarithmic spacing, or KEY=FIRST:LAST:STEP as in 40:52:0.02");
     over.from = signed_argument(option, parts[0], dimension);
     over.to = signed_argument(option, parts[1], dimension);
     std::string& third = parts[2];
-    const bool is_count = third.ends_with('n') || over.logarithmic;  // "601n" values; else a step
+    const bool counted = is_count(third) || over.logarithmic;
     if (third.ends_with('n')) third.pop_back();
-    const double step = is_count ? 0 : signed_argument(option, third, dimension);
-    const double count = is_count ? output::number_in<int>(third).value_or(0)
-                                  : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
+    const double step = counted ? 0 : signed_argument(option, third, dimension);
+    const double count = counted ? output::number_in<int>(third).value_or(0)
+                                 : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
     if (!(count >= 1 && count <= 1e8))
         throw UsageError(fmt::format("{}: {} is no {} from {} to {}", option, parts[2],
-                                     is_count ? "number of values" : "step", parts[0], parts[1]));
-    if (!is_count) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
+                                     counted ? "number of values" : "step", parts[0], parts[1]));
+    if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
     over.count = static_cast<int>(count);
     return over;
 }
@@ -119,7 +126,15 @@ Scene with_options(Scene scene, const SweepArguments& args) {
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    if (!args.file.empty() || !args.diagram) outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
+    if (!args.file.empty() || !(args.diagram || args.film))
+        outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
+    if (args.film) {
+        SweepFilmOutput film;
+        film.file = *args.film;
+        film.value = args.value.value_or("");
+        film.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+        outputs.emplace_back(std::move(film));
+    }
     if (!args.diagram) return outputs;
     FigureOutput diagram;
     diagram.file = *args.diagram;
@@ -160,7 +175,8 @@ void judge_parts(const SweepArguments& args) {
     if (!args.shard && !args.emit) return;
     if (args.file.empty() || args.file == "-") throw UsageError("parts of a sweep are files; name one with -o FILE.nc");
     need_ending("-o", args.file, {".nc"});
-    if (args.diagram) throw UsageError("--diagram: a part has no diagram; collect the parts first");
+    if (args.diagram || args.film)
+        throw UsageError("--diagram, --film: a part has no diagram; collect the parts first");
     if (args.emit && args.shard) throw UsageError("--emit and --shard exclude each other: the script makes all parts");
     if (args.emit && args.scene == "-") throw UsageError("--emit: the script needs a scene in a file");
     if (args.emit && quoted(args.file) != args.file)
@@ -172,7 +188,7 @@ void refuse_idle_options(const SweepArguments& args) {
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
     if (args.figure) throw UsageError("--figure belongs to --diagram");
-    if (args.value) throw UsageError("--value belongs to --diagram");
+    if (args.value && !args.film) throw UsageError("--value belongs to --diagram");
 }
 
 int act(const SweepArguments& args) {
@@ -180,6 +196,7 @@ int act(const SweepArguments& args) {
     refuse_idle_options(args);
     if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
     if (args.diagram) need_ending("--diagram", *args.diagram, kFigureEndings);
+    if (args.film) need_ending("--film", *args.film, kSweepFilmEndings);
     if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
     Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
@@ -209,10 +226,10 @@ void add_sweep(Grammar& grammar) {
     auto args = std::make_shared<SweepArguments>();
     Command& app = grammar.command("sweep", "Many motions over one or two keys: samples, classes, diagrams");
     add_scene(app, args->scene, args->common);
-    app.option(
-        "--over", &args->over, "KEY=VALUES",
-        "What varies: KEY=FIRST:LAST:STEP, KEY=FIRST:LAST:COUNTn (with :log too), KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
-        "twice for a grid");
+    app.option("--over", &args->over, "KEY=VALUES",
+               "What varies: KEY=FIRST:LAST:COUNT (ends included; with :log too) or a STEP that is no whole number, "
+               "KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
+               "twice for a grid");
     app.option("--sample", &args->sample, "WHAT",
                "impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: impacts)");
     app.option("--transient", &args->transient, "N", "Turns of the cam, or a time, before samples are kept (200)");
@@ -222,6 +239,8 @@ void add_sweep(Grammar& grammar) {
     app.option("-o,--output", &args->file, "FILE",
                "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
     app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg, .eps, .png or .tif");
+    app.option("--film", &args->film, "FILE",
+               "A film in which the diagram grows while the beam moves beside it: .mp4, .mov, .mkv or .webm");
     app.option("--figure", &args->figure, "NAME",
                "Which: bifurcation, map, basins, poincare or impact-map (default: what suits the keys)")
         .one_of(diagram_names());

@@ -2,7 +2,7 @@
 // the impacts of a sweep where it is given.
 #pragma once
 
-#include "output/data/records.hpp"
+#include "output/data/orbit_records.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/figures/caption.hpp"
 

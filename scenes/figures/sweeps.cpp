@@ -7,11 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
 #include "render/plot/style.hpp"
+#include "render/plot/text.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/key_label.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -180,24 +182,33 @@ std::string tolerance_words(const SweptPoints& points) {
 
 // ---- panels -------------------------------------------------------------------------------------
 
+// The cell of a point in the strip of classes; none beyond the lanes, of which the first start's is the highest.
+std::optional<std::size_t> strip_cell(const SweptPoints& points, const std::vector<std::size_t>& rank,
+                                      std::uint64_t lanes, std::uint64_t k) {
+    const std::uint64_t seed = k % points.seeds();
+    if (seed >= lanes) return std::nullopt;
+    return (lanes - 1 - seed) * rank.size() + rank[k / points.seeds()];
+}
+
+constexpr std::uint64_t kMostLanes = 8;
+
 // Which class stands where: a row of cells for each start.
 figure::Panel class_strip(const SweptPoints& points) {
     figure::Panel strip;
     strip.name = "class";
     const std::vector<double>& values = points.axis(0).values;
     const std::vector<std::size_t> rank = ranks(values);
-    const std::uint64_t lanes = std::min<std::uint64_t>(points.seeds(), 8);
+    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
     figure::Cells cells;
     cells.x = edges_around(values);
     for (std::uint64_t lane = 0; lane <= lanes; ++lane) cells.y.push_back(static_cast<double>(lane));
     cells.colors.assign(values.size() * lanes, Color{0, 0, 0, 0});
     std::map<AttractorClass, bool> shown;
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
-        const std::uint64_t seed = k % points.seeds();
-        if (!points.data.has(k) || seed >= lanes) continue;
+        const std::optional<std::size_t> cell = strip_cell(points, rank, lanes, k);
+        if (!points.data.has(k) || !cell) continue;
         const AttractorClass kind = kind_of(points.data.read(k));
-        // The first start stands highest.
-        cells.colors[(lanes - 1 - seed) * values.size() + rank[k / points.seeds()]] = color_of(kind);
+        cells.colors[*cell] = color_of(kind);
         shown[kind] = true;
     }
     strip.cells.push_back(std::move(cells));
@@ -235,18 +246,29 @@ const char* exponent_words(Lang lang) {
                             : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
 }
 
-figure::Figure bifurcation(const SweptPoints& points, const std::string& value) {
+// `order`: in which the clouds hold the points. `added` is told of each dot.
+using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint64_t point)>;
+
+std::vector<std::uint64_t> as_numbered(const SweptPoints& points) {
+    std::vector<std::uint64_t> order(points.data.points());
+    std::iota(order.begin(), order.end(), std::uint64_t{0});
+    return order;
+}
+
+figure::Figure bifurcation(const SweptPoints& points, const std::string& value, const std::vector<std::uint64_t>& order,
+                           const Added& added) {
     const std::size_t column = points.column(value), width = points.data.columns.size();
     figure::Panel panel, exponents;
     panel.clouds = exponents.clouds = clouds_of_starts(points);
-    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+    for (const std::uint64_t k : order) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = panel.clouds.size() > 1 ? k % points.seeds() : 0;
         const double at = points.data.place(k)[0];
-        if (std::isfinite(p.exponent)) add(exponents.clouds[cloud], at, p.exponent);
+        if (std::isfinite(p.exponent)) add(exponents.clouds[cloud], at, p.exponent), added(1, cloud, k);
         if (!has_section(kind_of(p))) continue;
-        for (std::size_t i = column; i < p.samples.size(); i += width) add(panel.clouds[cloud], at, p.samples[i]);
+        for (std::size_t i = column; i < p.samples.size(); i += width)
+            add(panel.clouds[cloud], at, p.samples[i]), added(0, cloud, k);
     }
     panel.name = value;
     panel.y = {.label = label_of(value, points.data.columns[column].unit, points.lang)};
@@ -472,7 +494,7 @@ std::optional<std::string> needs_impacts(const Scene& scene) {
 }
 
 figure::Figure draw_bifurcation(const SweptPoints& points, const FigureOutput& how) {
-    return bifurcation(points, value_of(points, how, ""));
+    return bifurcation(points, value_of(points, how, ""), as_numbered(points), [](auto...) {});
 }
 figure::Figure draw_map(const SweptPoints& points, const FigureOutput& how) {
     return two_key_map(points, value_of(points, how, kMapValues[0]));
@@ -507,6 +529,71 @@ const Recipe kPoincare = recipe_of_sweep("poincare", {"Poincaré section", "Poin
                                          prepare<kPoincare, draw_poincare>, false);
 const Recipe kImpactMap = recipe_of_sweep("impact-map", {"Map of impacts", "碰撞映射"}, needs_impacts,
                                           prepare<kImpactMap, draw_impact_map>, false);
+
+// Limits as the whole diagram has them, with some air.
+void fix_limits(figure::Panel& panel) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const figure::Cloud& cloud : panel.clouds)
+        for (const double y : cloud.y)
+            if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+    if (!(low <= high)) return;
+    const double air = high > low ? 0.04 * (high - low) : std::max(1e-9, 0.04 * std::abs(high));
+    panel.y.from = low - air, panel.y.to = high + air;
+}
+
+GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place) {
+    const SweptPoints points(swept, how.lang);
+    std::vector<std::uint64_t> order = as_numbered(points);
+    std::ranges::stable_sort(order, {}, [&](std::uint64_t k) { return place[k]; });
+    places_.resize(2);
+    whole_ = bifurcation(points, value_of(points, how, ""), order,
+                         [&](std::size_t panel, std::size_t cloud, std::uint64_t point) {
+                             std::vector<std::vector<std::size_t>>& of_panel = places_[panel];
+                             of_panel.resize(std::max(of_panel.size(), cloud + 1));
+                             of_panel[cloud].push_back(place[point]);
+                         });
+    if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        places_[i].resize(whole_.panels[i].clouds.size());
+        fix_limits(whole_.panels[i]);
+    }
+    whole_.panels.front().legend = figure::Legend::above;  // a place in the plot would change as it fills
+    const std::vector<std::size_t> rank = ranks(points.axis(0).values);
+    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
+    cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
+    for (std::uint64_t k = 0; k < points.data.points(); ++k)
+        if (const auto cell = strip_cell(points, rank, lanes, k)) cells_[*cell] = place[k];
+    whole_.name = kBifurcation.name;
+}
+
+figure::Figure GrowingDiagram::until(std::size_t last, double at) const {
+    figure::Figure out = whole_;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        for (std::size_t c = 0; c < places_[i].size(); ++c) {
+            const std::vector<std::size_t>& places = places_[i][c];
+            const auto count = static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
+            out.panels[i].clouds[c].x.resize(count);
+            out.panels[i].clouds[c].y.resize(count);
+        }
+        out.panels[i].rules.push_back({.at = at, .vertical = true});
+    }
+    std::vector<Color>& colors = out.panels.back().cells[0].colors;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        if (cells_[i] > last) colors[i] = Color{0, 0, 0, 0};
+    return out;
+}
+
+std::string words_of_point(const Swept& swept, std::uint64_t point, Lang lang) {
+    const SweptPoints points(swept, lang);
+    const output::StoredPoint p = points.data.read(point);
+    const output::SweepAxis& axis = points.axis(0);
+    std::string text = fmt::format("{} = {:.6g}{}", figure::to_plain(symbol_of(axis.name)), points.data.place(point)[0],
+                                   axis.unit == "1" ? "" : " " + axis.unit);
+    text += lang == Lang::en ? ": " : "：";
+    if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
+    return text + filled(lang == Lang::en ? "period {} with {} impact{}" : "周期 {}，碰撞 {} 次", p.period,
+                         p.impacts_per_period, p.impacts_per_period == 1 ? "" : "s");
+}
 
 std::string usual_diagram(const Scene& scene) {
     for (const Recipe& recipe : recipes())

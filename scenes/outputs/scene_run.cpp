@@ -101,7 +101,7 @@ void SceneRun::make_sweep() {
         is_stdout(plan_.sweep) ? temporary_store() : fs::path(files_.path_of(plan_.sweep).string() + ".part"));
     for (const Output& output : scene_.outputs)
         if (const auto* finished = std::get_if<SweepOutput>(&output);
-            finished && !is_stdout(finished->file) && !context_.options.force)
+            finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_goes_on)
             sweep_->take_from(files_.path_of(finished->file));
     if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
     try {
@@ -132,9 +132,10 @@ void SceneRun::write_data(const DataFile& d) {
     stop_if_interrupted();
     const auto start = Clock::now();
     static const sim::Request kNone;
-    DataSource from{scene_.problem, plan_.simulation ? plan_.simulation->request : kNone,
-                    results_.run,   context_.work,
-                    nullptr,        sweep_ ? &sweep_->data() : nullptr};
+    DataSource from{scene_.problem,   plan_.simulation ? plan_.simulation->request : kNone,
+                    results_.run,     context_.work,
+                    nullptr,          sweep_ ? &sweep_->data() : nullptr,
+                    context_.progress};
     if (is_stdout(d.file)) {
         d.write(from);
     } else {

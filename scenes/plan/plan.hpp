@@ -19,6 +19,7 @@
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/tree.hpp"
+#include "scenes/motions/progress.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -129,6 +130,7 @@ struct DataSource {
     const output::Work& work;        // so far
     const output::Target* file;      // null: standard output
     const output::SweepData* sweep;  // null unless the plan asks for it
+    Progress& progress;
 };
 // A file that holds numbers of the scene's motion, or of its sweep.
 struct DataFile {
@@ -154,7 +156,8 @@ struct Plan {
     // Until when a first run has to find impacts, because pictures that are not settled look at them.
     std::optional<double> impacts_until;
     std::vector<Variant> variants;
-    std::string sweep;  // the first file that shows the points of the scene's sweep; empty: none
+    std::string sweep;           // the first file that shows the points of the scene's sweep; empty: none
+    bool sweep_goes_on = false;  // and a film shows how motions go on from their ends, which no NetCDF file has
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;

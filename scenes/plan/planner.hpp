@@ -26,6 +26,7 @@ class Planner {
     void ask_for_sweep(const std::string& file) {
         if (plan_.sweep.empty()) plan_.sweep = file;
     }
+    void ask_for_ends_of_sweep() { plan_.sweep_goes_on = true; }
     void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
     void ask_for_horizon() { simulation_.request.horizon = simulation_.horizon = true; }
 

@@ -275,6 +275,28 @@ struct SweepOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
+inline constexpr std::initializer_list<const char*> kSweepFilmEndings{".mp4", ".mov", ".mkv", ".webm"};
+struct SweepFilmOutput {
+    static constexpr const char *kType = "sweep-film",
+                                *kMeaning =
+                                    "A film of the scene's sweep over one key: the bifurcation diagram grows "
+                                    "while the beam of that value moves beside it.";
+    static constexpr bool kIsData = false;
+    std::string file;  // .mp4, .mov, .mkv or .webm
+    Size size;
+    FrameRate fps{30, 1};
+    double duration = 30;  // [s]
+    double turns = 2;      // of the cam in a second of the film
+    render::Style style = render::Style::lit;
+    std::optional<double> exaggeration = {};
+    Lang lang = Lang::en;
+    std::string value = {};  // what the diagram shows; empty: the usual
+    std::optional<int> crf = {};
+
+    Extent extent() const { return Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
 // One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
@@ -328,7 +350,7 @@ struct FigureOutput {
     void plan(Planner& planner, std::size_t output) const;
 };
 using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
-                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput, SummaryOutput>;
+                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput, SweepFilmOutput, SummaryOutput>;
 
 // About what a thread needs to draw it [bytes], and from where on people are told.
 double memory_of(const Picture& picture);

@@ -33,17 +33,8 @@ std::vector<double> numbers_of(const sim::InitialState& s) {
     out.insert(out.end(), s.y.begin(), s.y.end());
     return out;
 }
-std::optional<sim::InitialState> state_of(const std::vector<double>& numbers) {
-    if (numbers.size() < 6) return std::nullopt;
-    sim::InitialState s;
-    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::Grip>(static_cast<int>(numbers[3])),
-               numbers[4]};
-    s.y.assign(numbers.begin() + 5, numbers.end());
-    return s;
-}
 
-output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, const sim::Sampling& sampling,
-                           bool state) {
+output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, const sim::Sampling& sampling) {
     output::StoredPoint out;
     out.point = index;
     out.kind = static_cast<int>(made.attractor.kind);
@@ -57,7 +48,7 @@ output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, con
     for (const sim::MotionSample& sample : made.motion.samples)
         for (const std::size_t c : columns) out.samples.push_back(sample[c]);
     // What has left the cam or failed is no place to go on from.
-    if (state && !made.motion.over_the_top && out.failure.empty()) out.state = numbers_of(made.motion.end);
+    if (!made.motion.over_the_top && out.failure.empty()) out.state = numbers_of(made.motion.end);
     return out;
 }
 
@@ -67,15 +58,15 @@ class PointMaker {
         : grid_(grid), store_(store), progress_(progress) {}
 
     void make(const SweepGrid::Task& task) {
-        std::vector<double> state;
+        std::optional<sim::InitialState> end;
         for (const std::uint64_t index : task.points) {
             if (output::interrupted()) throw sim::Interrupted();
             if (store_.has(index)) {
-                if (task.carries) state = store_.read(index).state;
+                if (task.carries) end = end_of(store_.read(index));
                 continue;
             }
-            output::StoredPoint point = made(index, state_of(state), task.carries);
-            state = point.state;
+            const output::StoredPoint point = made(index, task.carries ? end : std::nullopt);
+            end = end_of(point);
             const std::lock_guard lock(mutex_);
             store_.add(point);
             progress_.reach(static_cast<double>(++done_));
@@ -83,16 +74,16 @@ class PointMaker {
     }
 
   private:
-    output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start, bool carries) {
+    output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start) {
         try {
             return stored(index,
                           sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr,
                                            [](double) { return !output::interrupted(); }),
-                          grid_.sampling(), carries);
+                          grid_.sampling());
         } catch (const std::invalid_argument& impossible) {  // a start inside the cam
             sim::SweepPoint none;
             none.motion.failure = impossible.what();
-            return stored(index, none, grid_.sampling(), false);
+            return stored(index, none, grid_.sampling());
         }
     }
 
@@ -110,6 +101,16 @@ std::vector<std::uint64_t> tasks_of(const SweepGrid& grid, const SweepPart& part
 }
 
 }  // namespace
+
+std::optional<sim::InitialState> end_of(const output::StoredPoint& point) {
+    const std::vector<double>& numbers = point.state;  // as numbers_of
+    if (numbers.size() < 6) return std::nullopt;
+    sim::InitialState s;
+    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::Grip>(static_cast<int>(numbers[3])),
+               numbers[4]};
+    s.y.assign(numbers.begin() + 5, numbers.end());
+    return s;
+}
 
 std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part) {
     std::vector<bool> has(grid.points(), part.whole());

@@ -1,9 +1,13 @@
 // Makes the points of a sweep, on several threads, into a store that survives the program.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "output/data/point_store.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
+#include "sim/dynamics/initial.hpp"
 
 namespace beamcam::scenes {
 
@@ -19,6 +23,10 @@ std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // b
 // IoError.
 void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
                  output::PointStore& store);
+
+// The state at the end of the point's motion; nothing where that left the cam or failed, and where the point was read
+// from a NetCDF file.
+std::optional<sim::InitialState> end_of(const output::StoredPoint& point);
 
 // What one point takes, by a few short motions; for plans.
 struct SweepCost {

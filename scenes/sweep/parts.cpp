@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-#include "output/data/sweep_library.hpp"
+#include "output/data/netcdf_library.hpp"
 #include "output/files/numbers.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/scene/exit_code.hpp"
@@ -43,7 +43,7 @@ struct Part {
 };
 
 Part open_part(const std::filesystem::path& file) {
-    Part found{file, output::sweep_library().open(file), {}};
+    Part found{file, output::netcdf_library().open(file), {}};
     const std::string *which = found.data.attribute("beamcam_part"), *scene = found.data.attribute("beamcam_scene");
     if (!scene) throw output::IoError(file.string() + ": is no sweep of beamcam");
     if (!which) throw output::IoError(file.string() + ": is a whole sweep and no part of one");

@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "output/data/sweep_library.hpp"
+#include "output/data/netcdf_library.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/sweep/attractor.hpp"
 
@@ -19,7 +19,7 @@ SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::p
 
 void SweepRun::take_from(const std::filesystem::path& file) try {
     if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
-    const output::SweepData there = output::sweep_library().open(file);
+    const output::SweepData there = output::netcdf_library().open(file);
     for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
         const std::string *one = data_.attribute(name), *other = there.attribute(name);
         if (!other || *one != *other) return;

@@ -235,9 +235,9 @@ const char* name(OrbitChange change) {
         case OrbitChange::fold:
             return "fold";
         case OrbitChange::period_doubling:
-            return "period doubling";
+            return "period-doubling";
         case OrbitChange::neimark_sacker:
-            return "Neimark-Sacker";
+            return "neimark-sacker";
         case OrbitChange::branching:
             return "branching";
         case OrbitChange::grazing:

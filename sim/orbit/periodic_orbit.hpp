@@ -18,11 +18,13 @@ struct OrbitImpact {
 };
 
 struct PeriodicOrbit {
-    double section = 0;   // cam angle ψ where `start` lies [rad]
-    InitialState start;   // state and phase there
-    int turns = 1;        // n: the period in turns of the cam
-    double period = 0;    // [s]
-    double residual = 0;  // of the section map, over the orbit's size
+    double section = 0;    // cam angle ψ where `start` lies [rad]
+    InitialState start;    // state and phase there
+    Initial initial;       // the same as a scene would give it: θ, θ̇, q, q̇
+    double cam_phase = 0;  // of the section: turns of the cam after the scene's own start, 0 … 1
+    int turns = 1;         // n: the period in turns of the cam
+    double period = 0;     // [s]
+    double residual = 0;   // of the section map, over the orbit's size
     std::vector<OrbitImpact> impacts;
     std::vector<std::complex<double>> multipliers;  // of the section map, the largest first
 

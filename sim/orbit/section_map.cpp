@@ -41,6 +41,7 @@ SectionMap::SectionMap(const Problem& problem, double section, int turns, Initia
                        double size)
     : problem_(at_section(problem, section)),
       section_(section),
+      cam_phase_(section_phase(problem, section)),
       period_(turns * cam_period(problem)),
       size_(size),
       turns_(turns),
@@ -68,6 +69,8 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     orbit.section = section_;
     orbit.start = like_;
     Eigen::Map<Eigen::VectorXd>(orbit.start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
+    orbit.initial = initial_of(System(problem_), orbit.start.y);
+    orbit.cam_phase = cam_phase_;
     orbit.turns = turns_;
     orbit.period = period_;
     orbit.chatters = value.map.holds > 0;

@@ -27,7 +27,7 @@ class SectionMap {
 
   private:
     Problem problem_;
-    double section_, period_, size_;
+    double section_, cam_phase_, period_, size_;
     int turns_;
     InitialState like_;
     Eigen::VectorXd units_;

@@ -45,6 +45,14 @@ double cam_period(const Problem& problem) {
     return turns ? 2 * std::numbers::pi / std::fabs(problem.cam->speed) : 1;
 }
 
+double turn_fraction(double turns) { return turns - std::floor(turns); }
+
+// ψ = ψ₀ − ωt.
+double section_phase(const Problem& problem, double psi) {
+    if (!problem.cam || problem.cam->speed == 0) return 0;
+    return turn_fraction(std::copysign(1, problem.cam->speed) * (problem.cam->phase - psi) / (2 * std::numbers::pi));
+}
+
 void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes) {
     Beam& beam = problem.beam;
     const bool bends = model == ModelKind::exact;  // its coordinates are angles

@@ -168,6 +168,9 @@ Basis resolved_basis(const Problem& problem);      // never `automatic`
 double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
 double contact_offset(const Problem& problem);     // d [m]
 double cam_period(const Problem& problem);         // 2π/|ω|; 1 s with a cam at rest or without a cam [s]
+double turn_fraction(double turns);                // without the whole ones: 0 … 1
+// Turns after the start at which the cam's angle is ψ: 0 … 1.
+double section_phase(const Problem& problem, double psi);
 // Dissipation factor D_c of F = Kδⁿ(1 + D_c δ̇/δ̇₋) for a pre-set restitution c.
 double damping_factor(DampingLaw law, double restitution);
 // The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].

@@ -17,14 +17,6 @@ SampleSpan sample_span(const Problem& problem, const Sampling& sampling) {
     return span;
 }
 
-double turn_fraction(double turns) { return turns - std::floor(turns); }
-
-// ψ = ψ₀ − ωt.
-double section_phase(const Problem& problem, double psi) {
-    if (!problem.cam || problem.cam->speed == 0) return 0;
-    return turn_fraction(std::copysign(1, problem.cam->speed) * (problem.cam->phase - psi) / (2 * std::numbers::pi));
-}
-
 const std::array<SampleColumnInfo, kSampleColumns>& sample_columns() {
     static const std::array<SampleColumnInfo, kSampleColumns> columns{{
         {"t", "s", "Time since the start of the motion", false},

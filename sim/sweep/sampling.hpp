@@ -47,8 +47,6 @@ struct SampleSpan {
     long kept() const { return to - from; }
 };
 SampleSpan sample_span(const Problem& problem, const Sampling& sampling);
-double turn_fraction(double turns);                        // without the whole ones: 0 … 1
-double section_phase(const Problem& problem, double psi);  // turns after the start at which the cam's angle is ψ: 0 … 1
 
 // One sample; what does not apply is NaN. The columns of the files, in this order.
 enum SampleColumn : std::size_t {

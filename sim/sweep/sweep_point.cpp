@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "sim/orbit/exponents.hpp"
+#include "sim/run/run.hpp"
 #include "sim/sweep/rigid_motion.hpp"
 #include "sim/sweep/sampler.hpp"
 
@@ -46,6 +47,11 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
     if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
         point.attractor = by_tangents(problem, sampling, point, progress);
     return point;
+}
+
+Result motion_from(const Problem& problem, const InitialState& end, const Request& request, const Progress& progress) {
+    const InitialState start = carried(problem, end);
+    return std::move(Run(problem, {&request, 1}, progress, {.start = &start}).integrate().front());
 }
 
 }  // namespace beamcam::sim

@@ -17,4 +17,8 @@ struct SweepPoint {
 SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const InitialState* start,
                        const Progress& progress);
 
+// The motion that goes on from the end of another, of this or a neighbouring problem: at t = 0 the cam stands as it
+// does at the problem's start, as it did at that end. Throws SolverError, Interrupted.
+Result motion_from(const Problem& problem, const InitialState& end, const Request& request, const Progress& progress);
+
 }  // namespace beamcam::sim

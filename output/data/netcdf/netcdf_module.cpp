@@ -1,4 +1,4 @@
-// Sweeps as NetCDF-4 files. https://docs.unidata.ucar.edu/netcdf-c, https://cfconventions.org
+// Sweeps and tables as NetCDF-4 files. https://docs.unidata.ucar.edu/netcdf-c, https://cfconventions.org
 #include <fmt/format.h>
 #include <netcdf.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "output/data/sweep_library.hpp"
+#include "output/data/netcdf_library.hpp"
 #include "render/base/modules.hpp"
 
 namespace beamcam::output {
@@ -232,6 +232,25 @@ class Writer {
     int seed_ = 0, sample_ = 0, class_ = 0, period_ = 0, count_ = 0;
 };
 
+void write_columns(const File& file, const ColumnTable& table) {
+    const auto need = [&file](int status) { file.need(status, "cannot be written"); };
+    int row = 0;
+    need(nc_def_dim(file.id, "row", table.rows(), &row));
+    std::vector<int> ids;
+    for (const TableColumn& column : table.columns) {
+        ids.push_back(0);
+        need(nc_def_var(file.id, column.name.c_str(), NC_DOUBLE, 1, &row, &ids.back()));
+        need(nc_def_var_fill(file.id, ids.back(), NC_FILL, &kNone));
+        need(nc_def_var_deflate(file.id, ids.back(), 1, 1, kDeflate));
+        file.set(ids.back(), "units", udunits(column.unit));
+        file.set(ids.back(), "long_name", column.meaning);
+    }
+    for (const auto& [name, value] : table.attributes) file.set(NC_GLOBAL, name.c_str(), value);
+    need(nc_enddef(file.id));
+    for (std::size_t c = 0; c < ids.size(); ++c)
+        need(nc_put_var_double(file.id, ids[c], table.columns[c].values.data()));
+}
+
 // Reads points of a file as they are asked for.
 class Reader {
   public:
@@ -330,12 +349,18 @@ class Reader {
     std::uint64_t first_ = 1, seeds_ = 1;
 };
 
-class NetcdfLibrary final : public SweepLibrary {
+class Library final : public NetcdfLibrary {
   public:
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
         const std::shared_ptr<File> made = File::create(file, named);
         Writer(*made, data).write();
+        made->close();
+    }
+    void write(const std::filesystem::path& file, const std::filesystem::path& named,
+               const ColumnTable& table) const override {
+        const std::shared_ptr<File> made = File::create(file, named);
+        write_columns(*made, table);
         made->close();
     }
     SweepData open(const std::filesystem::path& file) const override {
@@ -349,9 +374,9 @@ class NetcdfLibrary final : public SweepLibrary {
     std::string version() const override { return nc_inq_libvers(); }
 };
 
-const NetcdfLibrary library;
+const Library library;
 
 }  // namespace
 }  // namespace beamcam::output
 
-BEAMCAM_MODULE(static_cast<const beamcam::output::SweepLibrary&>(beamcam::output::library))
+BEAMCAM_MODULE(static_cast<const beamcam::output::NetcdfLibrary&>(beamcam::output::library))

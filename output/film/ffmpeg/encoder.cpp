@@ -147,6 +147,7 @@ class FfmpegEncoder : public Encoder {
         int code = avcodec_open2(codec_.get(), &encoder_, &options);
         if (code >= 0 && av_dict_count(options) > 0) code = AVERROR_OPTION_NOT_FOUND;
         av_dict_free(&options);
+        if (code == AVERROR(ENOTSUP)) throw MissingCodec(settings_.missing);  // the libx265 that is there: no alpha
         if (code < 0) fail("opening the encoder", code);
     }
 

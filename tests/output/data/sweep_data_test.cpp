@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "output/data/sweep_library.hpp"
+#include "output/data/netcdf_library.hpp"
 #include "output/files/atomic_file.hpp"
 #include "tests/output/scratch.hpp"
 
@@ -51,7 +51,7 @@ TEST(SweepData, ReadsBackFromNetcdfWithTheGapsOfAPart) {
     const Scratch scratch;
     const SweepData data = grid(7);
     write_sweep(scratch / "a.nc", data);
-    const SweepData back = sweep_library().open(scratch / "a.nc");
+    const SweepData back = netcdf_library().open(scratch / "a.nc");
     ASSERT_EQ(back.points(), 12u);
     ASSERT_EQ(back.axes.size(), 2u);
     EXPECT_EQ(back.axes[0].name, "cam.speed");
@@ -86,8 +86,8 @@ TEST(SweepData, HasTheSameBytesFromTheSameNumbers) {
 TEST(SweepData, RefusesAFileThatIsNoSweep) {
     const Scratch scratch;
     write_file(scratch / "a.nc", "no netcdf");
-    EXPECT_THROW(sweep_library().open(scratch / "a.nc"), IoError);
-    EXPECT_THROW(sweep_library().open(scratch / "none.nc"), IoError);
+    EXPECT_THROW(netcdf_library().open(scratch / "a.nc"), IoError);
+    EXPECT_THROW(netcdf_library().open(scratch / "none.nc"), IoError);
 }
 
 TEST(SweepData, IsReadByNetcdf4Python) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "output/data/table_reader.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -46,21 +47,38 @@ TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
 TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     const Folder folder;
     folder.write("s.json", kPressed);
-    const Finished done = shell(
-        folder, "$BEAMCAM orbits s.json --over cam.speed=41:52 --impacts 1 --transient 0 -q -o b.csv -o b.pdf --json");
+    const Finished done = shell(folder,
+                                "$BEAMCAM orbits s.json --over cam.speed=41:52 --impacts 1 --transient 0 -q -o b.csv "
+                                "-o b.npz -o b.nc -o b.pdf --json");
     ASSERT_EQ(done.code, 0) << done.err;
     const nlohmann::json table = nlohmann::json::parse(done.out);
-    EXPECT_EQ(table["key"], "cam.speed");
+    EXPECT_EQ(table["parameter"], "cam.speed");
     ASSERT_EQ(table["branches"].size(), 1u);
     EXPECT_EQ(table["start"], 45);
     double fold = 0, doubling = 0;
-    for (const auto& point : table["branches"][0]["special"]) {
-        if (point["change"] == "fold") fold = point["value"];
-        if (point["change"] == "period doubling") doubling = point["value"];
+    for (const auto& event : table["events"]) {
+        EXPECT_EQ(event["branch"], 0);
+        if (event["kind"] == "fold") fold = event["value"];
+        if (event["kind"] == "period-doubling") doubling = event["value"];
     }
     EXPECT_NEAR(fold, 42.23567502238, 1e-4);  // as far as the torque has digits
     EXPECT_NEAR(doubling, 50.86884987331, 1e-4);
-    EXPECT_THAT(testing::slurp((folder / "b.csv").string()), StartsWith("branch,point,value,turns,stable,"));
+    EXPECT_EQ(table["branches"][0]["period"], 1);
+    EXPECT_EQ(table["branches"][0]["impacts"], 1);
+    const nlohmann::json& points = table["branches"][0]["points"];
+    EXPECT_GT(points[0]["state"]["theta"], 0.3);
+    EXPECT_EQ(points[0]["multipliers"].size(), 2u);
+    EXPECT_THAT(testing::slurp((folder / "b.csv").string()), StartsWith("branch,point,value,period,stable,"));
+    // The table is the same in every format, a row for each point with its one impact.
+    const output::NamedTable csv = output::read_table(folder / "b.csv"), npz = output::read_table(folder / "b.npz");
+    ASSERT_EQ(csv.rows(), points.size());
+    EXPECT_EQ(csv.names, npz.names);
+    for (std::size_t c = 0; c < csv.columns.size(); ++c) EXPECT_EQ(csv.columns[c], npz.columns[c]) << csv.names[c];
+    for (std::size_t i = 0; i < csv.rows(); ++i) EXPECT_EQ((*csv.find("value"))[i], points[i]["value"]);
+    const Finished dump = shell(folder, "ncdump -h b.nc");
+    if (dump.code != 127) {
+        EXPECT_THAT(dump.out, HasSubstr("double approach(row)"));
+    }
     EXPECT_THAT(testing::slurp((folder / "b.pdf").string()), StartsWith("%PDF"));
 }
 
@@ -157,7 +175,10 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     ASSERT_EQ(json.code, 0) << json.err;
     const nlohmann::json found = nlohmann::json::parse(json.out);
     EXPECT_EQ(found["exponents"].size(), 2u);
-    EXPECT_EQ(found["exponents"][0]["history"].size(), found["time"].size());
+    EXPECT_EQ(found["exponents"][0]["history"].size(), found["history_time"].size());
+    EXPECT_NEAR(found["sum"],
+                found["exponents"][0]["value"].get<double>() + found["exponents"][1]["value"].get<double>(), 1e-12);
+    EXPECT_EQ(found["time"], 5);
     EXPECT_THAT(testing::slurp((folder / "l.svg").string()), HasSubstr("<svg"));
     EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
 }

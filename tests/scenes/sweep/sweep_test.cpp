@@ -137,7 +137,9 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     using ::testing::ElementsAre;
     EXPECT_THAT(first_column("cam.speed=40:44:3n"), ElementsAre("40", "42", "44"));
     EXPECT_THAT(first_column("cam.speed=40:41.1:0.5"), ElementsAre("40", "40.5", "41"));
-    EXPECT_THAT(first_column("cam.speed=40:44:2"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:44:3"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:44:2.0"), ElementsAre("40", "42", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:44:1"), ElementsAre("40", "41", "42", "43", "44"));
     EXPECT_THAT(first_column("cam.speed=25:100:3n:log"), ElementsAre("25", "50", "100"));
     EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
     EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
@@ -149,8 +151,8 @@ TEST(SweepCommand, RefusesInWords) {
     folder.write("s.json", kSweptScene);
     for (const auto& [arguments, code, words] :
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
-          {"--over cam.speed", 2, "KEY=FIRST:LAST:STEP"},
-          {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:STEP"},
+          {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
+          {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
           {"--seed up", 2, "carry-up"},
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},

@@ -1,12 +1,12 @@
-#include "output/data/sweep_library.hpp"
+#include "output/data/netcdf_library.hpp"
 
 #include "render/base/modules.hpp"
 
 namespace beamcam::output {
 
-const SweepLibrary& sweep_library() {
+const NetcdfLibrary& netcdf_library() {
     try {
-        static const auto* const library = static_cast<const SweepLibrary*>(render::load_module("beamcam_netcdf.so"));
+        static const auto* const library = static_cast<const NetcdfLibrary*>(render::load_module("beamcam_netcdf.so"));
         return *library;
     } catch (const render::ModuleError& error) {
         throw UnsupportedOption(std::string("NetCDF files need its library (Debian: libnetcdf19 or newer): ") +

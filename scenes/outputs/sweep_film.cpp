@@ -1,0 +1,351 @@
+// Output "sweep-film": the bifurcation diagram of the scene's sweep grows, and beside it the beam moves as it does at
+// the value that the diagram has reached.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "output/data/sweep_data.hpp"
+#include "output/files/interrupt.hpp"
+#include "output/film/video.hpp"
+#include "render/film/film.hpp"
+#include "render/plot/labels.hpp"
+#include "render/plot/words.hpp"
+#include "scenes/figures/make.hpp"
+#include "scenes/figures/sweeps.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/forms.hpp"
+#include "scenes/plan/planner.hpp"
+#include "scenes/scene/version.hpp"
+#include "scenes/sweep/make_points.hpp"
+#include "sim/sweep/sweep_point.hpp"
+
+namespace beamcam::scenes {
+
+namespace dim = sim::dimension;
+using sim::between, sim::kPositive, sim::required, sim::written_if;
+
+namespace {
+
+constexpr double kShotLength = 1;       // of the film, at one value, about [s]
+constexpr double kGrowthRate = 10;      // pictures of the diagram in a second of the film
+constexpr double kDiagramShare = 0.56;  // of a wide picture's width; a tall one is halved
+constexpr double kMargin = 18;          // around the diagram, at the design size [px]
+constexpr double kDesignWidth = 1920, kDesignHeight = 1080, kSmallestUnit = 0.5;
+constexpr double kDiagramResolution = 234;  // at the design size: letters of 8 pt are 26 pixels [1/in]
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kNarrowestDiagram = 62;          // in which axes, numbers and legends have room [mm]
+constexpr int kLongSide = 480, kShortSide = 270;  // of the smallest picture in which words can be read [px]
+
+// The order in which the points come: up through the values, and down where motions were carried so.
+struct Passage {
+    std::vector<std::uint64_t> beams;  // the point whose beam moves, at each place of the order
+    std::vector<std::size_t> place;    // of each point
+};
+Passage passage(const SweepGrid& grid) {
+    const std::vector<double>& values = grid.axes().front().values;
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+    Passage out;
+    out.place.resize(grid.points());
+    for (const bool down : {false, true}) {
+        std::vector<std::uint64_t> seeds;
+        for (std::uint64_t s = 0; s < grid.seeds(); ++s)
+            if ((grid.seed(s) == SeedKind::carry_down) == down) seeds.push_back(s);
+        if (seeds.empty()) continue;
+        for (std::size_t r = 0; r < order.size(); ++r) {
+            const std::uint64_t first = order[down ? order.size() - 1 - r : r] * grid.seeds();
+            for (const std::uint64_t seed : seeds) out.place[first + seed] = out.beams.size();
+            out.beams.push_back(first + seeds.front());
+        }
+    }
+    return out;
+}
+
+// Frames at one value.
+struct Shot {
+    int first = 0, end = 0;
+    std::size_t from = 0, last = 0;  // places by which the diagram grows meanwhile
+    std::uint64_t point = 0;         // whose beam is seen
+    sim::Problem problem;
+    std::vector<sim::Pose> poses;
+    std::vector<sim::Impact> impacts;
+
+    double value_at(int frame) const { return double(frame + 1 - first) / (end - first); }
+    // By whole steps of `hold` frames, so that few diagrams are drawn.
+    std::size_t grown(int frame, int hold) const {
+        const int seen = std::min(end - 1, first + (frame - first) / hold * hold + hold - 1);
+        return from + static_cast<std::size_t>(std::floor(value_at(seen) * double(last - from)));
+    }
+};
+
+int frames_of(const SweepFilmOutput& how) {
+    return std::max(1, static_cast<int>(std::lround(how.duration * how.fps.value())));
+}
+
+std::vector<Shot> shots_of(const SweepFilmOutput& how, const SweepGrid& grid, const Passage& order) {
+    const int frames = frames_of(how);
+    const std::size_t places = order.beams.size(),
+                      count = std::clamp<std::size_t>(std::lround(how.duration / kShotLength), 1, places);
+    std::vector<Shot> shots(std::min<std::size_t>(count, static_cast<std::size_t>(frames)));
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        Shot& shot = shots[i];
+        shot.first = static_cast<int>(i * static_cast<std::size_t>(frames) / shots.size());
+        shot.end = static_cast<int>((i + 1) * static_cast<std::size_t>(frames) / shots.size());
+        shot.from = i * places / shots.size();
+        shot.last = (i + 1) * places / shots.size() - 1;
+        shot.point = order.beams[shot.last];
+        shot.problem = grid.problem(shot.point);
+    }
+    return shots;
+}
+
+// The cam turns evenly through all shots: each begins where it stands then.
+void follow(const SweepFilmOutput& how, const output::StoredPoint& point, Shot& shot) {
+    const double period = cam_period(shot.problem), turns = how.turns / how.fps.value();
+    const double before = std::floor(shot.first * turns);
+    sim::Request request;
+    request.turning_points = false;
+    request.poses.emplace_back();
+    for (int frame = shot.first; frame < shot.end; ++frame)
+        request.poses.back().times.push_back((frame * turns - before) * period);
+    request.end_time = request.poses.back().times.back();
+    const auto goes_on = [](double) { return !output::interrupted(); };
+    const std::optional<sim::InitialState> end = end_of(point);
+    sim::Result result = end ? sim::motion_from(shot.problem, *end, request, goes_on)
+                             : sim::simulate(shot.problem, request, goes_on);  // from its own start: it came to no end
+    shot.poses = std::move(result.poses.front());
+    shot.impacts = std::move(result.impacts);
+}
+
+// All poses of the film, by which scales and camera are chosen.
+class AllPoses final : public render::PoseStore {
+  public:
+    explicit AllPoses(const std::vector<Shot>& shots) : shots_(shots) {
+        for (std::size_t i = 0; i < shots.size(); ++i)
+            for (std::size_t k = 0; k < shots[i].poses.size(); ++k) places_.emplace_back(i, k);
+    }
+    std::size_t size() const override { return places_.size(); }
+    double time(std::size_t k) const override { return pose(k).t; }
+    sim::Pose pose(std::size_t k) const override { return shots_[places_[k].first].poses[places_[k].second]; }
+
+  private:
+    const std::vector<Shot>& shots_;
+    std::vector<std::pair<std::size_t, std::size_t>> places_;
+};
+
+// Where the two halves of a picture stand.
+struct Halves {
+    render::Box diagram, beam;
+    double unit = 1;
+};
+Halves halves_of(const Size& size) {
+    Halves out;
+    const auto w = static_cast<double>(size.width), h = static_cast<double>(size.height);
+    out.unit = std::max(kSmallestUnit, std::min(w, h) / std::min(kDesignWidth, kDesignHeight));
+    if (w > h) {
+        const double left = std::floor(kDiagramShare * w / 2) * 2;
+        out.diagram = {0, 0, left, h}, out.beam = {left, 0, w - left, h};
+    } else {
+        const double upper = std::floor(h / 4) * 2;
+        out.beam = {0, 0, w, upper}, out.diagram = {0, upper, w, h - upper};
+    }
+    out.diagram = out.diagram.inset(std::round(kMargin * out.unit));
+    return out;
+}
+
+void put(const render::Image& part, const render::Box& box, render::Image& whole) {
+    const int rows = std::min(part.height, static_cast<int>(box.h)),
+              columns = std::min(part.width, static_cast<int>(box.w));
+    for (int row = 0; row < rows; ++row)
+        std::copy_n(part.pixels.begin() + std::ptrdiff_t(row) * part.width, columns,
+                    whole.pixels.begin() + std::ptrdiff_t(row + int(box.y)) * whole.width + std::ptrdiff_t(box.x));
+}
+
+class SweepFilm {
+  public:
+    SweepFilm(const SweepFilmOutput& how, const Scene& scene, const output::SweepData& data)
+        : how_(how),
+          scene_(scene),
+          data_(data),
+          grid_(scene),
+          order_(passage(grid_)),
+          shots_(shots_of(how, grid_, order_)),
+          halves_(halves_of(how.size)),
+          figure_(figure_output()),
+          diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
+
+    // Returns how many frames there are.
+    int write(const output::Target& file, Progress& progress) {
+        progress.begin("motions", static_cast<double>(shots_.size()), "values");
+        for (std::size_t i = 0; i < shots_.size(); ++i) {
+            follow(how_, data_.read(shots_[i].point), shots_[i]);
+            progress.reach(static_cast<double>(i + 1));
+        }
+        setup_.survey = std::make_shared<AllPoses>(shots_);
+        factor_ = smallest_factor();
+        output::VideoWriter film(file, options());
+        render::Image picture(how_.size.width, how_.size.height);
+        std::ranges::fill(picture.pixels, 0xffffffffu);
+        progress.begin("frames", frames_of(how_), "frames");
+        for (const Shot& shot : shots_) {
+            draw(shot, picture, film);
+            progress.reach(shot.end);
+        }
+        film.finish();
+        progress.end();
+        return frames_of(how_);
+    }
+
+  private:
+    FigureOutput figure_output() const {
+        FigureOutput figure;
+        figure.figure = "bifurcation";
+        figure.value = how_.value;
+        figure.lang = how_.lang;
+        figure.dpi =
+            std::min(kDiagramResolution * halves_.unit, halves_.diagram.w / kNarrowestDiagram * kMillimetresPerInch);
+        figure.width = halves_.diagram.w / *figure.dpi * kMillimetresPerInch * 1e-3;
+        return figure;
+    }
+    output::VideoOptions options() const {
+        output::VideoOptions options;
+        options.width = how_.size.width, options.height = how_.size.height;
+        options.fps = how_.fps.value();
+        options.codec = *output::default_codec(std::filesystem::path(how_.file).extension().string());
+        options.crf = how_.crf;
+        options.metadata = {{"comment", fmt::format("made by beamcam {}", kVersion)},
+                            {"beamcam-scene", to_json(grid_.scene())},
+                            {"beamcam-version", std::string(kVersion)}};
+        if (!scene_.title.empty()) options.metadata["title"] = render::plain_words(scene_.title);
+        return options;
+    }
+
+    render::FilmSetup setup_of(const Shot& shot) const {
+        render::FilmSetup setup = setup_;
+        setup.problem = shot.problem;
+        setup.title = words_of_point({&grid_.scene(), &data_}, shot.point, how_.lang);
+        setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
+        setup.fps = how_.fps.value();
+        setup.view.style = how_.style;
+        setup.view.lang = how_.lang;
+        setup.view.paper = 0xffffff;
+        setup.view.exaggeration = factor_ ? factor_ : how_.exaggeration;
+        setup.view.show = {.clock = false, .legend = false};
+        setup.layout = render::LayoutNode{};
+        setup.units = scene_.units;
+        setup.poses = shot.poses;
+        setup.impacts = shot.impacts;
+        const double speed = how_.turns * cam_period(shot.problem);  // of time
+        setup.speeds.assign(shot.poses.size(), speed);
+        setup.accuracy_note = notes(shot, speed);
+        return setup;
+    }
+    std::string notes(const Shot& shot, double speed) const {
+        std::string text = render::speed_text(speed, true);
+        if (factor_ && *factor_ > 1 && shot.problem.beam.model != sim::ModelKind::rigid)
+            text += fmt::format("{}{} ×{:g}", text.empty() ? "" : " · ", how_.lang == Lang::en ? "deflection" : "挠度",
+                                *factor_);
+        return text;
+    }
+    // Every shot has the same: that which none has to yield.
+    std::optional<double> smallest_factor() const {
+        std::optional<double> least;
+        for (const Shot& shot : shots_) {
+            if (shot.problem.beam.model == sim::ModelKind::rigid) continue;
+            render::FilmSetup setup = setup_of(shot);
+            setup.view.style = render::Style::flat;
+            const double factor = render::Film(std::move(setup)).exaggeration();
+            least = std::min(least.value_or(factor), factor);
+        }
+        return least;
+    }
+
+    void draw(const Shot& shot, render::Image& picture, output::VideoWriter& film) const {
+        render::Film beam(setup_of(shot));
+        const int hold = std::max(1, static_cast<int>(std::lround(how_.fps.value() / kGrowthRate)));
+        for (int frame = shot.first; frame < shot.end; ++frame) {
+            if (output::interrupted()) throw sim::Interrupted();
+            if ((frame - shot.first) % hold == 0) {
+                render::figure::Figure grown = diagram_.until(shot.grown(frame, hold), data_.place(shot.point)[0]);
+                grown.height = halves_.diagram.h / *figure_.dpi * kMillimetresPerInch;
+                put(figure_image(grown, figure_), halves_.diagram, picture);
+            }
+            put(beam.draw(frame - shot.first), halves_.beam, picture);
+            film.write(picture);
+        }
+    }
+
+    const SweepFilmOutput& how_;
+    const Scene& scene_;
+    const output::SweepData& data_;
+    const SweepGrid grid_;
+    const Passage order_;
+    std::vector<Shot> shots_;
+    const Halves halves_;
+    const FigureOutput figure_;
+    const GrowingDiagram diagram_;
+    render::FilmSetup setup_;
+    std::optional<double> factor_;  // of deflection; absent: not known yet, or there is none
+};
+
+void judge(ObjectReader& r, SweepFilmOutput& film) {
+    name_after_scene(r, film.file, "-sweep.mp4");
+    const Scene& scene = r.context().scene;
+    if (r.findings().any()) return;
+    if (!scene.sweep || scene.sweep->over.size() != 1)
+        return r.fail(*r.node(), "type",
+                      fmt::format("{}: the scene has no \"sweep\" over one key, which it would show", r.what()));
+    const output::Codec codec = *output::default_codec(std::filesystem::path(film.file).extension().string());
+    const auto refuse = [&](const char* key, const std::string& problem) {
+        if (!problem.empty()) r.fail(r.place(key), key, fmt::format("{}: {}", r.path(key), problem));
+    };
+    refuse("size", output::size_problem(codec, film.size.width, film.size.height));
+    if (std::max(film.size.width, film.size.height) < kLongSide ||
+        std::min(film.size.width, film.size.height) < kShortSide)
+        refuse("size", fmt::format("{}x{} is too small for a diagram beside the beam: at least {}x{}", film.size.width,
+                                   film.size.height, kLongSide, kShortSide));
+    refuse("fps", output::rate_problem(codec, film.fps.value()));
+    if (film.crf && !output::quality_scale(codec)) refuse("crf", "this codec has no quality to choose; remove it");
+}
+
+}  // namespace
+
+void SweepFilmOutput::visit(SceneVisitor& v) {
+    using render::Style;
+    v.form("file", file_form(file, kSweepFilmEndings),
+           "Name of the film; the scene's name with -sweep.mp4 when left out.");
+    v.form("size", size_form(size), "Width and height in pixels, even.");
+    v.form("fps", frame_rate_form(fps), "Frames a second.");
+    v.number("duration", duration, dim::kTime, between(1, 3600, "is outside 1 s … 3600 s"),
+             "How long the film lasts; each value of the key that is shown has about a second.");
+    v.number("turns", turns, dim::kNone, between(0.01, 20, "is outside 0.01 … 20"),
+             "Turns of the cam in a second of the film.");
+    v.choice("style", style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
+             "How the mechanism is drawn, as in films.");
+    v.number(written_if(exaggeration.has_value(), "exaggeration"), exaggeration, sim::kPlainNumber,
+             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
+    v.choice(written_if(lang != Lang::en, "lang"), lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
+             "Language of its words.");
+    v.text(written_if(!value.empty(), "value"), value,
+           "Column of the samples that the diagram shows; of impacts v_n_before, else theta when left out.");
+    v.whole(written_if(crf.has_value(), "crf"), crf, 0, 63, "Quality, as in films.");
+    v.check([this](ObjectReader& r) { judge(r, *this); });
+}
+
+void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
+    if (planner.ask().shards > 1) return planner.skip(file, "a part of a sweep has no film; collect the parts first");
+    DataFile film{output, file, "sweep-film", {}};
+    film.content = fmt::format("{} frames of {} × {}", frames_of(*this), size.width, size.height);
+    film.write = [how = *this, scene = planner.scene()](const DataSource& from) {
+        return fmt::format("{} frames", SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress));
+    };
+    planner.ask_for_sweep(file);
+    planner.ask_for_ends_of_sweep();
+    planner.add(std::move(film));
+}
+
+}  // namespace beamcam::scenes
