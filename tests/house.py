@@ -33,7 +33,7 @@ PRIVATE_LIBRARIES = [
     ("libnetcdf", re.compile(r"^netcdf"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
-    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 1, "scenes": 3}),
+    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2, "scenes": 3}),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")

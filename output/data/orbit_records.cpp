@@ -2,22 +2,25 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
-
-#include "output/data/json_text.hpp"
 
 namespace beamcam::output {
 
 namespace {
 
+using OrbitJson = nlohmann::ordered_json;
+
+std::string records_text(const OrbitJson& json) { return json.dump(2) + "\n"; }
+
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Json state_json(const sim::PeriodicOrbit& orbit) {
+OrbitJson state_json(const sim::PeriodicOrbit& orbit) {
     const sim::Initial& at = orbit.initial;
-    Json state = {{"cam_phase", orbit.cam_phase},
-                  {"cam_angle", orbit.section},
-                  {"theta", at.angle},
-                  {"theta_dot", at.angular_velocity}};
+    OrbitJson state = {{"cam_phase", orbit.cam_phase},
+                       {"cam_angle", orbit.section},
+                       {"theta", at.angle},
+                       {"theta_dot", at.angular_velocity}};
     for (std::size_t k = 0; k < at.q.size(); ++k) {
         state["q" + std::to_string(k + 1)] = at.q[k];
         state["q" + std::to_string(k + 1) + "_dot"] = at.q_dot[k];
@@ -25,8 +28,8 @@ Json state_json(const sim::PeriodicOrbit& orbit) {
     return state;
 }
 
-Json orbit_json(const sim::PeriodicOrbit& orbit) {
-    Json touches = Json::array(), multipliers = Json::array();
+OrbitJson orbit_json(const sim::PeriodicOrbit& orbit) {
+    OrbitJson touches = OrbitJson::array(), multipliers = OrbitJson::array();
     for (const sim::OrbitImpact& impact : orbit.impacts)
         touches.push_back({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}});
     for (const std::complex<double>& m : orbit.multipliers) multipliers.push_back({m.real(), m.imag()});
@@ -37,13 +40,13 @@ Json orbit_json(const sim::PeriodicOrbit& orbit) {
             {"state", state_json(orbit)},      {"touches", std::move(touches)}};
 }
 
-Json joined(Json head, const Json& tail) {
+OrbitJson joined(OrbitJson head, const OrbitJson& tail) {
     head.update(tail);
     return head;
 }
 
-Json branch_json(const sim::Branch& branch) {
-    Json points = Json::array();
+OrbitJson branch_json(const sim::Branch& branch) {
+    OrbitJson points = OrbitJson::array();
     for (const sim::BranchPoint& point : branch.points)
         points.push_back(joined({{"value", point.parameter}}, orbit_json(point.orbit)));
     const sim::PeriodicOrbit& orbit = branch.points.front().orbit;
@@ -79,33 +82,33 @@ void add_rows(ColumnTable& table, double branch, double index, double value, con
 }  // namespace
 
 std::string exponents_json(const sim::Exponents& e) {
-    Json all = Json::array();
+    OrbitJson all = OrbitJson::array();
     for (std::size_t i = 0; i < e.lambda.size(); ++i)
         all.push_back({{"value", e.lambda[i]}, {"error", e.error[i]}, {"history", e.history[i]}});
-    return text_of({{"units",
-                     {{"value", "1/s"},
-                      {"error", "1/s"},
-                      {"history", "1/s"},
-                      {"sum", "1/s"},
-                      {"impacts_per_second", "1/s"},
-                      {"time", "s"},
-                      {"history_time", "s"}}},
-                    {"exponents", std::move(all)},
-                    {"sum", std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0)},
-                    {"chaotic", e.chaotic()},
-                    {"settled", e.settled},
-                    {"transient", e.transient},
-                    {"time", e.duration},
-                    {"impacts", e.impacts},
-                    {"impacts_per_second", static_cast<double>(e.impacts) / e.duration},
-                    {"near_grazing", e.near_grazing},
-                    {"slowest_impact", e.slowest_impact},
-                    {"history_time", e.time},
-                    {"warnings", e.warnings}});
+    return records_text({{"units",
+                          {{"value", "1/s"},
+                           {"error", "1/s"},
+                           {"history", "1/s"},
+                           {"sum", "1/s"},
+                           {"impacts_per_second", "1/s"},
+                           {"time", "s"},
+                           {"history_time", "s"}}},
+                         {"exponents", std::move(all)},
+                         {"sum", std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0)},
+                         {"chaotic", e.chaotic()},
+                         {"settled", e.settled},
+                         {"transient", e.transient},
+                         {"time", e.duration},
+                         {"impacts", e.impacts},
+                         {"impacts_per_second", static_cast<double>(e.impacts) / e.duration},
+                         {"near_grazing", e.near_grazing},
+                         {"slowest_impact", e.slowest_impact},
+                         {"history_time", e.time},
+                         {"warnings", e.warnings}});
 }
 
 std::string orbits_json(const BranchTable& table) {
-    Json orbits = Json::array(), branches = Json::array(), events = Json::array();
+    OrbitJson orbits = OrbitJson::array(), branches = OrbitJson::array(), events = OrbitJson::array();
     for (const sim::PeriodicOrbit& orbit : table.orbits) orbits.push_back(orbit_json(orbit));
     for (const sim::Branch& branch : table.branches) {
         for (const sim::SpecialPoint& point : branch.special)
@@ -117,19 +120,19 @@ std::string orbits_json(const BranchTable& table) {
         branches.push_back(branch_json(branch));
     }
     const bool over = !table.key.empty();
-    Json units = {{"value", over ? Json(table.unit) : Json(nullptr)},
-                  {"period", "turns of the cam"},
-                  {"duration", "s"},
-                  {"cam_angle", "rad"},
-                  {"approach", "m/s"},
-                  {"theta", "rad"},
-                  {"theta_dot", "rad/s"}};
-    return text_of({{"units", std::move(units)},
-                    {"parameter", over ? Json(table.key) : Json(nullptr)},
-                    {"start", over ? Json(table.start) : Json(nullptr)},
-                    {"orbits", std::move(orbits)},
-                    {"branches", std::move(branches)},
-                    {"events", std::move(events)}});
+    OrbitJson units = {{"value", over ? OrbitJson(table.unit) : OrbitJson(nullptr)},
+                       {"period", "turns of the cam"},
+                       {"duration", "s"},
+                       {"cam_angle", "rad"},
+                       {"approach", "m/s"},
+                       {"theta", "rad"},
+                       {"theta_dot", "rad/s"}};
+    return records_text({{"units", std::move(units)},
+                         {"parameter", over ? OrbitJson(table.key) : OrbitJson(nullptr)},
+                         {"start", over ? OrbitJson(table.start) : OrbitJson(nullptr)},
+                         {"orbits", std::move(orbits)},
+                         {"branches", std::move(branches)},
+                         {"events", std::move(events)}});
 }
 
 ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std::string, std::string>> attributes) {

@@ -1,17 +1,22 @@
 #include "output/data/records.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <type_traits>
 
-#include "output/data/json_text.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
 namespace beamcam::output {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Messages may quote a user's bytes, which need not be UTF-8; they become U+FFFD.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 // A value of any member below, absent ones as null. NaN and infinities become null as well: JSON has no other word.
 template <typename T>

@@ -130,11 +130,12 @@ class Layout {
         const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
         // Numbers need room beside each other.
         const double letters = page_.style.letters;
-        if (p.w < 4 * letters || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
+        const bool narrow = p.w < 4 * letters;
+        if (narrow || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
             throw PictureError(
                 fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
-                            "its labels; make it wider",
-                            figure_.name, page_.width, page_.height));
+                            "its labels; make it {}",
+                            figure_.name, page_.width, page_.height, narrow ? "wider" : "higher"));
         return p;
     }
 

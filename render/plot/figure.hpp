@@ -2,6 +2,7 @@
 // (text.hpp). Nothing here draws or computes; `draw` puts it on a Sheet.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct Cloud {
     std::string label = {};
     std::vector<double> x, y;
     Color color = rgb(0x000000);
+    std::size_t shown = std::numeric_limits<std::size_t>::max();  // only the first so many are drawn; the limits of the
+                                                                  // axes and the size of the dots are those of all
 };
 // Coloured cells between edges, row by row from the lowest y; transparent ones show nothing. Very many become a
 // picture.

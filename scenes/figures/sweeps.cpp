@@ -530,17 +530,6 @@ const Recipe kPoincare = recipe_of_sweep("poincare", {"Poincaré section", "Poin
 const Recipe kImpactMap = recipe_of_sweep("impact-map", {"Map of impacts", "碰撞映射"}, needs_impacts,
                                           prepare<kImpactMap, draw_impact_map>, false);
 
-// Limits as the whole diagram has them, with some air.
-void fix_limits(figure::Panel& panel) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const figure::Cloud& cloud : panel.clouds)
-        for (const double y : cloud.y)
-            if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
-    if (!(low <= high)) return;
-    const double air = high > low ? 0.04 * (high - low) : std::max(1e-9, 0.04 * std::abs(high));
-    panel.y.from = low - air, panel.y.to = high + air;
-}
-
 GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place) {
     const SweptPoints points(swept, how.lang);
     std::vector<std::uint64_t> order = as_numbered(points);
@@ -553,10 +542,7 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
                              of_panel[cloud].push_back(place[point]);
                          });
     if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        places_[i].resize(whole_.panels[i].clouds.size());
-        fix_limits(whole_.panels[i]);
-    }
+    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
     whole_.panels.front().legend = figure::Legend::above;  // a place in the plot would change as it fills
     const std::vector<std::size_t> rank = ranks(points.axis(0).values);
     const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
@@ -571,9 +557,8 @@ figure::Figure GrowingDiagram::until(std::size_t last, double at) const {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         for (std::size_t c = 0; c < places_[i].size(); ++c) {
             const std::vector<std::size_t>& places = places_[i][c];
-            const auto count = static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
-            out.panels[i].clouds[c].x.resize(count);
-            out.panels[i].clouds[c].y.resize(count);
+            out.panels[i].clouds[c].shown =
+                static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
         }
         out.panels[i].rules.push_back({.at = at, .vertical = true});
     }
@@ -591,8 +576,10 @@ std::string words_of_point(const Swept& swept, std::uint64_t point, Lang lang) {
                                    axis.unit == "1" ? "" : " " + axis.unit);
     text += lang == Lang::en ? ": " : "：";
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
-    return text + filled(lang == Lang::en ? "period {} with {} impact{}" : "周期 {}，碰撞 {} 次", p.period,
-                         p.impacts_per_period, p.impacts_per_period == 1 ? "" : "s");
+    if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);
+    const auto plural = [](auto count) { return count == 1 ? "" : "s"; };
+    return text + fmt::format("period {} turn{}, {:g} impact{}", p.period, plural(p.period), p.impacts_per_period,
+                              plural(p.impacts_per_period));
 }
 
 std::string usual_diagram(const Scene& scene) {

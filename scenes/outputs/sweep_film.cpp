@@ -36,8 +36,8 @@ constexpr double kMargin = 18;          // around the diagram, at the design siz
 constexpr double kDesignWidth = 1920, kDesignHeight = 1080, kSmallestUnit = 0.5;
 constexpr double kDiagramResolution = 234;  // at the design size: letters of 8 pt are 26 pixels [1/in]
 constexpr double kMillimetresPerInch = 25.4;
-constexpr double kNarrowestDiagram = 62;          // in which axes, numbers and legends have room [mm]
-constexpr int kLongSide = 480, kShortSide = 270;  // of the smallest picture in which words can be read [px]
+constexpr double kNarrowestDiagram = 80, kLowestDiagram = 96;  // in which axes, numbers and legends have room [mm]
+constexpr int kLongSide = 640, kShortSide = 360;               // of the smallest picture whose words can be read [px]
 
 // The order in which the points come: up through the values, and down where motions were carried so.
 struct Passage {
@@ -206,8 +206,8 @@ class SweepFilm {
         figure.figure = "bifurcation";
         figure.value = how_.value;
         figure.lang = how_.lang;
-        figure.dpi =
-            std::min(kDiagramResolution * halves_.unit, halves_.diagram.w / kNarrowestDiagram * kMillimetresPerInch);
+        const double fits = std::min(halves_.diagram.w / kNarrowestDiagram, halves_.diagram.h / kLowestDiagram);
+        figure.dpi = std::min(kDiagramResolution * halves_.unit, fits * kMillimetresPerInch);
         figure.width = halves_.diagram.w / *figure.dpi * kMillimetresPerInch * 1e-3;
         return figure;
     }

@@ -46,6 +46,7 @@ output::SweepData data(const SweepGrid& grid, const std::vector<AttractorClass>&
         p.point = k;
         p.kind = static_cast<int>(kinds[k % kinds.size()]);
         p.period = 1;
+        p.impacts_per_period = 2;
         p.samples = {0.1, -1, 0.2, -2};
         return p;
     };
@@ -92,6 +93,33 @@ TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
     EXPECT_EQ(figure.panels[1].rules.at(0).at, 0);
     EXPECT_EQ(figure.panels[1].x.from, figure.panels[2].x.from);
     EXPECT_THAT(figure.caption, HasSubstr("largest Lyapunov exponent"));
+}
+
+TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 3, 2]}],
+                                      "seed": ["carry-up", "carry-down"]})");
+    using enum AttractorClass;
+    const output::SweepData points = data(speeds, {periodic});
+    const Swept swept{&speeds.scene(), &points};
+    // Up through 1, 2, 3 and down again; points are numbered by value and start.
+    const GrowingDiagram diagram(swept, {}, {0, 5, 2, 3, 1, 4});
+    const auto shown = [&](std::size_t last) {
+        const auto figure = diagram.until(last, 2.5);
+        EXPECT_EQ(figure.panels[0].rules.back().at, 2.5);
+        EXPECT_THAT(figure.panels[0].clouds, SizeIs(2));
+        const auto& colors = figure.panels[1].cells[0].colors;
+        const auto cells = std::ranges::count_if(colors, [](const render::Color& c) { return c.a > 0; });
+        return std::tuple(figure.panels[0].clouds[0].shown, figure.panels[0].clouds[1].shown, cells);
+    };
+    EXPECT_EQ(shown(0), std::tuple(2u, 0u, 1));
+    EXPECT_EQ(shown(2), std::tuple(6u, 0u, 3));
+    EXPECT_EQ(shown(4), std::tuple(6u, 4u, 5));
+    EXPECT_EQ(shown(5), std::tuple(6u, 6u, 6));
+    // Whatever is shown, the points are all there, so that limits and dots stay.
+    EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[0].x, (std::vector<double>{1, 1, 2, 2, 3, 3}));
+    EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[1].x, (std::vector<double>{3, 3, 2, 2, 1, 1}));
+    EXPECT_EQ(words_of_point(swept, 2, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
+    EXPECT_EQ(words_of_point(swept, 2, Lang::zh), "ω = 3 rad/s：周期 1 圈，碰撞 2 次");
 }
 
 TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {

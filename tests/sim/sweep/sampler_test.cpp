@@ -155,5 +155,29 @@ TEST(Sampler, EndsWhereTheBeamPointsAwayFromTheCam) {
     EXPECT_EQ(classify(p, motion).kind, AttractorClass::over_the_top);
 }
 
+TEST(MotionFrom, IsTheRestOfALongerMotion) {
+    std::size_t impacts = 0;
+    for (const ContactModel contact : {ContactModel::compliant, ContactModel::restitution})
+        for (const ModelKind model : {ModelKind::rigid, ModelKind::first_order}) {
+            const Problem p = turning_cam(model, contact);
+            const SweepPoint point = sweep_point(p, sampling(SampleKind::impacts), nullptr, {});
+            const double end = kTurns * cam_period(p);
+            Request request;
+            request.end_time = 2 * cam_period(p);
+            std::vector<Impact> rest = motion_from(p, point.motion.end, request, {}).impacts;
+            std::erase_if(rest, [](const Impact& i) { return i.t_start == 0; });  // touching already
+            std::vector<Impact> whole = run(p, end + request.end_time).impacts;
+            std::erase_if(whole, [&](const Impact& i) { return i.t_start <= end; });
+            impacts += whole.size();
+            ASSERT_EQ(rest.size(), whole.size());
+            for (std::size_t i = 0; i < whole.size(); ++i) {
+                EXPECT_NEAR(rest[i].t_start, whole[i].t_start - end, 1e-6);  // steps differ: grown tolerance
+                EXPECT_NEAR(rest[i].v_n_before, whole[i].v_n_before, 1e-5);
+                EXPECT_NEAR(std::remainder(rest[i].cam_angle - whole[i].cam_angle, 2 * std::numbers::pi), 0, 1e-5);
+            }
+        }
+    EXPECT_GT(impacts, 8u);
+}
+
 }  // namespace
 }  // namespace beamcam::sim::testing

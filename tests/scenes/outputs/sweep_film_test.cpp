@@ -1,0 +1,60 @@
+// Films of sweeps: what they hold, and what is refused.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr;
+
+constexpr const char* kSwept = R"({
+    "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
+    "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
+    "sweep": {"over": [{"key": "cam.speed", "from": 30, "to": 60, "count": 7}], "transient": {"cam_turns": 100},
+              "keep": {"cam_turns": 20}, "seed": ["carry-up", "carry-down"]}})";
+
+TEST(SweepFilm, GrowsFromAnEmptyDiagramToTheWholeOne) {
+    const Folder folder;
+    folder.write("s.json", kSwept);
+    const std::string run = R"($BEAMCAM run s.json --set 'outputs=[{"type": "sweep-film", "file": "f.mkv",
+        "size": [640, 360], "fps": 10, "duration": 4, "style": "flat"}]')";
+    const Finished done = shell(folder, run);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("wrote ./f.mkv (40 frames)"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "f.mkv.part"));
+    EXPECT_THAT(shell(folder, run).err, HasSubstr("made from the same inputs"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info f.mkv --scene").out, HasSubstr("carry-down"));
+    const auto ink = [&](int frame) {  // dark pixels of the diagram, which is the left half
+        const Finished raw =
+            shell(folder, fmt::format("ffmpeg -v error -i f.mkv -vf 'select=eq(n\\,{}),crop=320:360:0:0' "
+                                      "-frames:v 1 -pix_fmt gray -f rawvideo -",
+                                      frame));
+        EXPECT_EQ(raw.out.size(), 320u * 360u);
+        return std::ranges::count_if(raw.out, [](char c) { return static_cast<unsigned char>(c) < 200; });
+    };
+    const auto first = ink(0), middle = ink(20), last = ink(39);
+    EXPECT_LT(first, middle);
+    EXPECT_LT(middle, last);
+}
+
+TEST(SweepFilm, RefusesWhatItCannotShow) {
+    const Folder folder;
+    const auto judged = [&](const char* scene, const std::string& film) {
+        folder.write("s.json", scene);
+        return shell(folder, "$BEAMCAM check s.json --set 'outputs=[{\"type\": \"sweep-film\"" + film + "}]'").err;
+    };
+    EXPECT_THAT(judged("{}", ""), HasSubstr("has no \"sweep\" over one key"));
+    EXPECT_THAT(judged(kSwept, R"(, "size": [200, 100])"), HasSubstr("too small for a diagram beside the beam"));
+    EXPECT_THAT(judged(kSwept, R"(, "size": [481, 301])"), HasSubstr("use 482x302"));
+    EXPECT_THAT(judged(kSwept, R"(, "file": "f.gif")"), HasSubstr(".mp4"));
+    EXPECT_EQ(judged(kSwept, "").find("error"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
