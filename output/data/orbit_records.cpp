@@ -13,7 +13,7 @@ using OrbitJson = nlohmann::ordered_json;
 
 std::string records_text(const OrbitJson& json) { return json.dump(2) + "\n"; }
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 OrbitJson state_json(const sim::PeriodicOrbit& orbit) {
     const sim::Initial& at = orbit.initial;
@@ -67,14 +67,14 @@ void add_rows(ColumnTable& table, double branch, double index, double value, con
                                    static_cast<double>(orbit.turns),
                                    orbit.stable() ? 1.0 : 0.0,
                                    largest,
-                                   impact ? static_cast<double>(i + 1) : kNone,
-                                   impact ? orbit.impacts[i].cam_angle : kNone,
-                                   impact ? orbit.impacts[i].approach : kNone,
+                                   impact ? static_cast<double>(i + 1) : kUndefined,
+                                   impact ? orbit.impacts[i].cam_angle : kUndefined,
+                                   impact ? orbit.impacts[i].approach : kUndefined,
                                    orbit.cam_phase,
                                    at.angle,
                                    at.angular_velocity};
         for (std::size_t k = 0; k < at.q.size(); ++k) row.insert(row.end(), {at.q[k], at.q_dot[k]});
-        row.resize(table.columns.size(), kNone);
+        row.resize(table.columns.size(), kUndefined);
         for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
     }
 }
@@ -164,7 +164,7 @@ ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std
         }
     if (branches.branches.empty())
         for (std::size_t i = 0; i < branches.orbits.size(); ++i)
-            add_rows(table, 0, static_cast<double>(i + 1), kNone, branches.orbits[i]);
+            add_rows(table, 0, static_cast<double>(i + 1), kUndefined, branches.orbits[i]);
     return table;
 }
 
