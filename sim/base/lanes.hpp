@@ -53,4 +53,26 @@ BEAMCAM_INLINE double largest(const Lanes& a) {
     return m;
 }
 
+inline void sine_and_cosine(double a, double& sine, double& cosine) {
+    sine = std::sin(a);
+    cosine = std::cos(a);
+}
+// Small angles by Taylor's series, to rounding.
+inline void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
+    constexpr double kSmall = 0.8;
+    if (!(largest(a) <= kSmall)) {
+        for (int k = 0; k < kNodes; ++k) {
+            sine[k] = std::sin(a[k]);
+            cosine[k] = std::cos(a[k]);
+        }
+        return;
+    }
+    const Lanes a2 = a * a;
+    Lanes s = a2 * (-1.0 / 1307674368000) + 1.0 / 6227020800, c = a2 * (1.0 / 20922789888000) - 1.0 / 87178291200;
+    for (const double f : {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6}) s = s * a2 + f;
+    for (const double f : {1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24}) c = c * a2 + f;
+    sine = a + a * (a2 * s);
+    cosine = (1 - 0.5 * a2) + a2 * (a2 * c);
+}
+
 }  // namespace beamcam::sim

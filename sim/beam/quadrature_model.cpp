@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -165,7 +166,7 @@ class QuadratureModel : public Model {
 class SecondOrderModel final : public QuadratureModel {
   public:
     explicit SecondOrderModel(const Problem& problem)
-        : QuadratureModel(problem, 3 * problem.beam.modes + 20), shapes_(Shapes::of(problem)) {
+        : QuadratureModel(problem, second_order_nodes(problem)), shapes_(Shapes::of(problem)) {
         const Eigen::Index nodes = rule_.x.size();
         phi_.resize(nodes, modes_);
         phi1_.resize(nodes, modes_);
@@ -330,7 +331,7 @@ class SecondOrderModel final : public QuadratureModel {
 // polynomials, with the hub angle itself as first coordinate. r = a e(θ) + ∫₀ˣ e(ψ)           (S18)
 class ExactModel final : public QuadratureModel {
   public:
-    explicit ExactModel(const Problem& problem) : QuadratureModel(problem, 2 * problem.beam.modes + 24) {
+    explicit ExactModel(const Problem& problem) : QuadratureModel(problem, exact_nodes(problem)) {
         angular_ = true;
         const Eigen::Index nodes = rule_.x.size();
         eta_.resize(nodes, modes_);
@@ -473,6 +474,24 @@ class ExactModel final : public QuadratureModel {
 };
 
 }  // namespace
+
+// Products of four shapes oscillate with 4β_N; sines and cosines of the section's angle are smoother.
+int second_order_nodes(const Problem& problem) { return 3 * problem.beam.modes + 20; }
+int exact_nodes(const Problem& problem) { return 2 * problem.beam.modes + 24; }
+
+// P_j⁽ᵐ⁾ = P_{j−2}⁽ᵐ⁾ + (2j − 1) P_{j−1}⁽ᵐ⁻¹⁾, times (2/L)ᵐ.
+void section_angle_shapes(double x, double length, int count, int order, double* values) {
+    double before[kMaxModes + 1], here[kMaxModes + 1] = {}, scale = 1;
+    legendre(2 * x / length - 1, count + 1, before);
+    for (int j = 1; j <= count; ++j) values[j - 1] = before[j] - (j % 2 ? -1.0 : 1.0);
+    for (int m = 1; m <= order; ++m) {
+        scale *= 2 / length;
+        for (int j = 1; j <= count; ++j) here[j] = (j > 1 ? here[j - 2] : 0) + (2 * j - 1) * before[j - 1];
+        for (int j = 1; j <= count; ++j) values[m * count + j - 1] = scale * here[j];
+        std::copy_n(here, count + 1, before);
+        here[0] = 0;
+    }
+}
 
 std::unique_ptr<Model> make_quadrature_model(const Problem& problem) {
     if (problem.beam.model == ModelKind::exact) return std::make_unique<ExactModel>(problem);

@@ -51,7 +51,7 @@ inline constexpr double kResolvedTurn = 2;  // [rad] of a mode between two insta
 inline constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
 // [rad] of the fastest vibration in a step of flight whose coupling only the right-hand side tells: it is evaluated
 // some fifty times, Runge and Kutta's a dozen times for one radian.
-inline constexpr double kLeastTurns = 4;
+inline constexpr double kLeastTurns = 0.1;
 inline constexpr long kFirstRetry = 32;  // steps of the other method, before the next try: twice as many each time
 // [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
 // shorter than this share of the way to its deepest point, is handed over.

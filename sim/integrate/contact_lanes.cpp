@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
-#include "sim/beam/modal_model.hpp"
+#include "sim/beam/quadrature_model.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -14,6 +14,7 @@ namespace {
 constexpr double kShareOfTolerance = 1e-2;
 // Even for loose tolerances no farther than this, [–] of 1/β: a small part of a wave.
 constexpr double kFarthest = 0.2;
+constexpr double kLongest = 0.1;  // of the beam
 // An expansion is kept while the contact stays within this part of its range.
 constexpr double kKept = 1.0 / 3;
 
@@ -23,52 +24,95 @@ double trusted(double rtol) {
     return std::min(kFarthest, std::pow(kShareOfTolerance * rtol * std::tgamma(kNext + 1), 1.0 / kNext));
 }
 
+// The model whose shapes and shortening the beam has; `second-order` shares them with `first-order`.
+std::shared_ptr<const ModalModel> shapes_of(const System& system, const Model& model) {
+    Problem problem = system.problem();
+    if (problem.beam.model == ModelKind::exact) return nullptr;
+    if (const auto* modal = dynamic_cast<const ModalModel*>(&model)) return std::make_shared<ModalModel>(*modal);
+    problem.beam.basis = resolved_basis(problem);
+    problem.beam.model = ModelKind::first_order;
+    return std::make_shared<ModalModel>(problem);
+}
+
 }  // namespace
 
-ContactExpansion::ContactExpansion(std::shared_ptr<const ModalForm> form, System& system)
-    : form_(std::move(form)),
-      system_(system),
-      n_(static_cast<std::size_t>(form_->n)),
+ContactExpansion::ContactExpansion(System& system)
+    : model_(shapes_of(system, system.model())),
+      n_(static_cast<std::size_t>(system.coordinates()) - 1),
+      length_(system.model().length()),
       offset_(system.offset()),
-      radius_(form_->radius),
+      radius_(system.problem().hub.radius),
+      trusted_(trusted(system.problem().solver.rtol)),
+      shortening_(model_ && model_->foreshortening()),
+      h_(system.model().hub_row() + 1, system.model().hub_row() + 1 + n_),
       y_((kOrder + 1) * n_),
       turned_((kOrder + 1) * n_),
-      shorten_(n_ * n_) {
+      shorten_(exact() ? 0 : n_ * n_) {
     const Cam& cam = *system.problem().cam;
     disc_ = cam.radius;
     rim_ = cam.speed * cam.radius;
-    range_ = 0.1 * form_->length;
-    const double far = trusted(system.problem().solver.rtol);
-    for (const double beta : form_->beta) range_ = std::min(range_, far / beta);
+    range_ = kLongest * length_;
+    if (!exact()) {
+        for (std::size_t i = 0; i < n_; ++i)
+            range_ = std::min(range_, trusted_ / model_->shapes().beta(static_cast<int>(i)));
+        return;
+    }
+    rule_ = gauss_legendre(exact_nodes(system.problem()), length_);
+    integral_ = SpectralIntegral(rule_, length_);
+    nodes_ = static_cast<std::size_t>(rule_.x.size());
+    section_.resize(nodes_ * n_);
+    weighted_.resize(nodes_ * n_);
+    weights_.resize(nodes_);
+    for (std::size_t k = 0; k < nodes_; ++k)
+        section_angle_shapes(rule_.x[static_cast<Eigen::Index>(k)], length_, static_cast<int>(n_), 0,
+                             section_.data() + k * n_);
 }
 
 void ContactExpansion::centre(double x) {
-    BEAMCAM_ASSERT(x >= 0 && x <= form_->length);
+    BEAMCAM_ASSERT(x >= 0 && x <= length_);
     if (x_ >= 0 && std::fabs(x - x_) < kKept * range_) return;
     x_ = x;
     if (n_ == 0) return;
-    const auto& model = dynamic_cast<const ModalModel&>(system_.model());
     double* y = y_.data();
-    model.shapes().evaluate(x, y, y + n_, y + 2 * n_, y + 3 * n_);
-    for (std::size_t i = 0; i < n_; ++i) {
-        const double b4 = std::pow(form_->beta[i], 4);
-        for (std::size_t m = 4; m <= kOrder; ++m) y[m * n_ + i] = b4 * y[(m - 4) * n_ + i];
+    if (exact()) {
+        centre_exact(x);
+    } else {
+        model_->shapes().evaluate(x, y, y + n_, y + 2 * n_, y + 3 * n_);
+        for (std::size_t i = 0; i < n_; ++i) {
+            const double b4 = std::pow(model_->shapes().beta(static_cast<int>(i)), 4);
+            for (std::size_t m = 4; m <= kOrder; ++m) y[m * n_ + i] = b4 * y[(m - 4) * n_ + i];
+        }
+        if (shortening_) model_->shortening_matrix(x, shorten_.data());  // symmetric
     }
     for (std::size_t i = 0; i < n_; ++i)
         for (std::size_t m = 0; m <= kOrder; ++m) turned_[i * (kOrder + 1) + m] = y[m * n_ + i];
-    if (form_->shortening) model.shortening_matrix(x, shorten_.data());  // symmetric
+}
+
+// Legendre's polynomials of degree N swing like a wave of β = 2(N + ½)/(L√(1 − z²)), z in [−1, 1].
+void ContactExpansion::centre_exact(double x) {
+    const double z = 2 * x / length_ - 1, order = static_cast<double>(n_) + 0.5;
+    section_angle_shapes(x, length_, static_cast<int>(n_), kOrder, y_.data());
+    const double beta = 2 * order / length_ * std::min(order, 1 / std::sqrt(std::max(0.0, (1 - z) * (1 + z)) + 1e-12));
+    range_ = std::min(kLongest * length_, trusted_ / beta);
+    integral_.weights(x, weights_.data());
+    for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t k = 0; k < nodes_; ++k) weighted_[i * nodes_ + k] = weights_[k] * section_[k * n_ + i];
 }
 
 void ContactExpansion::normal_rows(const ContactKinematics<Lanes>& touch, const Lanes* hq, Lanes* jn) const {
+    if (exact()) {
+        for (std::size_t i = 0; i < n_; ++i) jn[i] = touch.nx * hq[i] + touch.ny * hq[n_ + i];
+        return;
+    }
     const Lanes& x = touch.dx;
     Lanes c[kOrder + 1];
     c[0] = touch.ny;
     for (int m = 1; m <= kOrder; ++m) c[m] = c[m - 1] * x * (1.0 / m);
-    if (form_->shortening)
+    if (shortening_)
         for (int j = 0; j < kOrder; ++j) c[1 + j] -= touch.nx * touch.moment[j];
     product(n_, kOrder + 1, turned_.data(), c, jn);
-    if (!form_->shortening) return;
-    for (std::size_t i = 0; i < n_; ++i) jn[i] -= touch.nx * (hq[i] + form_->h[i] * touch.shift);
+    if (!shortening_) return;
+    for (std::size_t i = 0; i < n_; ++i) jn[i] -= touch.nx * (hq[i] + h_[i] * touch.shift);
 }
 
 }  // namespace beamcam::sim

@@ -1,13 +1,14 @@
 // Contact geometry and force at the nodes of a collocation step: MODEL.md §7 and §8 in the beam's own frame, with the
 // shapes expanded about one arc position near the contact, so that no node evaluates a shape. The same formulas serve
-// one instant (T = double) and eight (T = Lanes).
+// one instant (T = double) and eight (T = Lanes), and all models.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "sim/beam/modal_model.hpp"
+#include "sim/dynamics/system.hpp"
 #include "sim/integrate/lane_kernels.hpp"
-#include "sim/integrate/modal_form.hpp"
 
 namespace beamcam::sim {
 
@@ -25,6 +26,7 @@ struct Frame {
 };
 
 constexpr int kExpansionOrder = 6;
+constexpr std::size_t kMostNodes = 2 * kMaxModes + 24;  // of the integrals of `exact`
 
 // The contact at one instant or eight; names as in ContactState.
 template <class T>
@@ -55,7 +57,7 @@ class ContactExpansion {
   public:
     static constexpr int kOrder = kExpansionOrder;
 
-    ContactExpansion(std::shared_ptr<const ModalForm> form, System& system);
+    explicit ContactExpansion(System& system);
 
     // Expands about x unless the present expansion serves there too.
     void centre(double x);
@@ -65,8 +67,9 @@ class ContactExpansion {
     // How far from its centre an expansion is trusted [m].
     double range() const { return range_; }
 
-    // Fills `touch` from q, q̇ (one entry a mode); `hq` receives H q at the centre. `corrections` of the foot by
-    // Newton's method, from touch.dx.
+    // Fills `touch` from q, q̇ (one entry a coordinate); `hq`, of `scratch` numbers, receives what `rows` needs, H q at
+    // the centre (`exact`: ∂r/∂q). `corrections` of the foot by Newton's method, from touch.dx.
+    std::size_t scratch() const { return exact() ? 2 * n_ : n_; }
     template <class T>
     void evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq, ContactKinematics<T>& touch,
                   int corrections) const;
@@ -77,13 +80,35 @@ class ContactExpansion {
     void normal_rows(const ContactKinematics<Lanes>& touch, const Lanes* hq, Lanes* jn) const;
 
   private:
-    std::shared_ptr<const ModalForm> form_;
-    System& system_;
-    std::size_t n_;
-    double x_ = -1, range_ = 0, offset_, radius_, disc_, rim_;
+    // A point of the centre line in the beam's frame, and its rate and that of its tangent against the frame.
+    template <class T>
+    struct Point {
+        T x, y, tangent_x, tangent_y, rate_x, rate_y, tangent_rate_x, tangent_rate_y;
+    };
+    bool exact() const { return !model_; }
+    template <class T>
+    void finish(const Point<T>& at, const T& ex, const T& ey, const Frame<T>& frame, double gap_offset,
+                ContactKinematics<T>& touch) const;
+    template <class T>
+    void evaluate_exact(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* rows,
+                        ContactKinematics<T>& touch, int corrections) const;
+    // `exact`: r at the centre, its rate, and ∂r/∂q.
+    template <class T>
+    void integrate(const T* q, const T* v, Point<T>& at, T* rows) const;
+    void centre_exact(double x);
+
+    std::shared_ptr<const ModalModel> model_;  // of the shapes; null for `exact`
+    std::size_t n_, nodes_ = 0;
+    double x_ = -1, range_ = 0, length_, offset_, radius_, disc_, rim_, trusted_ = 0;
+    bool shortening_ = false;
+    std::vector<double> h_;        // ∂α/∂q
     std::vector<double> y_;        // kOrder + 1 derivatives of each shape
     std::vector<double> turned_;   // the same, transposed
     std::vector<double> shorten_;  // H(x), row-major
+    // `exact`: shapes at Gauss nodes, and weights of ∫₀ˣ over these with the shapes, a row each, and without.
+    Quadrature rule_;
+    SpectralIntegral integral_;
+    std::vector<double> section_, weighted_, weights_;
 };
 
 // ---- implementation of the templates ----
@@ -123,21 +148,22 @@ BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
 template <class T>
 void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq,
                                 ContactKinematics<T>& touch, int corrections) const {
+    if (exact()) return evaluate_exact(q, v, frame, gap_offset, hq, touch, corrections);
     // Deflection, its rate and their derivatives at the centre.
     T c[kOrder + 1], d[kOrder + 1];
     product(kOrder + 1, n_, y_.data(), q, c);
     product(kOrder + 1, n_, y_.data(), v, d);
     T turn{}, turn_rate{}, qhq{}, vhq{};
-    if (form_->shortening) {
+    if (shortening_) {
         product(n_, n_, shorten_.data(), q, hq);
         for (std::size_t i = 0; i < n_; ++i) {
             qhq += hq[i] * q[i];
             vhq += hq[i] * v[i];
-            turn += form_->h[i] * q[i];
-            turn_rate += form_->h[i] * v[i];
+            turn += h_[i] * q[i];
+            turn_rate += h_[i] * v[i];
         }
     }
-    const double a = radius_, length = form_->shortening ? 1 : 0;
+    const double a = radius_, length = shortening_ ? 1 : 0;
     touch.shift = a * turn;
     const T u0 = -0.5 * qhq - 0.5 * touch.shift * turn, du0 = -vhq - touch.shift * turn_rate;
     const T bx = frame.disc_x * frame.cos + frame.disc_y * frame.sin,
@@ -149,7 +175,7 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
         taylor(c + 1, x, kOrder, slope);
         taylor(c + 2, x, kOrder - 1, bend);
         T u{};
-        if (form_->shortening) {
+        if (shortening_) {
             slope_moments(c, x, moment);
             u = u0 - 0.5 * slope_product(moment, c);
         }
@@ -165,28 +191,114 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
     }
     touch.dx = x;
     touch.v1 = slope;
-    const T ex = rx - bx, ey = ry - by;
+    T speed, slope_speed, du{};
+    taylor(d, x, kOrder + 1, speed);
+    taylor(d + 1, x, kOrder, slope_speed);
+    if (shortening_) du = du0 - slope_product(moment, d);
+    const Point<T> at{rx, ry, r1, slope, du, speed, -length * slope * slope_speed, slope_speed};
+    finish(at, rx - bx, ry - by, frame, gap_offset, touch);
+}
+
+template <class T>
+BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const T& ex, const T& ey, const Frame<T>& frame,
+                                             double gap_offset, ContactKinematics<T>& touch) const {
     T distance;
     root(ex * ex + ey * ey, distance);
     touch.nx = ex / distance;
     touch.ny = ey / distance;
     touch.gap = distance - (disc_ + offset_ - gap_offset);  // (S25)
-    T speed, slope_speed, du{};
-    taylor(d, x, kOrder + 1, speed);
-    taylor(d + 1, x, kOrder, slope_speed);
-    if (form_->shortening) du = du0 - slope_product(moment, d);
     const T bvx = frame.disc_vx * frame.cos + frame.disc_vy * frame.sin,
             bvy = frame.disc_vy * frame.cos - frame.disc_vx * frame.sin;
-    const T vx = du - ry * frame.spin, vy = speed + rx * frame.spin;
+    const T vx = at.rate_x - at.y * frame.spin, vy = at.rate_y + at.x * frame.spin;
     touch.gap_rate = touch.nx * (vx - bvx) + touch.ny * (vy - bvy);  // (S26)
     // t = (n_y, −n_x)
     touch.cam_n = touch.nx * bvx + touch.ny * bvy;
     touch.cam_t = touch.ny * bvx - touch.nx * bvy + rim_;
-    const T square = r1 * r1 + slope * slope;
-    const T v1x = -length * slope * slope_speed - slope * frame.spin, v1y = slope_speed + r1 * frame.spin;
-    touch.slip = touch.ny * vx - touch.nx * vy - touch.cam_t + offset_ * (r1 * v1y - slope * v1x) / square;  // (S27)
-    touch.hub = touch.ny * rx - touch.nx * ry;
-    touch.hub_t = -touch.ny * ry - touch.nx * rx + offset_;
+    const T square = at.tangent_x * at.tangent_x + at.tangent_y * at.tangent_y;
+    const T v1x = at.tangent_rate_x - at.tangent_y * frame.spin, v1y = at.tangent_rate_y + at.tangent_x * frame.spin;
+    touch.slip = touch.ny * vx - touch.nx * vy - touch.cam_t +
+                 offset_ * (at.tangent_x * v1y - at.tangent_y * v1x) / square;  // (S27)
+    touch.hub = touch.ny * at.x - touch.nx * at.y;
+    touch.hub_t = -touch.ny * at.y - touch.nx * at.x + offset_;
+}
+
+// r = (a, 0) + ∫₀ˣ(cos δ, sin δ) with the angle δ of the section against the hub                          (S18)
+template <class T>
+void ContactExpansion::integrate(const T* q, const T* v, Point<T>& at, T* rows) const {
+    T sine[kMostNodes], cosine[kMostNodes], rate[kMostNodes];
+    product(nodes_, n_, section_.data(), q, rate);
+    for (std::size_t k = 0; k < nodes_; ++k) sine_and_cosine(rate[k], sine[k], cosine[k]);
+    product(nodes_, n_, section_.data(), v, rate);
+    at.x = T{} + radius_;
+    at.y = at.rate_x = at.rate_y = T{};
+    for (std::size_t k = 0; k < nodes_; ++k) {
+        at.x += weights_[k] * cosine[k];
+        at.y += weights_[k] * sine[k];
+        at.rate_x -= weights_[k] * sine[k] * rate[k];
+        at.rate_y += weights_[k] * cosine[k] * rate[k];
+        sine[k] = -sine[k];
+    }
+    product(n_, nodes_, weighted_.data(), sine, rows);
+    product(n_, nodes_, weighted_.data(), cosine, rows + n_);
+}
+
+// From the centre to the foot by Gauss's rule of four nodes, far beyond the order of the expansion.
+template <class T>
+void ContactExpansion::evaluate_exact(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* rows,
+                                      ContactKinematics<T>& touch, int corrections) const {
+    constexpr int kPoints = 4;
+    constexpr double kHalf[] = {0.33998104358485626, 0.86113631159405258};
+    constexpr double kWeight[] = {0.32607257743127307, 0.17392742256872693};
+    T c[kOrder + 1], d[kOrder + 1];
+    product(kOrder + 1, n_, y_.data(), q, c);
+    product(kOrder + 1, n_, y_.data(), v, d);
+    Point<T> at;
+    integrate(q, v, at, rows);
+    const T bx = frame.disc_x * frame.cos + frame.disc_y * frame.sin,
+            by = frame.disc_y * frame.cos - frame.disc_x * frame.sin;
+    T x = touch.dx, sine[kPoints], cosine[kPoints], place[kPoints], rx, ry, angle;
+    for (int i = 0;; ++i) {
+        rx = at.x;
+        ry = at.y;
+        for (int g = 0; g < kPoints; ++g) {
+            place[g] = x * (0.5 + (g < 2 ? -0.5 : 0.5) * kHalf[g % 2]);
+            taylor(c, place[g], kOrder + 1, angle);
+            sine_and_cosine(angle, sine[g], cosine[g]);
+            sine[g] = x * kWeight[g % 2] * sine[g];
+            cosine[g] = x * kWeight[g % 2] * cosine[g];
+            rx += cosine[g];
+            ry += sine[g];
+        }
+        taylor(c, x, kOrder + 1, angle);
+        sine_and_cosine(angle, at.tangent_y, at.tangent_x);
+        if (i == corrections) break;
+        T curvature;
+        taylor(c + 1, x, kOrder, curvature);
+        const T ex = rx - bx, ey = ry - by;
+        const T lean = at.tangent_x * ex + at.tangent_y * ey;  // (S24)
+        x -= lean / (1.0 + curvature * (at.tangent_x * ey - at.tangent_y * ex));
+    }
+    touch.dx = x;
+    touch.v1 = touch.shift = T{};
+    at.x = rx;
+    at.y = ry;
+    T speed;
+    for (int g = 0; g < kPoints; ++g) {
+        taylor(d, place[g], kOrder + 1, speed);
+        at.rate_x -= sine[g] * speed;
+        at.rate_y += cosine[g] * speed;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const double* y = turned_.data() + i * (kOrder + 1);
+            T eta = T{} + y[kOrder];
+            for (int m = kOrder - 1; m >= 0; --m) eta = y[m] + eta * place[g] * (1.0 / (m + 1));
+            rows[i] -= sine[g] * eta;
+            rows[n_ + i] += cosine[g] * eta;
+        }
+    }
+    taylor(d, x, kOrder + 1, speed);
+    at.tangent_rate_x = -speed * at.tangent_y;
+    at.tangent_rate_y = speed * at.tangent_x;
+    finish(at, rx - bx, ry - by, frame, gap_offset, touch);
 }
 
 template <class T>
@@ -196,15 +308,20 @@ BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, co
     const T& x = touch.dx;
     T phi = T{} + y[kOrder], axial{};
     for (int m = kOrder - 1; m >= 0; --m) phi = y[m] + phi * x * (1.0 / (m + 1));
-    if (form_->shortening) {
-        axial = -hq[i] - form_->h[i] * touch.shift;
+    if (exact()) {
+        jn = touch.nx * hq[i] + touch.ny * hq[n_ + i];
+        if (friction) jt = touch.ny * hq[i] - touch.nx * hq[n_ + i] + offset_ * phi;
+        return;
+    }
+    if (shortening_) {
+        axial = -hq[i] - h_[i] * touch.shift;
         for (int j = 0; j < kOrder; ++j) axial = axial - y[1 + j] * touch.moment[j];
     }
     jn = touch.nx * axial + touch.ny * phi;
     if (!friction) return;
     T slope = T{} + y[kOrder];
     for (int m = kOrder - 2; m >= 0; --m) slope = y[1 + m] + slope * x * (1.0 / (m + 1));
-    const double length = form_->shortening ? 1 : 0;
+    const double length = shortening_ ? 1 : 0;
     const T r1 = 1 - (0.5 * length) * touch.v1 * touch.v1, square = r1 * r1 + touch.v1 * touch.v1;
     jt = touch.ny * axial - touch.nx * phi + offset_ * slope * (r1 + length * touch.v1 * touch.v1) / square;
 }

@@ -47,9 +47,10 @@ ContactStep::ContactStep(NodalStep& step)
       form_(*step.form),
       law_(step.system.normal_law()),
       friction_(step.system.friction()),
-      expansion_(step.form, step.system),
-      hq_end_(step.n),
-      hq_(step.n) {
+      expansion_(step.system),
+      hq_end_(expansion_.scratch()),
+      hq_(expansion_.scratch()),
+      coordinate_rows_(step.n + 1) {
     load.rough = friction_.kinetic > 0;
     load.jn.resize(step.n);
     load.jt.resize(step.n);
@@ -82,10 +83,12 @@ void ContactStep::begin() {
     }
     load.contact = {};
     load.contact.dx = Lanes{} + start.dx;
-    for (std::size_t i = 0; i < step_.n; ++i) {
-        double jt = 0;
-        expansion_.rows(start, hq_end_.data(), i, false, row[i], jt);
-    }
+    double coordinates[kMaxSize] = {start.hub}, jt = 0;
+    for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(start, hq_end_.data(), i, false, coordinates[1 + i], jt);
+    if (form_.by_arrays())
+        std::copy_n(coordinates + 1, step_.n, row.begin());
+    else
+        product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinates, row.data());
 }
 
 double ContactStep::solve(const StepTable& table) {
@@ -108,7 +111,9 @@ double ContactStep::solve(const StepTable& table) {
     move(1);
     step_.arrive(table);
     end.dx = load.contact.dx[kNodes - 1];
-    evaluate(s.t0 + h, step_.next.data(), end);
+    state_ = step_.next;
+    form_.to_coordinates(state_.data());
+    evaluate(s.t0 + h, state_.data(), end);
     const double reach = std::max(largest(load.contact.dx), std::fabs(end.dx));
     const double low = expansion_.at() - reach, high = expansion_.at() + reach;
     if (reach > expansion_.range() || low <= 0 || high >= form_.length) return kNoSolution;
@@ -140,16 +145,11 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     ExponentialSegment& s = step_.segment;
     step_.propagate(table);
     step_.propagate_rates(table);
-    frame_.sin = step_.sin;
-    frame_.cos = step_.cos;
-    frame_.spin = s.spin;
-    ContactKinematics<Lanes>& contact = load.contact;
-    expansion_.evaluate(s.q.data(), s.v.data(), frame_, gap_offset_, hq_.data(), contact, corrections);
-    expansion_.normal_rows(contact, hq_.data(), load.jn.data());
-    if (load.rough)
-        for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(contact, hq_.data(), i, true, load.jn[i], load.jt[i]);
+    step_.place_coordinates();
+    place_contact(corrections);
     known_theta_ = step_.theta;
     known_theta_dot_ = s.spin;
+    const ContactKinematics<Lanes>& contact = load.contact;
     Lanes residual, by_depth, by_rate;
     for (int k = 0; k < kNodes; ++k) {
         const ForceAndSlopes at = law_.linearized(-contact.gap[k], -contact.gap_rate[k], approach);
@@ -167,6 +167,27 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     if (load.rough)
         for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
     return true;
+}
+
+// The contact at the nodes and its rows, of the modes.
+void ContactStep::place_contact(int corrections) {
+    frame_.sin = step_.sin;
+    frame_.cos = step_.cos;
+    frame_.spin = step_.frame_rate();
+    ContactKinematics<Lanes>& contact = load.contact;
+    expansion_.evaluate(step_.deflection(), step_.deflection_rate(), frame_, gap_offset_, hq_.data(), contact,
+                        corrections);
+    expansion_.normal_rows(contact, hq_.data(), load.jn.data());
+    if (load.rough)
+        for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(contact, hq_.data(), i, true, load.jn[i], load.jt[i]);
+    if (form_.by_arrays()) return;
+    const auto to_modes = [&](const Lanes& hub, std::vector<Lanes>& rows) {
+        coordinate_rows_[0] = hub;
+        std::ranges::copy(rows, coordinate_rows_.begin() + 1);
+        product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinate_rows_.data(), rows.data());
+    };
+    to_modes(contact.hub, load.jn);
+    if (load.rough) to_modes(contact.hub_t, load.jt);
 }
 
 // Takes out of the gap and its rates what the present state contributes, or puts it in: called around the last

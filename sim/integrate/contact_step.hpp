@@ -18,7 +18,7 @@ class ContactStep {
     // Solves for the nodal forces; the error in units of the tolerance, kNoSolution if Newton's method fails or the
     // contact leaves the range of its expansion.
     double solve(const StepTable& table);
-    // The contact at one state.
+    // The contact at one state, in coordinates.
     void evaluate(double t, const double* state, ContactKinematics<double>& touch);
     // Half way to the centre of the disc the contact is beyond its geometry; another method continues.
     bool deep() const;
@@ -29,13 +29,14 @@ class ContactStep {
 
     ContactKinematics<double> start, end;
     ContactLoad load;
-    std::vector<double> row;  // ∂(n·r)/∂q at the start
+    std::vector<double> row;  // ∂(n·r)/∂q of the modes at the start
     double approach = 1;      // δ̇₋ [m/s]
     double kick = 0;          // change of the modes' rates per impulse
 
   private:
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
+    void place_contact(int corrections);
     void linearize(const StepTable& table);
     void move(double sign);
     double error(double h);
@@ -50,8 +51,8 @@ class ContactStep {
     Frame<Lanes> frame_;
     Lanes known_theta_{}, known_theta_dot_{};  // where the contact was evaluated last
     std::array<Lanes, kNodes> compliance_, compliance_rate_;
-    std::vector<double> hq_end_;
-    std::vector<Lanes> hq_;
+    std::vector<double> hq_end_, state_;
+    std::vector<Lanes> hq_, coordinate_rows_;
 };
 
 }  // namespace beamcam::sim

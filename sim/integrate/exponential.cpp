@@ -38,14 +38,13 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     step.segment.changed();
     step.place_hub(table.h);
     step.propagate_unforced(table);
-    const bool by_arrays = step.form->by_arrays();
-    if (!by_arrays) step.hold_forcing(table.h);
     FixedPoint iteration(kFlightRounding, kStalled, 0);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
-        if (!by_arrays) step.propagate_rates(table);
-        status = iteration.add(by_arrays ? step.update_forcing(table, nullptr) : step.update_from_rhs(table.h));
+        if (!step.form->by_arrays()) step.propagate_rates(table);
+        step.place_coordinates();
+        status = iteration.add(step.update_forcing(table, nullptr));
     }
     if (status != FixedPoint::Status::settled) return kNoSolution;
     step.propagate(table);
@@ -85,7 +84,7 @@ class StepTables {
 struct ModalMethod {
     ModalMethod(System& system, std::shared_ptr<const ModalForm> form, double rtol, double atol, long& evaluations)
         : step(system, std::move(form), rtol, atol, evaluations), tables(*step.form) {
-        if (!system.has_cam() || !step.form->by_arrays()) return;
+        if (!system.has_cam()) return;
         contact.emplace(step);
         contact_end.emplace(step, *contact);
     }
@@ -326,7 +325,7 @@ class Exponential final : public Integrator {
 
 }  // namespace
 
-bool exponential_in_contact(System& system) { return ModalForm::by_arrays_of(system) != nullptr; }
+bool exponential_in_contact(System& system) { return ModalForm::exists(system); }
 
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol) {
     return std::make_unique<Exponential>(system, rtol, atol);

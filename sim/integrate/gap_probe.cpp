@@ -14,10 +14,8 @@ constexpr double kSettled = 3e-3;  // of the length: corrections that move the f
 
 GapProbe::GapProbe(System& system) : system_(system) {
     if (!system.has_cam()) return;
-    auto form = ModalForm::by_arrays_of(system);
-    if (!form) return;
-    hq_.resize(static_cast<std::size_t>(form->n));
-    expansion_ = std::make_unique<ContactExpansion>(std::move(form), system);
+    expansion_ = std::make_unique<ContactExpansion>(system);
+    hq_.resize(expansion_->scratch());
 }
 
 void GapProbe::forget() {

@@ -56,8 +56,12 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
     return system.drive().prescribed() ? nullptr : of_natural_modes(system);
 }
 
+bool ModalForm::exists(System& system) {
+    if (!told_by_arrays(system)) return of(system) != nullptr;
+    return !system.model().damped() || system.model().diagonal_damping();
+}
+
 std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
-    if (!told_by_arrays(system)) return nullptr;
     const auto* model = static_cast<const ModalModel*>(&system.model());
     if (model->damped() && !model->diagonal_damping()) return nullptr;
 
@@ -137,6 +141,9 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     form->to_natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
     form->to_natural.bottomRightCorner(n, n) = shapes.transpose() * inertia / form->mass;
     form->to_natural.topRightCorner(1, n) = turning.transpose();
+    form->mode_rows.assign(form->natural.data() + (n + 1), form->natural.data() + (n + 1) * (n + 1));
+    const Eigen::MatrixXd rows = form->natural.rightCols(n).transpose();
+    form->mode_columns.assign(rows.data(), rows.data() + rows.size());
     form->J = mass(0, 0);
     form->shortening = true;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -145,10 +152,24 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     }
     form->groups = side_by_side(form->oscillators);
     form->bound_shapes(*model, system.problem().beam.bending_stiffness());
+    form->weigh(*model);
     const auto count = static_cast<std::size_t>(n);
+    form->U.assign(count, 0);
     form->inertia.assign(count * count, 0);
     form->inertia_root.assign(count, 0);
     return form;
+}
+
+// What gravity does to the straight beam that points along X.
+void ModalForm::weigh(Model& model) {
+    double force[kMaxSize];
+    const double none[kMaxSize] = {};
+    model.set(none, none);
+    if (!model.assemble(force)) throw InertiaLost();
+    const Eigen::VectorXd pull = natural.transpose() * Eigen::Map<const Eigen::VectorXd>(force, n + 1);
+    const double inverse = gravity != 0 ? -1 / gravity : 0;
+    S = inverse * pull[0];
+    for (Eigen::Index i = 1; i <= n; ++i) weight.push_back(inverse * pull[i] / mass);
 }
 
 // By the largest of many places: what the straight beam's points move, its tangent turns and its curvature is for each

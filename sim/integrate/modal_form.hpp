@@ -1,7 +1,7 @@
 // The equations of motion as an exponential integrator reads them: oscillators, and what couples them. Of a modal model
 // with a free hub in hub–beam shapes (no coupling through the inertia), or with a prescribed hub in any shapes, the
-// coupling is told by plain arrays; of all others with a free hub it is what their right-hand side adds to the
-// vibration of the straight beam.
+// coupling is told by plain arrays; of all others with a free hub it is what their inertia and gravity (InertiaForces)
+// add to the vibration of the straight beam.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +17,14 @@ struct ModalForm {
     // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub
     // of other models.
     static std::shared_ptr<const ModalForm> of(System& system);
-    // Null also where the coupling is not told by arrays: nothing is worked out to find that.
-    static std::shared_ptr<const ModalForm> by_arrays_of(System& system);
+    // The same question; nothing is worked out to answer it where the coupling is told by arrays.
+    static bool exists(System& system);
 
     int n = 0;  // modes
     // Natural modes of the straight beam with its hub, in columns: ξ = natural z, z = to_natural ξ, z₀ the rigid turn.
     // Empty where the coordinates are the natural ones and the coupling is told by the arrays below.
     Eigen::MatrixXd natural, to_natural;
+    std::vector<double> mode_columns, mode_rows;  // of z₁…z_n: row-major (n + 1) × n, and transposed
     bool by_arrays() const { return natural.size() == 0; }
     // In place, of coordinates and rates at the start of a state.
     void to_coordinates(double* state) const { transform(natural, state); }
@@ -47,7 +48,9 @@ struct ModalForm {
 
   private:
     static std::shared_ptr<ModalForm> begin(const System& system, const Model& model);
+    static std::shared_ptr<const ModalForm> by_arrays_of(System& system);
     static std::shared_ptr<const ModalForm> of_natural_modes(System& system);
+    void weigh(Model& model);
     void bound_shapes(Model& model, double bending_stiffness);
     void transform(const Eigen::MatrixXd& by, double* state) const;
 };

@@ -67,7 +67,12 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
       base_v_(n),
       bq_(n),
       gq_(n),
-      start_(next.size()) {}
+      start_(next.size()) {
+    if (form->by_arrays()) return;
+    inertia_ = InertiaForces::of(system.model(), system.problem());
+    for (auto* v : {&position_, &rate_, &coordinate_acceleration_, &forces_}) v->resize(n + 1);
+    mode_acceleration_.resize(n);
+}
 
 void NodalStep::begin(double t) {
     ExponentialSegment& s = segment;
@@ -95,7 +100,7 @@ void NodalStep::propagate_unforced(const StepTable& table) {
         const StepTable::Row& row = table.rows[i];
         base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
         base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
-        if (form->by_arrays()) smooth_force(i, s.f[i]);
+        smooth_force(i, s.f[i]);
     }
 }
 
@@ -139,18 +144,22 @@ void NodalStep::place_hub(double h) {
     torque = Lanes{};
     if (system.drive().has_torque())
         for (int k = 0; k < kNodes; ++k) torque[k] = system.drive().torque(time[k]);
+    frame_angle_ = theta;
     evaluate_angle();
+    if (inertia_) s.push = torque - form->gravity * form->S * cos;
 }
 
 void NodalStep::evaluate_angle() {
     for (int k = 0; k < kNodes; ++k) {
-        sin[k] = std::sin(theta[k]);
-        cos[k] = std::cos(theta[k]);
+        sin[k] = std::sin(frame_angle_[k]);
+        cos[k] = std::cos(frame_angle_[k]);
     }
 }
 
 // The same for an angle that has changed by a little: a rotation, to rounding up to kSmallRotation.
-void NodalStep::advance_angle(const Lanes& by) {
+void NodalStep::advance_angle(const Lanes& to) {
+    const Lanes by = to - frame_angle_;
+    frame_angle_ = to;
     if (!(largest(by) < kSmallRotation)) return evaluate_angle();
     const Lanes b2 = by * by;
     const Lanes c = 1 - b2 * (0.5 - b2 * (1.0 / 24)), s = by * (1 - b2 * (1.0 / 6 - b2 * (1.0 / 120)));
@@ -172,6 +181,10 @@ void NodalStep::propagate(const StepTable& table) {
 double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
     BEAMCAM_ASSERT(table.h > 0 && table.rows.size() == n);
     BEAMCAM_ASSERT(!load || load->jn.size() == n);
+    return inertia_ ? update_by_inertia(table, load) : update_by_arrays(table, load);
+}
+
+double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* load) {
     ExponentialSegment& s = segment;
     const double h = table.h;
     evaluations += kNodes;
@@ -214,52 +227,39 @@ double NodalStep::turn_hub(double h, const Lanes& inertia) {
     return std::max(rate_change, set_angle(h) / scale_theta);
 }
 
-// In place: a state in modes → in the place of its coordinates z̈ + 2γż + ω²z, first of all Θ̈.
-void NodalStep::forcing_at(double t, double* state) {
-    ++evaluations;
-    double z[kMaxSize], v[kMaxSize];
-    std::copy_n(state + 1, n, z);
-    std::copy_n(state + 2 + n, n, v);
-    form->to_coordinates(state);
-    system.acceleration(t, state, state);
-    form->to_modes(state);
+void NodalStep::place_coordinates() {
+    if (!inertia_) return;
+    const ExponentialSegment& s = segment;
+    kernels_.multiply(n + 1, n, form->mode_columns.data(), s.q.data(), position_.data());
+    kernels_.multiply(n + 1, n, form->mode_columns.data(), s.v.data(), rate_.data());
+    position_[0] += theta;
+    rate_[0] += s.spin;
+    advance_angle(position_[0]);
+}
+
+// The forcing is what the equations of motion at the nodal accelerations leave of the forces, added to these.
+double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* load) {
+    ExponentialSegment& s = segment;
+    const double h = table.h, per_mass = 1 / form->mass;
+    evaluations += kNodes;
     for (std::size_t i = 0; i < n; ++i) {
         const Oscillator& o = form->oscillators[i];
-        state[1 + i] += 2 * o.gamma * v[i] + o.omega * o.omega * z[i];
+        mode_acceleration_[i] = s.f[i] - 2 * o.gamma * s.v[i] - o.omega * o.omega * s.q[i];
     }
-}
-
-void NodalStep::hold_forcing(double h) {
-    ExponentialSegment& s = segment;
-    std::copy(start_.begin(), start_.end(), next.begin());
-    forcing_at(s.t0, next.data());
-    for (std::size_t i = 0; i < n; ++i) s.f[i] = Lanes{} + next[1 + i];
-    s.push = Lanes{} + form->J * next[0];
-    turn_hub(h, Lanes{} + form->J);
-}
-
-double NodalStep::update_from_rhs(double h) {
-    ExponentialSegment& s = segment;
-    std::vector<double>& state = next;
+    kernels_.multiply(n + 1, n, form->mode_columns.data(), mode_acceleration_.data(), coordinate_acceleration_.data());
+    coordinate_acceleration_[0] += (1 / form->J) * s.push;
+    inertia_->evaluate({position_.data(), rate_.data(), coordinate_acceleration_.data(), sin, cos}, forces_.data());
+    kernels_.multiply(n, n + 1, form->mode_rows.data(), forces_.data(), bq_.data());
+    s.push += torque - forces_[0];
+    if (load) s.push += load->torque();
     double change2 = 0;
-    Lanes changed[kMaxModes];
-    for (int k = 0; k < kNodes; ++k) {
-        state[0] = theta[k];
-        state[1 + n] = s.spin[k];
-        for (std::size_t i = 0; i < n; ++i) {
-            state[1 + i] = s.q[i][k];
-            state[2 + n + i] = s.v[i][k];
-        }
-        forcing_at(time[k], state.data());
-        s.push[k] = form->J * state[0];
-        for (std::size_t i = 0; i < n; ++i) {
-            changed[i][k] = state[1 + i] - s.f[i][k];
-            s.f[i][k] = state[1 + i];
-        }
-    }
     for (std::size_t i = 0; i < n; ++i) {
-        const double d = largest(changed[i]) * std::min(h, 1 / form->oscillators[i].omega);
+        Lanes force = form->h[i] * torque - bq_[i];
+        if (load) force += load->modal(i);
+        const Lanes f = mode_acceleration_[i] + per_mass * force;
+        const double d = largest(f - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
         change2 += d * d;
+        s.f[i] = f;
     }
     return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
 }
@@ -274,7 +274,7 @@ void NodalStep::hub_from_load(double h) {
 double NodalStep::set_angle(double h) {
     const Lanes changed = integral(segment.theta0, h, segment.spin), by = changed - theta;
     theta = changed;
-    advance_angle(by);
+    if (!inertia_) advance_angle(changed);
     return largest(by);
 }
 

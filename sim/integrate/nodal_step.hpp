@@ -8,6 +8,7 @@
 
 #include "sim/integrate/contact_lanes.hpp"
 #include "sim/integrate/exponential_segment.hpp"
+#include "sim/integrate/inertia_forces.hpp"
 
 namespace beamcam::sim {
 
@@ -64,12 +65,14 @@ struct NodalStep {
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
     void propagate_rates(const StepTable& table);
-    // Forcing and hub from the nodal q; returns how much changed, in units of the tolerance. `load`: null in flight.
+    // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates; returns how much changed, in
+    // units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
-    // The same in flight by the right-hand side, where no arrays tell the coupling: from the nodal q and q̇.
-    double update_from_rhs(double h);
-    // A first guess for it: the forcing at the start of the step.
-    void hold_forcing(double h);
+    // Where the modes are not the coordinates: coordinates and rates at the nodes from the modes.
+    void place_coordinates();
+    const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
+    const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
+    const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.spin; }
     // ṗ at the nodes → Θ̇, Θ.
     void hub_from_load(double h);
     // next ← the state at the end.
@@ -89,14 +92,16 @@ struct NodalStep {
     long& evaluations;  // of the forcing at a node
     double theta_dot0 = 0;
     double scale_modes = 1, scale_theta_dot = 1, scale_theta = 1;
-    Lanes time{}, theta{}, sin{}, cos{}, torque{};
+    Lanes time{}, theta{}, torque{};  // theta: of the rigid turn
+    Lanes sin{}, cos{};               // of the frame
 
   private:
     void evaluate_angle();
-    void advance_angle(const Lanes& by);
+    void advance_angle(const Lanes& to);
     double set_angle(double h);
     double turn_hub(double h, const Lanes& inertia);
-    void forcing_at(double t, double* state);
+    double update_by_arrays(const StepTable& table, const ContactLoad* load);
+    double update_by_inertia(const StepTable& table, const ContactLoad* load);
     void smooth_force(std::size_t i, Lanes& f) const;
     void finish_ledger(const ContactLoad* load);
     void drive_power(const ContactLoad* load);
@@ -106,6 +111,10 @@ struct NodalStep {
     const LaneKernels& kernels_ = lane_kernels();
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;  // of the step, in modes
+    // Where the modes are not the coordinates; else null and empty.
+    std::unique_ptr<InertiaForces> inertia_;
+    std::vector<Lanes> position_, rate_, coordinate_acceleration_, mode_acceleration_, forces_;
+    Lanes frame_angle_{};  // of sin and cos
 };
 
 }  // namespace beamcam::sim

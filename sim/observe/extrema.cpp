@@ -172,8 +172,8 @@ double ExtremaFinder::evaluate(const SegmentInterval& s, Channel channel, double
     s.segment->value(t, y_.data());
     if (channel.kind == ChannelKind::q) return y_[static_cast<std::size_t>(channel.index)];
     evaluator_.set(t, y_.data());
-    if (modal_ && evaluator_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
-    if (modal_ && evaluator_.system().phase().touching && needs_gap(channel.kind))
+    if (probing_ && evaluator_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
+    if (probing_ && evaluator_.system().phase().touching && needs_gap(channel.kind))
         evaluator_.set_gap(evaluator_.contact().gap);
     return evaluator_.value(channel);
 }
@@ -199,6 +199,7 @@ void ExtremaFinder::evaluate_all(const SegmentInterval& s, double t, std::vector
 bool ExtremaFinder::set_bounds(const SegmentInterval& s) {
     if (bounded_from_ != s.from) modal_ = modal_channels_.set(*s.segment, s.from, s.to);
     bounded_from_ = s.from;
+    probing_ = s.segment->bounds() != nullptr && (modal_ || s.segment->touch());
     search_contact_again();
     return modal_;
 }
@@ -373,15 +374,18 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double
         return !((sign > 0 ? range.high : -range.low) <= Best{sign, best, 0}.to_beat());
     };
     const TouchSamples* touch = s.segment->touch();
-    const bool sampled = modal && touch && touch->t[0] == s.from && touch->t[kSamples - 1] == s.to;
+    const std::vector<SegmentInterval> all = parts(s);
+    const bool sampled = touch && all.size() == 1 && touch->t[0] == s.from && touch->t[kSamples - 1] == s.to;
     const auto look = [&](ChannelKind kind, double sign, const auto& known, Extremum& e) {
         if (!promises(kind, sign, sign > 0 ? e.max : -e.min)) return;
-        Values values;
-        if (sampled)
-            std::copy_n(known, kSamples, values.begin());
-        else
-            values = sample(s, {kind});
-        search(s, {kind}, sign, values, e);
+        for (const SegmentInterval& part : all) {
+            Values values;
+            if (sampled)
+                std::copy_n(known, kSamples, values.begin());
+            else
+                values = sample(part, {kind});
+            search(part, {kind}, sign, values, e);
+        }
     };
     if (evaluator_.system().phase().touching)
         look(ChannelKind::contact_force, 1, touch ? &touch->force[0] : nullptr, of_force);

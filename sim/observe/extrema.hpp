@@ -79,6 +79,7 @@ class ExtremaFinder {
     std::vector<double> y_, first_, last_;  // state; all channels at the ends of the step
     double last_time_ = -1;                 // of `last_`, while the phase lasts
     bool modal_ = false;                    // `modal_channels_` bounds the present step
+    bool probing_ = false;                  // its contact is evaluated by `probe_`
     double bounded_from_ = -1;              // its start
     long incomplete_ = 0;
 

@@ -12,6 +12,7 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/integrate/gap_probe.hpp"
+#include "sim/integrate/inertia_forces.hpp"
 #include "sim/integrate/lane_kernels.hpp"
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
@@ -165,7 +166,8 @@ TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
 TEST(GapProbe, SeesWhatTheContactIs) {
     Dice dice(3);
     int expanded = 0;
-    for (const ModelKind kind : {ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid, ModelKind::paper})
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::zeroth_order, ModelKind::rigid, ModelKind::paper,
+                                 ModelKind::second_order, ModelKind::exact})
         for (const int modes : {1, 3, 12}) {
             Problem p;
             p.beam.model = kind;
@@ -194,7 +196,55 @@ TEST(GapProbe, SeesWhatTheContactIs) {
                 EXPECT_NEAR(seen.x, is.x, 1e-9) << modes;
             }
         }
-    EXPECT_GT(expanded, 400);
+    EXPECT_GT(expanded, 600);
+}
+
+// ---- inertia -------------------------------------------------------------------------------------
+
+// At the accelerations of the model itself only bending holds inertia and gravity.
+TEST(InertiaForces, AreThoseOfTheModelAtEveryNode) {
+    Dice dice(5);
+    for (const ModelKind kind :
+         {ModelKind::zeroth_order, ModelKind::first_order, ModelKind::paper, ModelKind::second_order, ModelKind::exact})
+        for (const Basis basis : {Basis::hub_beam, Basis::cantilever}) {
+            Problem p;
+            p.beam.model = kind;
+            p.beam.basis = basis;
+            p.beam.modes = 5;
+            p.hub.radius = 0.1;
+            p.hub.inertia = 0.3;
+            const std::unique_ptr<Model> model = make_model(p);
+            const auto n = static_cast<std::size_t>(model->size());
+            std::vector<Lanes> position(n), rate(n), acceleration(n), forces(n);
+            Lanes sine, cosine;
+            double xi[kMaxSize], dxi[kMaxSize], f[kMaxSize];
+            for (int k = 0; k < kNodes; ++k) {
+                for (std::size_t i = 0; i < n; ++i) {
+                    const double size = i == 0 ? 1 : 0.1 / std::pow(static_cast<double>(i), 3);
+                    position[i][k] = xi[i] = dice.about_zero(size);
+                    rate[i][k] = dxi[i] = dice.about_zero(10 * size);
+                }
+                model->set(xi, dxi);
+                ASSERT_TRUE(model->assemble(f));
+                model->solve(f);
+                for (std::size_t i = 0; i < n; ++i) acceleration[i][k] = f[i];
+                sine[k] = std::sin(xi[0]);
+                cosine[k] = std::cos(xi[0]);
+            }
+            InertiaForces::of(*model, p)->evaluate({position.data(), rate.data(), acceleration.data(), sine, cosine},
+                                                   forces.data());
+            const auto size = static_cast<Eigen::Index>(n);
+            Eigen::MatrixXd mass(size, size), stiffness(size, size), centrifugal(size, size);
+            model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+            for (int k = 0; k < kNodes; ++k) {
+                Eigen::VectorXd q(size);
+                for (std::size_t i = 0; i < n; ++i) q[static_cast<Eigen::Index>(i)] = position[i][k];
+                const Eigen::VectorXd bending = stiffness * q;
+                for (std::size_t i = 0; i < n; ++i)
+                    EXPECT_NEAR(forces[i][k], -bending[static_cast<Eigen::Index>(i)], 1e-12 * bending.norm())
+                        << name(kind) << " " << name(basis) << " " << i;
+            }
+        }
 }
 
 // ---- flight --------------------------------------------------------------------------------------
@@ -338,18 +388,21 @@ TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
     EXPECT_LT(static_cast<double>(r.counters.steps), 1e-2 * 0.36 * system.highest_frequency());
 }
 
-TEST(ExponentialFlight, LeavesContactOfOtherModelsToRungeKutta) {
+TEST(ExponentialFlight, LeavesPrescribedHubsOfOtherModelsToRungeKutta) {
     Problem p = falling_beam(ModelKind::second_order);
     System second(p);
-    EXPECT_FALSE(exponential_in_contact(second));
+    EXPECT_TRUE(exponential_in_contact(second));
+    p.hub.drive = ConstantSpeed{1};
+    System turned(p);
+    EXPECT_FALSE(exponential_in_contact(turned));
+    p.hub.drive = FreeDrive{};
     p.beam.model = ModelKind::first_order;
-    p.beam.basis = Basis::cantilever;
-    System clamped(p);
-    EXPECT_FALSE(exponential_in_contact(clamped));
-    p.beam.basis = Basis::hub_beam;
     p.beam.damping_ratio = {0.8};
     System damped(p);
     EXPECT_TRUE(exponential_in_contact(damped));
+    p.beam.basis = Basis::cantilever;
+    System clamped(p);
+    EXPECT_TRUE(exponential_in_contact(clamped));
 }
 
 TEST(ExponentialFlight, FindsEveryTurningPointOfASwingingHub) {
@@ -588,6 +641,20 @@ Problem random_covered_contact(unsigned seed) {
     }
 }
 
+// The same of models whose modes are not their coordinates.
+Problem random_contact_of_other_models(unsigned seed) {
+    for (;; seed += 1000) {
+        Problem p = random_covered_contact(seed);
+        Dice dice(seed + 17);
+        p.beam.modes = 1 + dice.one_of(4);
+        p.beam.damping_ratio.resize(std::min<std::size_t>(p.beam.damping_ratio.size(), 1));
+        const int kind = dice.one_of(3);
+        p.beam.model = kind == 0 ? ModelKind::second_order : kind == 1 ? ModelKind::exact : ModelKind::first_order;
+        if (kind == 2) p.beam.basis = Basis::cantilever;
+        if (!is_prescribed(p.hub.drive) && validate(p).empty()) return p;
+    }
+}
+
 Result solve(Problem p, Method method, double rtol, double end, const std::vector<double>& times = {}) {
     p.solver.method = method;
     p.solver.rtol = rtol;
@@ -601,10 +668,10 @@ Result solve(Problem p, Method method, double rtol, double end, const std::vecto
 
 int seeds(int quick) { return std::getenv("BEAMCAM_LONG") ? 10 * quick : quick; }
 
-TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
+void expect_the_impacts_of_runge_and_kutta(Problem (*random)(unsigned), int count) {
     int compared = 0;
-    for (int seed = 1; seed <= seeds(8); ++seed) {
-        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
+    for (int seed = 1; seed <= count; ++seed) {
+        const Problem p = random(static_cast<unsigned>(seed));
         const Result slow = solve(p, Method::rk8, 1e-11, 0.35), fast = solve(p, Method::exponential, 1e-10, 0.35);
         // Up to the third impact or 10 ms after the first: beyond, errors of 1e-11 have grown.
         for (std::size_t i = 0; i < std::min<std::size_t>(slow.impacts.size(), 3); ++i) {
@@ -626,12 +693,34 @@ TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
             EXPECT_NEAR(b.energy_lost, a.energy_lost, 1e-5 * slow.energy_scale) << seed;
         }
     }
-    EXPECT_GT(compared, seeds(8) / 2);
+    EXPECT_GT(compared, count / 2);
+}
+TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
+    expect_the_impacts_of_runge_and_kutta(random_covered_contact, seeds(8));
+}
+TEST(ExponentialContact, OfOtherModelsHasTheImpactsOfRungeKutta) {
+    SKIP_UNDER_SANITIZERS();
+    expect_the_impacts_of_runge_and_kutta(random_contact_of_other_models, seeds(8));
+}
+// A contact takes far fewer steps than the fastest mode has radians.
+TEST(ExponentialContact, OfOtherModelsStepsOverVibration) {
+    for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
+        Problem p;
+        p.beam.model = kind;
+        p.beam.modes = 12;
+        const Result r = solve(p, Method::exponential, 1e-5, 0.4);
+        ASSERT_FALSE(r.impacts.empty());
+        ASSERT_EQ(r.steps_by_method.size(), 1u) << name(kind);
+        EXPECT_EQ(r.steps_by_method[0].first, Method::exponential) << name(kind);
+        System system(p);
+        EXPECT_LT(static_cast<double>(r.counters.steps), 0.1 * 0.4 * system.highest_frequency()) << name(kind);
+    }
 }
 
 TEST(ExponentialContact, KeepsTheLedger) {
     for (int seed = 1; seed <= seeds(12); ++seed) {
-        const Problem p = random_covered_contact(static_cast<unsigned>(seed));
+        const Problem p = seed % 3 == 0 ? random_contact_of_other_models(static_cast<unsigned>(seed))
+                                        : random_covered_contact(static_cast<unsigned>(seed));
         for (const double rtol : {1e-4, 1e-6, 1e-9}) {
             const Result r = solve(p, Method::exponential, rtol, 0.5);
             EXPECT_LT(r.energy_residual_max, 3 * rtol * r.energy_scale) << seed << " " << rtol;

@@ -130,12 +130,7 @@ Problem six_impacts() {
     return p;
 }
 
-TEST(ContactPeaks, AreThoseOfDenseSampling) {
-    SKIP_UNDER_SANITIZERS();
-    const Problem p = six_impacts();
-    const Result r = run(p, 0.29);
-    ASSERT_GE(r.impacts.size(), 6u);
-    EXPECT_NEAR(*r.impacts[5].force_peak, 1237.51, 0.01);  // a neighbour is 1237.4922
+void expect_peaks_of_dense_sampling(const Problem& p, const Result& r) {
     for (const Impact& impact : r.impacts) {
         const Table dense = sampled(p, {channel("contact_force"), channel("gap")},
                                     instants(impact.t_start, impact.t_end.value_or(0.29), 20'000));
@@ -144,6 +139,25 @@ TEST(ContactPeaks, AreThoseOfDenseSampling) {
         EXPECT_LE(depth, impact.penetration_peak * (1 + kShare)) << impact.t_start;
         EXPECT_NEAR(force, *impact.force_peak, 2e-6 * force) << impact.t_start;
         EXPECT_NEAR(depth, impact.penetration_peak, 2e-6 * depth) << impact.t_start;
+    }
+}
+
+TEST(ContactPeaks, AreThoseOfDenseSampling) {
+    SKIP_UNDER_SANITIZERS();
+    const Problem p = six_impacts();
+    const Result r = run(p, 0.29);
+    ASSERT_GE(r.impacts.size(), 6u);
+    EXPECT_NEAR(*r.impacts[5].force_peak, 1237.51, 0.01);  // a neighbour is 1237.4922
+    expect_peaks_of_dense_sampling(p, r);
+}
+TEST(ContactPeaks, OfOtherModelsAreThoseOfDenseSampling) {
+    SKIP_UNDER_SANITIZERS();
+    for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
+        Problem p = six_impacts();
+        p.beam.model = kind;
+        const Result r = run(p, 0.29);
+        ASSERT_FALSE(r.impacts.empty());
+        expect_peaks_of_dense_sampling(p, r);
     }
 }
 

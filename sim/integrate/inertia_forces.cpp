@@ -1,0 +1,307 @@
+#include "sim/integrate/inertia_forces.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "sim/beam/modal_model.hpp"
+#include "sim/beam/quadrature_model.hpp"
+#include "sim/integrate/lane_kernels.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// A constant matrix times numbers in lanes.
+class LaneMatrix {
+  public:
+    LaneMatrix() = default;
+    explicit LaneMatrix(const Eigen::MatrixXd& m)
+        : rows_(static_cast<std::size_t>(m.rows())), columns_(static_cast<std::size_t>(m.cols())) {
+        for (Eigen::Index i = 0; i < m.rows(); ++i)
+            for (Eigen::Index j = 0; j < m.cols(); ++j) numbers_.push_back(m(i, j));
+    }
+    void times(const Lanes* x, Lanes* y) const { lane_kernels().multiply(rows_, columns_, numbers_.data(), x, y); }
+
+  private:
+    std::size_t rows_ = 0, columns_ = 0;
+    std::vector<double> numbers_;
+};
+
+Lanes dot(std::size_t n, const double* a, const Lanes* x) {
+    Lanes total{};
+    for (std::size_t i = 0; i < n; ++i) total += a[i] * x[i];
+    return total;
+}
+Lanes dot(std::size_t n, const Lanes* a, const Lanes* x) {
+    Lanes total{};
+    for (std::size_t i = 0; i < n; ++i) total += a[i] * x[i];
+    return total;
+}
+
+// The left side of (S14) and (S15) without stiffness and damping.
+class ModalInertia final : public InertiaForces {
+  public:
+    ModalInertia(const ModalModel& model, const Problem& problem)
+        : m_(model.matrices()),
+          n_(static_cast<std::size_t>(model.size()) - 1),
+          mass_(model.mass()),
+          gravity_(problem.gravity),
+          radius_(problem.hub.radius),
+          length_(model.length()),
+          paper_(model.kind() == ModelKind::paper),
+          inertia_(model.inertia_matrix()),
+          bq_(n_),
+          rq_(n_),
+          gq_(n_) {
+        if (paper_) {
+            spinning_ = LaneMatrix(m_.M + radius_ * m_.P1 + 0.5 * m_.P2);
+            second_ = LaneMatrix(m_.P0);
+        } else if (model.kind() == ModelKind::first_order) {
+            second_ = LaneMatrix(m_.G);
+        }
+        second_order_gravity_ = model.kind() == ModelKind::first_order;
+    }
+
+    void evaluate(const NodalMotion& s, Lanes* out) override {
+        const Lanes *q = s.position + 1, *rate = s.rate + 1, *acceleration = s.acceleration + 1;
+        const Lanes& spin = s.rate[0];
+        const Lanes spin2 = spin * spin;
+        inertia_.times(q, bq_.data());
+        Lanes second = gravity_ * s.sin, fall{};
+        const Lanes* turned = bq_.data();
+        if (paper_) {
+            const Lanes l = length_ * s.cos;
+            second = -spin2 * (radius_ * l + 0.5 * l * l);
+            spinning_.times(q, rq_.data());
+            turned = rq_.data();
+        }
+        if (paper_ || second_order_gravity_) second_.times(q, gq_.data());
+        if (second_order_gravity_) fall = dot(n_, gq_.data(), q);
+        const Lanes pull = gravity_ * s.cos;
+        for (std::size_t i = 0; i < n_; ++i)
+            out[1 + i] = m_.U[static_cast<Eigen::Index>(i)] * s.acceleration[0] + mass_ * acceleration[i] -
+                         spin2 * turned[i] - second * gq_[i] + m_.W[static_cast<Eigen::Index>(i)] * pull;
+        out[0] = (m_.J + dot(n_, bq_.data(), q)) * s.acceleration[0] + dot(n_, m_.U.data(), acceleration) +
+                 2.0 * spin * dot(n_, bq_.data(), rate) +
+                 gravity_ * (m_.S * s.cos - dot(n_, m_.W.data(), q) * s.sin - 0.5 * s.cos * fall);
+    }
+
+  private:
+    const ModalMatrices& m_;  // of the model, which shares them with its copies
+    std::size_t n_;
+    double mass_, gravity_, radius_, length_;
+    bool paper_, second_order_gravity_ = false;
+    LaneMatrix inertia_, spinning_, second_;
+    std::vector<Lanes> bq_, rq_, gq_;
+};
+
+// What both projected models share: Gauss nodes, weights ρAw, ∫₀ˣ to the nodes (P), and what PᵀW makes of ones and of
+// the arc positions.
+struct BeamQuadrature {
+    BeamQuadrature(const Problem& problem, int nodes)
+        : rule(gauss_legendre(nodes, problem.beam.length)),
+          primitive(SpectralIntegral(rule, problem.beam.length).matrix(rule)),
+          weights(problem.beam.line_density() * rule.w),
+          beyond(primitive.transpose() * weights),
+          double_integral(Eigen::MatrixXd(primitive.transpose() * weights.asDiagonal() * primitive)),
+          count(static_cast<std::size_t>(nodes)) {}
+    Quadrature rule;
+    Eigen::MatrixXd primitive;
+    Eigen::VectorXd weights, beyond;  // ρAw, and the mass beyond a node
+    LaneMatrix double_integral;       // C = PᵀWP
+    std::size_t count;
+};
+
+// (S17) by hand as far as the integrals go: with s = v′, u = −½∫s² − ½aα², and B = r̈ + g in the frame, the force on q_i
+// is ∫φ_i B_y − ∫φ_i′ s F − aαh_i F(0), F(x) the integral of B_x from x to the tip.
+class SecondOrderInertia final : public InertiaForces {
+  public:
+    explicit SecondOrderInertia(const Problem& problem)
+        : at_(problem, second_order_nodes(problem)), n_(static_cast<std::size_t>(problem.beam.modes)) {
+        const Shapes shapes = Shapes::of(problem);
+        const Eigen::Index nodes = at_.rule.x.size(), n = problem.beam.modes;
+        Eigen::MatrixXd phi(nodes, n), slope(nodes, n);
+        Eigen::VectorXd y(n), y1(n);
+        for (Eigen::Index k = 0; k < nodes; ++k) {
+            shapes.evaluate(at_.rule.x[k], y.data(), y1.data(), nullptr);
+            phi.row(k) = y.transpose();
+            slope.row(k) = y1.transpose();
+        }
+        radius_ = problem.hub.radius;
+        gravity_ = problem.gravity;
+        hub_inertia_ = problem.hub.inertia;
+        const Eigen::VectorXd arm = at_.rule.x.array() + radius_, weighted_arm = at_.weights.cwiseProduct(arm);
+        const Eigen::MatrixXd weighted = at_.weights.asDiagonal() * phi, beyond = at_.primitive.transpose() * weighted;
+        arm_beyond_ = at_.primitive.transpose() * weighted_arm;
+        mass_ = at_.weights.sum();
+        lever_ = weighted_arm.sum();
+        inertia_ = weighted_arm.dot(arm);
+        weight_ = weighted.colwise().sum();
+        coupling_ = weighted.transpose() * arm;
+        hub_row_ = Eigen::VectorXd::Zero(n);
+        if (resolved_basis(problem) == Basis::hub_beam) shapes.evaluate(0, nullptr, hub_row_.data(), nullptr);
+        slopes_ = LaneMatrix(slope);
+        slopes_transposed_ = LaneMatrix(slope.transpose());
+        beyond_ = LaneMatrix(beyond);
+        beyond_transposed_ = LaneMatrix(beyond.transpose());
+        products_ = LaneMatrix(phi.transpose() * weighted);
+        for (auto* v : {&s_, &rate_, &square_, &mixed_, &bent_, &force_, &stretch_}) v->resize(at_.count);
+        for (auto* v : {&by_square_, &by_mixed_, &by_bent_, &combined_, &mq_, &lateral_}) v->resize(n_);
+    }
+
+    void evaluate(const NodalMotion& m, Lanes* out) override {
+        const Lanes *q = m.position + 1, *dq = m.rate + 1, *ddq = m.acceleration + 1;
+        const Lanes &spin = m.rate[0], &turn = m.acceleration[0];
+        const Lanes spin2 = spin * spin;
+        shorten(q, dq, ddq);
+        // −½aα² and its rates.
+        const Lanes alpha = dot(n_, hub_row_.data(), q), dalpha = dot(n_, hub_row_.data(), dq),
+                    ddalpha = dot(n_, hub_row_.data(), ddq);
+        const Lanes e = (-0.5 * radius_) * alpha * alpha, de = -radius_ * alpha * dalpha,
+                    dde = -radius_ * (dalpha * dalpha + alpha * ddalpha);
+        const Lanes along = dde - spin2 * e + gravity_ * m.sin, across = 2.0 * spin * de + turn * e + gravity_ * m.cos;
+        // F at the nodes, and F(0)
+        for (std::size_t i = 0; i < n_; ++i) combined_[i] = -2.0 * spin * dq[i] - turn * q[i];
+        beyond_.times(combined_.data(), force_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) square_[k] *= 0.5;
+        at_.double_integral.times(square_.data(), stretch_.data());  // ½C s²
+        const Lanes stretched_rate = dot(at_.count, stretch_.data(), mixed_.data()),
+                    stretched = dot(at_.count, stretch_.data(), square_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) force_[k] += spin2 * stretch_[k];
+        beyond_transposed_.times(square_.data(), by_square_.data());
+        beyond_transposed_.times(mixed_.data(), by_mixed_.data());
+        beyond_transposed_.times(bent_.data(), by_bent_.data());
+        const Lanes mass_square = dot(at_.count, at_.beyond.data(), square_.data()),
+                    mass_mixed = dot(at_.count, at_.beyond.data(), mixed_.data()),
+                    arm_square = dot(at_.count, arm_beyond_.data(), square_.data()),
+                    arm_mixed = dot(at_.count, arm_beyond_.data(), mixed_.data());
+        const Lanes whole = spin2 * mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
+                            dot(n_, weight_.data(), combined_.data()) + mass_ * along - lever_ * spin2;
+        at_.double_integral.times(bent_.data(), stretch_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) {
+            force_[k] += at_.beyond[static_cast<Eigen::Index>(k)] * along -
+                         arm_beyond_[static_cast<Eigen::Index>(k)] * spin2 - stretch_[k];
+            force_[k] *= s_[k];
+        }
+        slopes_transposed_.times(force_.data(), lateral_.data());
+        // ∫φ_i B_y, B_y = v̈ − Θ̇²v + 2Θ̇u̇ + Θ̈(a + x + u) + g cos Θ
+        for (std::size_t i = 0; i < n_; ++i) combined_[i] = ddq[i] - spin2 * q[i];
+        products_.times(combined_.data(), mq_.data());
+        const Lanes hub = hub_inertia_ * (turn + ddalpha);
+        for (std::size_t i = 0; i < n_; ++i) {
+            const auto j = static_cast<Eigen::Index>(i);
+            out[1 + i] = mq_[i] + coupling_[j] * turn + weight_[j] * across - 2.0 * spin * by_mixed_[i] -
+                         turn * by_square_[i] - lateral_[i] + hub_row_[j] * (hub - radius_ * alpha * whole);
+        }
+        // ∫(a + x + u)B_y − ∫vB_x
+        const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * spin * mass_mixed -
+                                  turn * mass_square + lever_ * turn + mass_ * across;
+        Lanes moment = dot(n_, coupling_.data(), combined_.data()) - 2.0 * spin * arm_mixed - turn * arm_square +
+                       inertia_ * turn + lever_ * across + e * lateral_all;
+        // −½∫s² ∫ₓB_y
+        moment -= dot(n_, by_square_.data(), combined_.data()) - 2.0 * spin * stretched_rate - turn * stretched +
+                  turn * arm_square + across * mass_square;
+        products_.times(q, mq_.data());
+        for (std::size_t i = 0; i < n_; ++i) {
+            const auto j = static_cast<Eigen::Index>(i);
+            moment -= q[i] * (spin2 * by_square_[i] - by_bent_[i] + weight_[j] * along - coupling_[j] * spin2) -
+                      mq_[i] * (2.0 * spin * dq[i] + turn * q[i]);
+        }
+        out[0] = moment + hub;
+    }
+
+  private:
+    // s = v′ at the nodes; s², sṡ, ṡ² + ss̈.
+    void shorten(const Lanes* q, const Lanes* dq, const Lanes* ddq) {
+        slopes_.times(q, s_.data());
+        slopes_.times(dq, rate_.data());
+        slopes_.times(ddq, bent_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) {
+            square_[k] = s_[k] * s_[k];
+            mixed_[k] = s_[k] * rate_[k];
+            bent_[k] = rate_[k] * rate_[k] + s_[k] * bent_[k];
+        }
+    }
+
+    BeamQuadrature at_;
+    std::size_t n_;
+    double radius_, gravity_, hub_inertia_, mass_, lever_, inertia_;
+    Eigen::VectorXd arm_beyond_, weight_, coupling_, hub_row_;
+    LaneMatrix slopes_, slopes_transposed_, beyond_, beyond_transposed_, products_;
+    std::vector<Lanes> s_, rate_, square_, mixed_, bent_, force_, stretch_;
+    std::vector<Lanes> by_square_, by_mixed_, by_bent_, combined_, mq_, lateral_;
+};
+
+// (S18), (S19) in the frame of the hub: the section's angle against it is δ = Σ q_j η_j, and the force on q_j is
+// ∫η_j (cos δ F_y − sin δ F_x), F the integral of ρA(r̈ + g) from x to the tip.
+class ExactInertia final : public InertiaForces {
+  public:
+    explicit ExactInertia(const Problem& problem)
+        : at_(problem, exact_nodes(problem)), n_(static_cast<std::size_t>(problem.beam.modes)) {
+        const Eigen::Index nodes = at_.rule.x.size(), n = problem.beam.modes;
+        Eigen::MatrixXd eta(nodes, n);
+        Eigen::VectorXd row(n);
+        for (Eigen::Index k = 0; k < nodes; ++k) {
+            section_angle_shapes(at_.rule.x[k], problem.beam.length, problem.beam.modes, 0, row.data());
+            eta.row(k) = row.transpose();
+        }
+        shapes_ = LaneMatrix(eta);
+        shapes_transposed_ = LaneMatrix(eta.transpose());
+        radius_ = problem.hub.radius;
+        gravity_ = problem.gravity;
+        hub_inertia_ = problem.hub.inertia;
+        mass_ = at_.weights.sum();
+        for (auto* v : {&sin_, &cos_, &rate_, &bend_, &x_, &y_}) v->resize(at_.count);
+    }
+
+    void evaluate(const NodalMotion& m, Lanes* out) override {
+        const Lanes &spin = m.rate[0], &turn = m.acceleration[0];
+        shapes_.times(m.position + 1, bend_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) sine_and_cosine(bend_[k], sin_[k], cos_[k]);
+        shapes_.times(m.rate + 1, rate_.data());
+        shapes_.times(m.acceleration + 1, bend_.data());
+        for (std::size_t k = 0; k < at_.count; ++k) {
+            const Lanes rate = rate_[k] + spin, square = rate * rate, bend = bend_[k] + turn;
+            rate_[k] = -bend * sin_[k] - square * cos_[k];
+            bend_[k] = bend * cos_[k] - square * sin_[k];
+        }
+        at_.double_integral.times(rate_.data(), x_.data());
+        at_.double_integral.times(bend_.data(), y_.data());
+        const Lanes along = gravity_ * m.sin - radius_ * spin * spin, across = gravity_ * m.cos + radius_ * turn;
+        Lanes moment{}, whole = mass_ * across;
+        for (std::size_t k = 0; k < at_.count; ++k) {
+            const double beyond = at_.beyond[static_cast<Eigen::Index>(k)];
+            whole += beyond * bend_[k];
+            x_[k] = cos_[k] * (y_[k] + beyond * across) - sin_[k] * (x_[k] + beyond * along);
+            moment += x_[k];
+        }
+        shapes_transposed_.times(x_.data(), out + 1);
+        out[0] = moment + radius_ * whole + hub_inertia_ * turn;
+    }
+
+  private:
+    BeamQuadrature at_;
+    std::size_t n_;
+    double radius_, gravity_, hub_inertia_, mass_;
+    LaneMatrix shapes_, shapes_transposed_;
+    std::vector<Lanes> sin_, cos_, rate_, bend_, x_, y_;
+};
+
+}  // namespace
+
+std::unique_ptr<InertiaForces> InertiaForces::of(const Model& model, const Problem& problem) {
+    switch (problem.beam.model) {
+        case ModelKind::second_order:
+            return std::make_unique<SecondOrderInertia>(problem);
+        case ModelKind::exact:
+            return std::make_unique<ExactInertia>(problem);
+        case ModelKind::rigid:
+        case ModelKind::zeroth_order:
+        case ModelKind::first_order:
+        case ModelKind::paper:
+            break;
+    }
+    return std::make_unique<ModalInertia>(dynamic_cast<const ModalModel&>(model), problem);
+}
+
+}  // namespace beamcam::sim
