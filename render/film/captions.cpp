@@ -1,7 +1,9 @@
 #include "render/film/captions.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <optional>
 
 #include "render/film/mechanism_marks.hpp"
 #include "render/plot/words.hpp"
@@ -13,6 +15,7 @@ constexpr std::size_t kCaptionLines = 6;
 constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
 constexpr double kCaptionLine = 29;    // from line to line [design px]
 constexpr double kFreeBelow = 40;      // that stays free below captions [design px]
+constexpr double kBetweenPlates = 8;   // [design px]
 constexpr double kFromAnchor = 46;     // from what a caption is anchored to [design px]
 
 struct Caption {
@@ -31,19 +34,18 @@ class Captions {
     }
 
     void draw() const {
-        std::vector<const Callout*> at_contact;
+        lead_to_contact();
         double free = box.bottom() - kFreeBelow * u;  // above it, for captions of the whole picture
         for (const Callout& c : s.at.facts.setup->callouts) {
             if (!c.shown(s.frame)) continue;
             const Anchor::Kind kind = c.anchor.value_or(Anchor{Anchor::Kind::contact, {}}).kind;
             if (kind == Anchor::Kind::contact)
-                at_contact.push_back(&c);
+                draw_at_contact(c);
             else if (kind == Anchor::Kind::all)
                 free = draw_below(c, free);
             else
                 draw_anchored(c);
         }
-        if (!at_contact.empty()) draw_at_contact(std::move(at_contact));
     }
 
   private:
@@ -79,14 +81,26 @@ class Captions {
         if (const Box* label = hidden(plate)) plate.y = std::max(box.y, label->y - 12 * u - plate.h);
     }
 
-    void lead(Vec2 from, Vec2 to, double opacity) const {
+    bool meets_label(Vec2 from, Vec2 to) const {
+        for (const Box& label : labels)
+            for (int i = 0; i <= 64; ++i) {
+                const Vec2 at = from + (to - from) * (i / 64.0);
+                if (label.inset(-3 * u).overlaps({at.x, at.y, 1, 1})) return true;
+            }
+        return false;
+    }
+
+    // Begins below the plate, which is drawn over it, at a place from where it meets no label.
+    void lead(const Box& plate, Vec2 from, Vec2 to, double opacity) const {
+        const Vec2 usual = from;
+        for (int i = 0; i <= 16 && meets_label(from, to); ++i)
+            from = {plate.x + 10 * u + (plate.w - 20 * u) * i / 16, usual.y};
+        const bool crossed = meets_label(from, to);
+        if (crossed) from = usual;
         s.canvas.move_to(from);
         s.canvas.line_to(to);
         s.canvas.stroke({s.at.palette.ink.faded(opacity), 1.6 * u});
-        for (int i = 0; s.at.labels->speed && i <= 64; ++i) {  // under the cam's speed, whose halo keeps it off
-            const Vec2 at = from + (to - from) * (i / 64.0);
-            if (labels.front().overlaps({at.x, at.y, 1, 1})) return draw_cam_speed(s);
-        }
+        if (crossed && s.at.labels->speed) draw_cam_speed(s);  // its halo keeps the line off
     }
 
     void draw(const Caption& caption) const {
@@ -111,7 +125,7 @@ class Captions {
         keep_inside(caption.plate);
         if (const Box* label = hidden(caption.plate)) caption.plate.y = label->y - 12 * u - caption.plate.h;
         draw(caption);
-        return caption.plate.y - 8 * u;
+        return caption.plate.y - kBetweenPlates * u;
     }
 
     Vec2 foot_of(const Anchor& anchor) const {
@@ -146,46 +160,108 @@ class Captions {
             plate.x = foot.x - 0.8 * plate.w, plate.y = foot.y + swept + 30 * u;
         }
         place(plate);
-        if (s.at.shows(foot)) lead(plate.centre(), foot, caption.opacity);
+        if (s.at.shows(foot)) lead(plate, plate.centre(), foot, caption.opacity);
         draw(caption);
     }
 
-    // To the right of the cam, below the horizontal, where neither the beam nor the force comes: the latest with a line
-    // to the contact, earlier ones below or above it.
-    void draw_at_contact(std::vector<const Callout*> shown) const {
-        std::ranges::stable_sort(shown, std::ranges::greater(), [](const Callout* c) { return c->first; });
-        const auto& cam = s.at.problem().cam;
-        const Vec2 foot = s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
-        const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
-        const Vec2 from = cam ? s.px(s.pose.cam_centre) : foot;
-        Caption latest = caption_of(*shown.front(), {from.x + swept + 60 * u, from.y + 26 * u});
-        place(latest.plate);
-        // A line to the contact while there is one; without a cam to the tip.
+    // Captions at the contact stand where the first of them stands, below it or above it. Each keeps its place while
+    // others come and go: it depends on those that are shown when it comes. Where that leaves no room, a later caption
+    // takes the place of earlier ones.
+    void draw_at_contact(const Callout& words) const {
+        Caption caption = caption_of(words, {});
+        caption.plate = contact_plate(words);
+        for (const Callout& other : s.at.facts.setup->callouts)
+            if (is_at_contact(other) && other.shown(s.frame) && comes_before(words, other) &&
+                caption.plate.overlaps(contact_plate(other)))
+                return;
+        draw(caption);
+    }
+
+    // From the latest caption to the contact while there is one; without a cam to the tip.
+    void lead_to_contact() const {
+        const Callout* latest = nullptr;
+        for (const Callout& c : s.at.facts.setup->callouts)
+            if (is_at_contact(c) && c.shown(s.frame) && (!latest || comes_before(*latest, c))) latest = &c;
         const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
-        if (s.at.shows(foot) && (!cam || near))
-            lead({latest.plate.x + 10 * u, latest.plate.y + 10 * u}, foot, latest.opacity);
-        draw(latest);
-        const double gap = 8 * u;
-        double below = latest.plate.bottom() + gap, above = latest.plate.y - gap;
-        for (std::size_t i = 1; i < shown.size(); ++i) {
-            Caption other = caption_of(*shown[i], {latest.plate.x, below});
-            other.plate.x = std::max(box.x, std::min(other.plate.x, box.right() - other.plate.w));
-            if (const Box* label = hidden(other.plate)) other.plate.y = label->bottom() + gap;
-            const bool fits = other.plate.bottom() <= box.bottom() - kFreeBelow * u;
-            if (!fits) other.plate.y = above - other.plate.h;
-            const Box* label = fits ? nullptr : hidden(other.plate);
-            if (label) other.plate.y = label->y - gap - other.plate.h;
-            if (other.plate.y < box.y) return;  // no room for more
-            (fits ? below : above) = fits ? other.plate.bottom() + gap : other.plate.y - gap;
-            draw(other);
+        if (!latest || (s.at.problem().cam && !near) || !s.at.shows(contact_foot())) return;
+        const Box plate = contact_plate(*latest);
+        lead(plate, {plate.x + 10 * u, plate.y + 10 * u}, contact_foot(), latest->opacity(s.frame));
+    }
+
+    Vec2 contact_foot() const {
+        return s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
+    }
+
+    static bool is_at_contact(const Callout& c) { return !c.anchor || c.anchor->kind == Anchor::Kind::contact; }
+
+    static bool comes_before(const Callout& one, const Callout& other) {
+        return one.first < other.first || (one.first == other.first && &one < &other);
+    }
+
+    Box contact_plate(const Callout& words) const {
+        if (const auto found = plates.find(&words); found != plates.end()) return found->second;
+        std::vector<Box> taken;
+        for (const Callout& other : s.at.facts.setup->callouts)
+            if (is_at_contact(other) && comes_before(other, words) && other.last >= words.first)
+                taken.push_back(contact_plate(other));
+        const Box first = first_plate(words), found = free_plate(first, taken).value_or(first);
+        plates.emplace(&words, found);
+        return found;
+    }
+
+    // To the right of the cam, below the horizontal, where neither the beam nor the force comes, with room below for
+    // those that come while it is shown.
+    Box first_plate(const Callout& words) const {
+        const auto& cam = s.at.problem().cam;
+        const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
+        const Vec2 from = cam ? s.px(s.pose.cam_centre) : contact_foot();
+        const Caption caption = caption_of(words, {from.x + swept + 60 * u, from.y + 26 * u});
+        Box whole = caption.plate;
+        whole.h += room_for_later(words);
+        if (whole.h > box.h / 2) whole.h = caption.plate.h;
+        place(whole);
+        return {whole.x, whole.y, caption.plate.w, caption.plate.h};
+    }
+
+    double room_for_later(const Callout& words) const {
+        double most = 0;
+        const auto comes_meanwhile = [&](const Callout& c) {
+            return is_at_contact(c) && comes_before(words, c) && c.first <= words.last;
+        };
+        for (const Callout& latest : s.at.facts.setup->callouts) {
+            if (!comes_meanwhile(latest)) continue;
+            double all = 0;
+            for (const Callout& c : s.at.facts.setup->callouts)
+                if (comes_meanwhile(c) && c.shown(latest.first)) all += kBetweenPlates * u + caption_of(c, {}).plate.h;
+            most = std::max(most, all);
         }
+        return most;
+    }
+
+    std::optional<Box> free_plate(Box plate, const std::vector<Box>& taken) const {
+        if (taken.empty()) return plate;
+        const double gap = kBetweenPlates * u, lowest = box.bottom() - kFreeBelow * u;
+        const auto is_free = [&] {
+            return plate.y >= box.y && plate.bottom() <= lowest && !hidden(plate) &&
+                   std::ranges::none_of(taken, [&](const Box& other) { return plate.overlaps(other); });
+        };
+        if (is_free()) return plate;
+        std::vector<double> tops;
+        for (const std::vector<Box>* each : {&taken, &labels})
+            for (const Box& other : *each) tops.push_back(other.bottom() + gap);
+        for (const std::vector<Box>* each : {&taken, &labels})
+            for (const Box& other : *each) tops.push_back(other.y - gap - plate.h);
+        for (plate.x = std::max(box.x, std::min(taken.front().x, box.right() - plate.w)); const double top : tops)
+            if (plate.y = top; is_free()) return plate;
+        return std::nullopt;
     }
 
     const MechanismScene& s;
     const double u;
     const Box& box;
     TextStyle style;
-    std::vector<Box> labels;  // of the mechanism, which captions keep off; the cam's speed first
+    std::vector<Box> labels;                       // of the mechanism, which captions keep off; the cam's speed first
+    mutable std::map<const Callout*, Box> plates;  // found so far, of captions at the contact
 };
 
 }  // namespace

@@ -160,14 +160,15 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     };
     double right = b.right();
     if (facts.force_scale > 0) {
-        const std::string top = quantity(facts.force_scale, "N"), quarter = quantity(facts.force_scale / 4, "N");
+        const std::string top = quantity(facts.force_scale, "N"),
+                          quarter = quantity(facts.force_scale / 4, prefix_for(facts.force_scale), "N");
         if (facts.setup->view.trace == TraceColor::force) {
             bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
                 {"0", quarter, top}, {0, 0.5, 1});
         } else {
             const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
             bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
-                {"0", quantity(oldest / 2, "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
+                {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
         }
         right -= 300 * u;
     }

@@ -23,6 +23,7 @@
 #include "render/film/layout.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/lang.hpp"
+#include "render/plot/ticks.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/pose.hpp"
 #include "sim/problem/problem.hpp"
@@ -78,7 +79,11 @@ struct Motion {
     sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
+    std::vector<Range> unreliable;  // within them θ is not reproducible, and curves are paler [s]
 
+    bool is_reliable(double t) const {
+        return std::ranges::none_of(unreliable, [t](const Range& r) { return t > r.low && t <= r.high; });
+    }
     std::size_t frames() const { return (stored ? stored->size() : poses.size()) / exposures; }
     double time(std::size_t frame) const {
         return stored ? stored->time(frame * exposures) : poses[frame * exposures].t;

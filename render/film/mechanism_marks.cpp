@@ -220,7 +220,7 @@ void draw_force(const MechanismScene& s, const std::optional<Push>& push) {
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
     if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
-        draw_label(s, *s.at.labels->force, force_label(s.at, *push), force_style(s.at));  // its colour is the arrow's
+        draw_label(s, *s.at.labels->force, force_label(s.at, *push), force_style(s.at), tip);
 }
 
 // ---- the motions that it is compared with ------------------------------------------------------

@@ -8,7 +8,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "render/film/panel.hpp"
 #include "render/film/player.hpp"
@@ -41,6 +43,21 @@ Instant instant_of(const FilmFacts& facts, int frame, double depth, double& thic
     }
     out.points.push_back(beam.contact ? beam.contact->on_disc : Vec2{});
     return out;
+}
+
+// Where contacts begin and end the force is zero: lines from pose to pose would show some before and after.
+void add_ends_of_contacts(const FilmFacts& facts, std::vector<Instant>& all) {
+    for (const sim::Impact& impact : facts.motion(0).impacts)
+        for (const std::optional<double> t : {std::optional(impact.t_start), impact.t_end}) {
+            const auto after = std::ranges::lower_bound(all, t.value_or(all.back().t + 1), {}, &Instant::t);
+            if (after == all.begin() || after == all.end() || after->t == *t) continue;
+            const Instant &a = *std::prev(after), &b = *after;
+            const double share = (*t - a.t) / (b.t - a.t);
+            Instant end{*t, a.theta + (b.theta - a.theta) * share, a.cam_angle + (b.cam_angle - a.cam_angle) * share, 0,
+                        a.points};
+            for (std::size_t i = 0; i < end.points.size(); ++i) end.points[i] += (b.points[i] - a.points[i]) * share;
+            all.insert(after, std::move(end));
+        }
 }
 
 // Whether the line from `a` to `b` tells what is between.
@@ -165,6 +182,7 @@ std::string html_page(const FilmSetup& setup) {
     double thickness = depth;
     std::vector<Instant> all;
     for (int k = 0; k < facts.frames(); ++k) all.push_back(instant_of(facts, k, depth, thickness));
+    add_ends_of_contacts(facts, all);
     const Palette& p = *facts.palette;
     const std::string colors = fmt::format(
         R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"steel":{},"edge":{},"beam":{}}})",

@@ -15,6 +15,8 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 
+constexpr double kPaleShare = 0.5;  // of a curve's colour where the motion is not reproducible
+
 std::string symbol_of(Channel channel) {
     const ChannelLabel& label = label_of(channel.kind);
     std::string text = math(label.symbol);
@@ -133,11 +135,11 @@ void add_places(const FilmFacts& facts, ChartContent& c) {
             low = std::min(low, s.x), high = std::max(high, s.x);
             if (s.t < c.time.low || s.t > c.time.high) continue;
             const Palette& p = *facts.palette;
-            if (facts.members() > 1)
-                c.dots.push_back({s.t, s.x, facts.member_color(m), p.tint(facts.member_color(m), 0.25)});
-            else
-                c.dots.push_back(
-                    {s.t, s.x, force_color(p, std::sqrt(s.force / facts.force_scale)), p.tint(p.contact_faint, 0.9)});
+            Color color =
+                facts.members() > 1 ? facts.member_color(m) : force_color(p, std::sqrt(s.force / facts.force_scale));
+            const Color faint = facts.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
+            if (!facts.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
+            c.dots.push_back({s.t, s.x, color, faint});
         }
     const double length = facts.setup->problem.beam.length;
     if (!(low <= high)) {
@@ -263,6 +265,8 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
             if (dashes % 3 == 1) curve.dash = {9, 4};
             if (dashes % 3 == 2) curve.dash = {3, 3};
             if (is_force(first)) curve.dash.clear();
+            curve.pale_within = facts.motion(m).unreliable;
+            curve.pale = p.tint(curve.color, kPaleShare);
             c.curves.push_back(std::move(curve));
         }
     }

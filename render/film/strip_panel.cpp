@@ -138,7 +138,8 @@ class CollisionPanel final : public Panel {
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
         const double t0 = start(which);
         for (const Curve& all : curves_) {
-            Curve curve{{}, {}, all.color, all.faint, all.label, all.dash};
+            Curve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
+            for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
             const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
                        end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
             for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)

@@ -194,6 +194,10 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
             fill_under(canvas, points, plot_.bottom() + shift.y,
                        past ? curve.color.faded(0.20) : curve.faint.faded(0.35));
         first_curve = false;
+        if (past && !curve.pale_within.empty()) {
+            draw_pale_past(canvas, view, rows, curve, shift);
+            continue;
+        }
         std::vector<double> dash = curve.dash;
         for (double& d : dash) d *= unit_;
         canvas.polyline(points);
@@ -216,6 +220,24 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
         canvas.line_to({at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)});
         canvas.stroke({mark.color, 1.8 * unit_, {}, Cap::butt});
     }
+}
+
+// The pale pieces first: a piece begins at the row before its interval, and the strong ones hide that.
+void Chart::draw_pale_past(Canvas& canvas, const View& view, Range rows, const Curve& curve, Vec2 shift) const {
+    std::vector<double> dash = curve.dash;
+    for (double& d : dash) d *= unit_;
+    const auto piece = [&](double from, double to, Color color) {
+        const Range times{std::max(from, rows.low), std::min(to, rows.high)};
+        if (!(times.low < times.high)) return;
+        canvas.polyline(points_within(curve.t, curve.v, times, true, [&](double t, double v) {
+            return Vec2{view.x(plot_, t), y(v)} + shift;
+        }));
+        canvas.stroke({color, 2.2 * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
+    };
+    for (const Range& pale : curve.pale_within) piece(pale.low, pale.high, curve.pale);
+    double from = rows.low;
+    for (const Range& pale : curve.pale_within) piece(std::exchange(from, pale.high), pale.low, curve.color);
+    piece(from, rows.high, curve.color);
 }
 
 void Chart::draw_ground(Canvas& canvas, const Palette& p) const {

@@ -52,6 +52,8 @@ struct Curve {
     Color color, faint;
     std::string label = {};  // markup; told beside the reading
     std::vector<double> dash = {};
+    std::vector<Range> pale_within = {};  // in order; its past is drawn there in `pale` [s]
+    Color pale = {};
 };
 struct ChartDot {
     double t = 0, value = 0;
@@ -118,6 +120,7 @@ class Chart {
     // Rows between two instants, drawn as past or as still to come.
     void draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
     void draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
+    void draw_pale_past(Canvas& canvas, const View& view, Range rows, const Curve& curve, Vec2 shift) const;
     void draw_readings(Canvas& canvas, const Palette& palette, std::span<const double> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
     double y(double v) const;

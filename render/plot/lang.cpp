@@ -15,6 +15,7 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {" against widths", "（相对水平方向）"},
     {"heights in ", "高度单位 "},
     {"energy closes to ", "能量误差 "},
+    {"paler: θ not reproducible", "浅色：θ 不能重现"},
     {"bends beyond ", "挠曲超出 "},
     {"inextensible elastica", "不可伸长弹性线"},
     {"second-order", "二阶模型"},

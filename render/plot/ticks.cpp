@@ -76,7 +76,10 @@ Prefix prefix_for(double largest) {
 }
 
 std::string quantity(double value, const char* unit, int digits) {
-    const Prefix p = prefix_for(std::abs(value));
+    return quantity(value, prefix_for(std::abs(value)), unit, digits);
+}
+
+std::string quantity(double value, Prefix p, const char* unit, int digits) {
     std::string number = fmt::format("{:.{}g}", std::abs(value) / p.factor, digits);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", std::abs(value) / p.factor);
     return (value < 0 ? "−" : "") + number + "\u00A0" + p.symbol + unit;

@@ -38,5 +38,7 @@ struct Prefix {
     double factor;
 };
 Prefix prefix_for(double largest);
+// With a given prefix, for values that stand beside each other.
+std::string quantity(double value, Prefix prefix, const char* unit, int digits = 3);
 
 }  // namespace beamcam::render

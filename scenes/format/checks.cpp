@@ -195,10 +195,10 @@ void judge_instants(ObjectReader& r, const FrameSpan& span, const View& view, do
         if (i == 0 || at.kind != Instant::Kind::time) continue;
         const Instant& before = view.keyframes[i - 1].at;
         if (before.kind == Instant::Kind::time && at.t <= before.t)
-            r.findings().warning(r.place(key).place,
-                                 fmt::format("{} = {:g} s is not after the keyframe before it, {:g} s: keyframes are "
-                                             "taken in the order of time",
-                                             r.path(key), at.t, before.t));
+            r.fail(r.place(key), key,
+                   fmt::format("{} = {:g} s is not after the keyframe before it, {:g} s; list the keyframes in the "
+                               "order of time",
+                               r.path(key), at.t, before.t));
     }
 }
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "render/plot/text.hpp"
 #include "scenes/figures/caption.hpp"
+#include "scenes/figures/reproducible.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -33,6 +36,26 @@ render::Motion motion_of(const sim::Problem& problem, sim::Result& result, std::
     if (trace) motion.trace = std::move(result.tables[*trace]);
     motion.impacts = result.impacts;
     return motion;
+}
+
+// Makes the curves of a motion paler where θ is not reproducible.
+void mark_unreliable(const sim::Result& result, render::Motion& motion) {
+    for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
+        motion.unreliable.push_back({lost.from, lost.to});
+}
+
+// The intervals of the scene's own motion; of several motions each has its own.
+std::string paler_note(const render::FilmSetup& setup) {
+    std::string note;
+    for (const render::Range& lost : setup.unreliable) {
+        note += note.empty() ? " " : ", ";
+        note += std::isinf(lost.high) ? fmt::format("{:.3g} s …", lost.low)
+                                      : fmt::format("{:.3g}–{:.3g} s", lost.low, lost.high);
+    }
+    if (!setup.others.empty()) note.clear();
+    const bool any = !setup.unreliable.empty() ||
+                     std::ranges::any_of(setup.others, [](const auto& motion) { return !motion.unreliable.empty(); });
+    return any ? " · paler: θ not reproducible" + note : std::string();
 }
 
 std::vector<render::FilmData> data_of(const Scene& scene) {
@@ -62,6 +85,7 @@ void add_compared(const Pictures& p, std::vector<sim::Result>& results, const st
         motion.stored = poses[i].frames;
         motion.survey = poses[i].survey;
         motion.exposures = p.picture.view.poses();
+        if (p.picture.horizon) mark_unreliable(result, motion);
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
@@ -99,6 +123,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.view.strobe = p.picture.view.strobe_every.has_value();
     if (!p.compared.empty()) {
         add_compared(p, results.compared[picture], results.compared_poses[picture], setup);
+        setup.accuracy_note += paler_note(setup);
         return setup;
     }
     static_cast<render::Motion&>(setup) = motion_of(scene.problem, results.run, p.poses, p.chart, p.trace);
@@ -107,7 +132,8 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     else
         setup.stored = results.poses[picture].frames, setup.survey = results.poses[picture].survey;
     setup.exposures = p.picture.view.poses();
-    setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p));
+    if (p.picture.horizon) mark_unreliable(results.run, setup);
+    setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p)) + paler_note(setup);
     setup.impacts = results.seen_by(p).impacts;
     return setup;
 }

@@ -135,6 +135,9 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
     v.list("compare", compare,
            "The motions that the picture shows, aligned in time: this scene's mechanics, or another scene's, with "
            "changes. The first is the main one.");
+    v.truth(written_if(picture.horizon, "horizon"), picture.horizon,
+            "Curves against time are paler during the intervals in which θ is not reproducible; costs a second run, by "
+            "another method.");
     v.check([&picture](ObjectReader& r) { judge_picture(r, picture); });
 }
 

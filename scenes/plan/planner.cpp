@@ -164,6 +164,7 @@ void Planner::add(Pictures p, double ends) {
 void Planner::add_own_motion(Pictures& p, double ends) {
     sim::Request& request = simulation_.request;
     look_until(ends, p.file);
+    if (p.picture.horizon) ask_for_horizon();
     p.poses = request.poses.size();
     request.poses.push_back({});
     p.survey = request.poses.size();
@@ -178,6 +179,7 @@ void Planner::add_compared(Pictures& p) {
         ComparedMotion motion{each.label, each.problem, {}, {}};
         motion.request.end_time = p.end_time;
         motion.request.turning_points = false;
+        motion.request.horizon = p.picture.horizon;
         motion.request.poses = {{}, survey()};
         motion.request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
         if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});

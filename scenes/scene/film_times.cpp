@@ -281,14 +281,21 @@ static double frame_at(const std::vector<double>& frames, double t, double fps) 
 
 void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened) {
     std::vector<std::pair<double, const Keyframe*>> keys;  // and their frames
+    std::optional<double> latest;
     for (const Keyframe& key : view.keyframes) {
         const auto t = shortened ? find_instant(key.at, motion) : instant_of(key.at, motion);
-        if (t)
-            keys.emplace_back(frame_at(times.frames, *t, fps), &key);
-        else
+        if (!t) {
             times.unshown.push_back("the camera at " + name_of(key.at));
+            continue;
+        }
+        if (latest && *t <= *latest)
+            throw render::PictureError(
+                fmt::format("the camera's keyframe at {}, {:g} s, is not after the one before it, {:g} s; list the "
+                            "keyframes in the order of time",
+                            name_of(key.at), *t, *latest));
+        latest = t;
+        keys.emplace_back(frame_at(times.frames, *t, fps), &key);
     }
-    std::ranges::stable_sort(keys, {}, [](const auto& key) { return key.first; });
     render::Shot shot = view.shot;
     double before = 0;
     for (const auto& [frame, key] : keys) {

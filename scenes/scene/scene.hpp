@@ -134,6 +134,7 @@ struct Picture {
     // Absent: this motion alone. The first is the main one; the scene itself is one of them only if listed.
     std::vector<Compared> compare;
     render::Comparison comparison = render::Comparison::panels;
+    bool horizon = false;  // strip charts are paler where θ is not reproducible
 };
 
 // Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers; with a speed other than real

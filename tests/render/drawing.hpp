@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/draw/fonts.hpp"
 #include "render/film/film.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -118,13 +118,14 @@ void main() {
 })";
 
 // Shadows are the mean of 3 × 3 comparisons, each filtered over two texels a side, two texels apart: of 6 × 6 texels.
+// A smooth normal may point away at a limb that is seen: only one that is seen from behind is turned.
 // Light from the sky above, from the floor below and from the wall behind stands for what bounces around the room.
 inline constexpr const char* kSolidFragment = R"(#version 330 core
 in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
 uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, apart; uniform vec2 size;
 void main() {
     vec3 n = normalize(normal), eye = normalize(eye_dir);
-    if (dot(n, eye) < 0.0) n = -n;
+    if (dot(n, eye) < -0.2) n = -n;
     float facing = dot(n, light_near), bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0));
     float seen = 0.0;
     for (int y = -1; y <= 1; ++y)

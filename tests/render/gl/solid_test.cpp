@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "render/gl/lit.hpp"
+#include "tests/render/drawing.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -54,6 +58,34 @@ TEST(SolidScene, TheWallIsWhereverAShadowFallsAndNotMuchMore) {
         area += double(high[0] - low[0]) * double(high[1] - low[1]);
     }
     EXPECT_LT(area, 0.25 * 960 * 720);
+}
+
+// The limb of a disc towards the light: pixels that were shaded by a normal turned away stood there like stitches.
+TEST(GlSolid, TheLitLimbOfADiscHasNoDarkPixels) {
+    SKIP_WITHOUT_GL();
+    constexpr int kSize = 400;
+    MechanismShape shape;
+    for (const double x : {390.0, 395.0}) {  // out of the way, as are the hub and its support
+        shape.face.push_back({x, 390}), shape.back.push_back({x, 395});
+        shape.colors.push_back({0.5, 0.5, 0.5, 1});
+    }
+    shape.hinge = {390, 390}, shape.hub = 4, shape.pin = 1;
+    shape.disc = DiscShape{{200, 200}, {200, 200}, 100, 10, 0.3, {230, 200}, 5};
+    const Box box{0, 0, kSize, kSize};
+    const auto renderer = make_lit_renderer(kSize, kSize);
+    Image out(kSize, kSize);
+    for (const double yaw : {0.2, 0.35, 0.5}) {
+        const Perspective view = Perspective::looking(box.centre(), 960, 0.9, yaw, 0.2);
+        renderer->draw(solid_scene(shape, palette(Theme::light), box, view, 40, 1, {}), out);
+        for (int y = 90; y < 190; ++y)
+            for (int x = 90; x < 190; ++x) {
+                const std::uint32_t pixel = out.pixels[std::size_t(y) * kSize + std::size_t(x)];
+                const double alpha = (pixel >> 24) / 255.0, green = (pixel >> 8 & 255) / 255.0;
+                const double away = std::hypot(x - 200.0, y - 200.0);
+                if (away <= 60 || alpha <= 0.2) continue;
+                ASSERT_GT(green / alpha, 0.65) << x << ", " << y << ", yaw " << yaw;
+            }
+    }
 }
 
 }  // namespace

@@ -70,5 +70,11 @@ TEST(Quantity, ChoosesTheSiPrefix) {
     EXPECT_EQ(quantity(0, "m"), "0\u00A0m");
 }
 
+TEST(Quantity, ValuesBesideEachOtherShareAPrefix) {
+    EXPECT_EQ(quantity(500, prefix_for(2000), "N"), "0.5\u00A0kN");
+    EXPECT_EQ(quantity(250, prefix_for(1000), "N"), "0.25\u00A0kN");
+    EXPECT_EQ(quantity(125, prefix_for(500), "N"), "125\u00A0N");
+}
+
 }  // namespace
 }  // namespace beamcam::render

@@ -511,10 +511,44 @@ TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
             .second.empty());
     EXPECT_THAT(told(R"("speed": {"around": "impacts", "collisions": [1.5]})").second,
                 HasSubstr("outputs.0.speed.collisions.0 = 1.5 must be a whole number"));
-    const auto keyframes = told(R"("view": {"camera": {"keyframes": [{"at": 3}, {"at": 0.2}, {"at": "impact:1"}]}})");
-    EXPECT_TRUE(keyframes.first);
-    EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.0.at = 3 s is no instant of a film"));
+    const auto beyond = told(R"("view": {"camera": {"keyframes": [{"at": 3}]}})");
+    EXPECT_TRUE(beyond.first);
+    EXPECT_THAT(beyond.second, HasSubstr("view.camera.keyframes.0.at = 3 s is no instant of a film"));
+    const auto keyframes = told(R"("view": {"camera": {"keyframes": [{"at": 0.5}, {"at": 0.2}, {"at": "impact:1"}]}})");
+    EXPECT_FALSE(keyframes.first);
     EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the keyframe before it"));
+}
+
+// A second run alone knows where the motion is not reproducible: nobody pays for it who does not ask.
+TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
+    const Folder folder;
+    const auto still = [&](const char* keys) {
+        folder.write("s.json",
+                     std::string(R"({"time": {"end": 4}, "outputs": [{"type": "still", "at": 4, "file": "s.png",
+            "size": [640, 360], "layout": "theta", "view": {"style": "flat"})") +
+                         keys + "}]}");
+        return shell(folder, "$BEAMCAM run s.json --force --no-cache -v").err;
+    };
+    const auto digest = [&] { return shell(folder, "$BEAMCAM hash s.png | cut -c1-64").out; };
+    EXPECT_THAT(still(""), HasSubstr(" integrations=1 "));
+    const std::string plain = digest();
+    EXPECT_THAT(still(R"(, "horizon": false)"), HasSubstr(" integrations=1 "));
+    EXPECT_EQ(digest(), plain);
+    EXPECT_THAT(still(R"(, "horizon": true)"), HasSubstr(" integrations=2 "));
+    EXPECT_NE(digest(), plain);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out,
+                HasSubstr("a second run finds until when it is reproducible"));
+}
+
+// Events out of order are known only when the motion is.
+TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 1}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
+        "view": {"style": "flat", "camera": {"keyframes": [{"at": "impact:2", "zoom": 2}, {"at": "impact:1"}]}}}]})");
+    const Finished run = shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(run.code, 3);
+    EXPECT_THAT(run.err, HasSubstr("s.json:1:33: f.mkv: the camera's keyframe at impact:1, 0.277"));
+    EXPECT_THAT(run.err, HasSubstr("is not after the one before it"));
 }
 
 TEST(Films, TellOfCamerasThatLookPast) {

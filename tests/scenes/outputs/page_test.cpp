@@ -82,6 +82,22 @@ TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
     }
 }
 
+// At a first touch, between two poses, there is no force yet.
+TEST(Page, ForcesBeginAndEndWithTheirContacts) {
+    const render::FilmSetup setup = setup_until(0.3, 1000);
+    const nlohmann::json d = data_of(render::html_page(setup));
+    const auto times = decoded<std::uint32_t>(d["times"]);
+    const auto values = decoded<float>(d["values"]);
+    const double tick = d["tick"];
+    ASSERT_FALSE(setup.impacts.empty());
+    int found = 0;
+    for (const sim::Impact& impact : setup.impacts)
+        for (const double t : {impact.t_start, impact.t_end.value_or(impact.t_start)})
+            for (std::size_t i = 0; i < times.size(); ++i)
+                if (std::abs(times[i] * tick - t) < 1e-9) EXPECT_EQ(values[3 * i + 2], 0) << t, ++found;
+    EXPECT_EQ(found, 2 * static_cast<int>(setup.impacts.size()));
+}
+
 TEST(Page, TheSameMotionGivesTheSameBytes) {
     const render::FilmSetup setup = setup_until(0.3, 500);
     EXPECT_EQ(render::html_page(setup), render::html_page(setup));
