@@ -236,6 +236,7 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double
 // Lasting contact: no difference of the state outlives it.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
     lying_ = true;
+    rested_ = true;
     swing_ = {c.angle, surface_.rate(c), 0, 0};
 }
 

@@ -22,6 +22,8 @@ class RigidMotion {
     RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start);
     // Once. Throws Interrupted.
     SampledMotion follow(const Progress& progress);
+    // Lasting contact ended every difference of the state at least once.
+    bool rested() const { return rested_; }
 
   private:
     // The problem with the beam on the counter-clockwise side of the disc: itself, or mirrored in the X axis.
@@ -66,7 +68,8 @@ class RigidMotion {
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     Swing swing_;
-    bool lying_ = false;      // in sustained contact
+    bool lying_ = false;  // in sustained contact
+    bool rested_ = false;
     bool lasting_ = false;    // since the last sample
     bool touched_ = false;    // the flight starts on the surface
     double clear_until_ = 0;  // after a lift nothing touches before this time

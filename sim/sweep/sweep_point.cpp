@@ -1,5 +1,6 @@
 #include "sim/sweep/sweep_point.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "sim/orbit/exponents.hpp"
@@ -9,6 +10,8 @@
 
 namespace beamcam::sim {
 namespace {
+
+constexpr long kLaterTurns = 1000;  // in which a chaotic motion may settle: milliseconds by closed forms
 
 // The motion goes on for as long as its samples were taken, with its largest exponent. The cam stands then where it
 // stood at the start: samples are taken over whole turns.
@@ -21,10 +24,42 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
-        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), found.grows_late()});
+        const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
+        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
     } catch (const SolverError&) {
         return point.attractor;  // its exponent stays unknown
     }
+}
+
+// From the problem's start, or from that of `start`, as `carried` moves it.
+SampledMotion sampled_motion(const Problem& problem, const Sampling& sampling, const InitialState* start,
+                             const Progress& progress) {
+    if (RigidMotion::applies(problem, sampling)) return RigidMotion(problem, sampling, start).follow(progress);
+    std::optional<InitialState> moved;
+    if (start) moved = carried(problem, *start);
+    return sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
+}
+
+// A chaotic motion that is followed for as long again as until now still has no period.                     (S89a)
+bool stays_chaotic(const Problem& problem, const Sampling& sampling, const SampledMotion& motion,
+                   const Progress& progress) {
+    const SampleSpan span = sample_span(problem, sampling);
+    const bool closed = RigidMotion::applies(problem, sampling);
+    Sampling later = sampling;
+    later.keep = {static_cast<double>(span.kept()), {}};
+    later.transient = {static_cast<double>(std::max(span.from, (closed ? kLaterTurns : 0) - span.kept())), {}};
+    SampledMotion rest;
+    if (closed) {
+        RigidMotion followed(problem, later, &motion.end);
+        rest = followed.follow(progress);
+        if (followed.rested()) return false;
+    } else {
+        rest = sampled_motion(problem, later, &motion.end, progress);
+    }
+    if (classify(problem, rest).kind == AttractorClass::chaotic) return true;
+    // The exponent of other turns may be less sure: what counts is that nothing returns.
+    for (Strobe& strobe : rest.strobes) strobe.growth = kNan;
+    return classify(problem, rest).kind == AttractorClass::aperiodic;
 }
 
 }  // namespace
@@ -35,17 +70,13 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
         if (finding.fatal && !(start && finding.path.starts_with("initial")))
             throw std::invalid_argument(finding.path + ": " + finding.message);
     SweepPoint point;
-    if (RigidMotion::applies(problem, sampling)) {
-        point.motion = RigidMotion(problem, sampling, start).follow(progress);
-    } else {
-        std::optional<InitialState> moved;
-        if (start) moved = carried(problem, *start);
-        point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
-    }
+    point.motion = sampled_motion(problem, sampling, start, progress);
     if (point.motion.over_the_top) point.motion.samples.clear();  // of no attractor
     point.attractor = classify(problem, point.motion);
     if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
         point.attractor = by_tangents(problem, sampling, point, progress);
+    if (point.attractor.kind == AttractorClass::chaotic && !stays_chaotic(problem, sampling, point.motion, progress))
+        point.attractor.kind = AttractorClass::unsettled;
     return point;
 }
 
