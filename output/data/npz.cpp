@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 #include <string_view>
-
-#include "output/files/atomic_file.hpp"
 
 namespace beamcam::output {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLargestArchive = 0xffffffff;  // beyond that zip needs 64-bit records
 constexpr std::size_t kMostEntries = 0xffff;
+constexpr std::size_t kGathered = 1 << 13;  // numbers of an array that are written together
 static_assert(std::endian::native == std::endian::little, "NPZ is written in memory order");
 
 void put(std::string& out, std::uint64_t value, int bytes) {
@@ -31,32 +31,7 @@ std::string npy_header(std::size_t rows) {
     return header + text;
 }
 
-struct ArchiveMember {
-    std::string name;
-    std::uint32_t crc = 0;
-    std::uint64_t size = 0, offset = 0;
-};
-
-// What the local and the central record of an entry have in common.
-std::string common_record(const ArchiveMember& entry) {
-    std::string record;
-    put(record, 20, 2), put(record, 0, 2), put(record, 0, 2);  // needs zip 2.0, no flags, stored
-    put(record, 0, 2), put(record, 1 << 5 | 1, 2);             // midnight, 1 January 1980: no clock in the bytes
-    put(record, entry.crc, 4), put(record, entry.size, 4), put(record, entry.size, 4);
-    put(record, entry.name.size(), 2), put(record, 0, 2);  // no extra field
-    return record;
-}
-
-std::string local_record(const ArchiveMember& entry) { return "PK\x03\x04" + common_record(entry) + entry.name; }
-
-std::string central_record(const ArchiveMember& entry) {
-    std::string record = "PK\x01\x02";
-    put(record, 20, 2);  // made by zip 2.0
-    record += common_record(entry);
-    put(record, 0, 2), put(record, 0, 2), put(record, 0, 2);  // no comment, first disk, binary
-    put(record, 0, 4), put(record, entry.offset, 4);
-    return record + entry.name;
-}
+constexpr std::size_t kLocalRecord = 30;  // [bytes] before the name
 
 std::string end_record(std::size_t count, std::uint64_t size, std::uint64_t offset) {
     std::string record = "PK\x05\x06";
@@ -65,15 +40,16 @@ std::string end_record(std::size_t count, std::uint64_t size, std::uint64_t offs
     return record;
 }
 
-void refuse_what_zip_cannot_hold(const std::filesystem::path& file, const std::vector<NpzArray>& arrays) {
+// The target, if zip can hold the arrays.
+const Target& possible_target(const Target& file, const std::vector<NpzArray>& arrays) {
     constexpr std::uint64_t per_entry = 512;  // records and header of one array, generously
     std::uint64_t total = 0, rows = 0;
     for (const NpzArray& array : arrays) {
         total += array.rows * sizeof(double) + per_entry;
         rows = std::max(rows, array.rows);
     }
-    if (arrays.size() <= kMostEntries && total <= kLargestArchive) return;
-    throw UnsupportedOption("cannot write " + file.string() + ": a table of " + std::to_string(arrays.size()) +
+    if (arrays.size() <= kMostEntries && total <= kLargestArchive) return file;
+    throw UnsupportedOption("cannot write " + file.path.string() + ": a table of " + std::to_string(arrays.size()) +
                             " channels and " + std::to_string(rows) +
                             " rows is larger than the 4 GiB of an NPZ file; ask for fewer channels or a lower rate, or "
                             "write .csv");
@@ -85,28 +61,61 @@ std::string_view bytes_of(std::span<const double> numbers) {
 
 }  // namespace
 
-void write_npz(const Target& file, const std::vector<NpzArray>& arrays) {
-    refuse_what_zip_cannot_hold(file.path, arrays);
-    AtomicFile atomic(file);
+NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atomic_(possible_target(file, arrays)) {
     std::uint64_t offset = 0;
-    std::string directory;
     for (const NpzArray& array : arrays) {
-        const std::string header = npy_header(array.rows);
-        ArchiveMember entry{array.name + ".npy", 0, header.size() + array.rows * sizeof(double), offset};
-        entry.crc = libdeflate_crc32(0, header.data(), header.size());
-        array.numbers([&entry](std::span<const double> piece) {
-            if (!piece.empty()) entry.crc = libdeflate_crc32(entry.crc, piece.data(), piece.size_bytes());
-        });
-        const std::string record = local_record(entry);
-        atomic.write(record);
-        atomic.write(header);
-        array.numbers([&atomic](std::span<const double> piece) { atomic.write(bytes_of(piece)); });
-        offset += record.size() + entry.size;
-        directory += central_record(entry);
+        Member member{array.name + ".npy", npy_header(array.rows), 0, offset, 0, 0, {}};
+        member.size = member.header.size() + array.rows * sizeof(double);
+        member.crc = libdeflate_crc32(0, member.header.data(), member.header.size());
+        offset += kLocalRecord + member.name.size() + member.size;
+        members_.push_back(std::move(member));
     }
-    atomic.write(directory);
-    atomic.write(end_record(arrays.size(), directory.size(), offset));
-    atomic.commit();
+}
+
+// What the local and the central record of an array have in common.
+std::string NpzFile::common_record(const Member& member) {
+    std::string record;
+    put(record, 20, 2), put(record, 0, 2), put(record, 0, 2);  // needs zip 2.0, no flags, stored
+    put(record, 0, 2), put(record, 1 << 5 | 1, 2);             // midnight, 1 January 1980: no clock in the bytes
+    put(record, member.crc, 4), put(record, member.size, 4), put(record, member.size, 4);
+    put(record, member.name.size(), 2), put(record, 0, 2);  // no extra field
+    return record;
+}
+
+void NpzFile::append(std::size_t array, std::span<const double> numbers) {
+    Member& member = members_[array];
+    member.gathered.insert(member.gathered.end(), numbers.begin(), numbers.end());
+    if (member.gathered.size() >= kGathered) flush(member);
+}
+
+void NpzFile::flush(Member& member) {
+    if (member.gathered.empty()) return;
+    const std::string_view bytes = bytes_of(member.gathered);
+    member.crc = libdeflate_crc32(member.crc, bytes.data(), bytes.size());
+    atomic_.write_at(member.offset + kLocalRecord + member.name.size() + member.header.size() + member.written, bytes);
+    member.written += bytes.size();
+    member.gathered.clear();
+}
+
+void NpzFile::commit() {
+    std::uint64_t end = 0;
+    std::string directory;
+    for (Member& member : members_) {
+        flush(member);
+        if (member.header.size() + member.written != member.size)
+            throw std::logic_error("NpzFile: " + member.name + " has another number of rows than it said");
+        const std::string common = common_record(member);
+        atomic_.write_at(member.offset, "PK\x03\x04" + common + member.name + member.header);
+        end = member.offset + kLocalRecord + member.name.size() + member.size;
+        directory += "PK\x01\x02";
+        put(directory, 20, 2);  // made by zip 2.0
+        directory += common;
+        put(directory, 0, 2), put(directory, 0, 2), put(directory, 0, 2);  // no comment, first disk, binary
+        put(directory, 0, 4), put(directory, member.offset, 4);
+        directory += member.name;
+    }
+    atomic_.write_at(end, directory + end_record(members_.size(), directory.size(), end));
+    atomic_.commit();
 }
 
 }  // namespace beamcam::output

@@ -2,24 +2,41 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "output/files/errors.hpp"
-#include "output/files/target.hpp"
+#include "output/files/atomic_file.hpp"
 
 namespace beamcam::output {
 
 struct NpzArray {
     std::string name;
     std::uint64_t rows = 0;
-    // Hands the numbers on in pieces, in order; called twice: a checksum stands before them.
-    std::function<void(const std::function<void(std::span<const double>)>& put)> numbers;
 };
 
-// Throws UnsupportedOption beyond 4 GiB; IoError.
-void write_npz(const Target& file, const std::vector<NpzArray>& arrays);
+// An archive whose numbers come in any order of its arrays: each array has its place from the start.
+class NpzFile {
+  public:
+    // Throws UnsupportedOption beyond 4 GiB; IoError.
+    NpzFile(const Target& file, const std::vector<NpzArray>& arrays);
+    // The next numbers of an array. Throws IoError.
+    void append(std::size_t array, std::span<const double> numbers);
+    // Once, after all numbers. Throws IoError.
+    void commit();
+
+  private:
+    struct Member {
+        std::string name, header;
+        std::uint64_t size = 0, offset = 0, written = 0;  // [bytes] header and numbers; of its record; numbers so far
+        std::uint32_t crc = 0;
+        std::vector<double> gathered;  // not written yet
+    };
+    static std::string common_record(const Member& member);
+    void flush(Member& member);
+
+    AtomicFile atomic_;
+    std::vector<Member> members_;
+};
 
 }  // namespace beamcam::output

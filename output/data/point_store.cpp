@@ -15,6 +15,8 @@
 namespace beamcam::output {
 namespace {
 
+constexpr std::string_view kMagic = "beamcam points 1\n";
+
 // What stands before the numbers of a point.
 struct Head {
     std::uint64_t point, samples, state, failure;  // counts of numbers, of bytes
@@ -49,7 +51,7 @@ PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const s
     if (descriptor_ < 0) fail(file_, "cannot be made");
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw IoError(file_.string() + ": another beamcam is making these points");
-    open_again("beamcam points 1\n" + identity + "\n");
+    open_again(std::string(kMagic) + identity + "\n");
 }
 
 PointStore::~PointStore() {
@@ -63,6 +65,10 @@ void PointStore::open_again(const std::string& head) {
     const bool same = size >= head.size() && text_at(0, head.size()) == head;
     end_ = head.size();
     if (!same) {
+        const std::string magic = text_at(0, std::min<std::uint64_t>(size, kMagic.size()));
+        if (!kMagic.starts_with(magic))
+            throw IoError(file_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
+        dropped_others_ = size > head.size();
         if (ftruncate(descriptor_, 0) != 0 ||
             pwrite(descriptor_, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
             fail(file_, "cannot be written");
@@ -125,6 +131,7 @@ StoredPoint PointStore::read(std::uint64_t point) const {
 
 void PointStore::add(const StoredPoint& point) {
     const std::string text = text_of(point);
+    const std::lock_guard lock(mutex_);
     for (std::size_t done = 0; done < text.size();) {
         const ssize_t put =
             pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(end_ + done));

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct StoredPoint {
 class PointStore {
   public:
     // `identity` names the sweep: the points of a file with another one are dropped. Throws IoError, also when another
-    // program has the file open.
+    // program has the file open or the file is no store of points.
     PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity);
     ~PointStore();
     PointStore(const PointStore&) = delete;
@@ -36,10 +37,11 @@ class PointStore {
 
     bool has(std::uint64_t point) const { return places_[point] != 0; }
     std::uint64_t count() const { return count_; }
+    bool dropped_others() const { return dropped_others_; }                       // points with another identity
     std::uint64_t numbers(std::uint64_t point) const { return numbers_[point]; }  // of its samples
     StoredPoint read(std::uint64_t point) const;                                  // throws IoError
-    void add(const StoredPoint& point);  // one thread at a time; throws IoError
-    void remove();                       // when its points are elsewhere
+    void add(const StoredPoint& point);  // any thread, each a point of its own; throws IoError
+    void remove();                       // its name, when the points are elsewhere; those that are open can be read
 
   private:
     void open_again(const std::string& head);
@@ -47,6 +49,8 @@ class PointStore {
 
     std::filesystem::path file_;
     int descriptor_ = -1;
+    bool dropped_others_ = false;
+    std::mutex mutex_;  // of adding
     std::uint64_t end_ = 0, count_ = 0;
     std::vector<std::uint64_t> places_;   // by point; 0: not there
     std::vector<std::uint32_t> numbers_;  // by point

@@ -87,40 +87,32 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
     write(text);
 }
 
-// Of one column of the table, point by point.
-using ValuesOf = std::function<void(const StoredPoint& point, std::size_t rows, std::vector<double>& out)>;
-
 void npz(const Target& file, const SweepData& data) {
     std::vector<NpzArray> arrays;
-    const std::uint64_t rows = data.rows_in_all();
+    const std::uint64_t all = data.rows_in_all();
+    for (const SweepAxis& axis : data.axes) arrays.push_back({axis.name, all});
+    for (const char* name : kPointColumns) arrays.push_back({name, all});
+    arrays.push_back({"sample", all});
+    for (const SweepColumn& column : data.columns) arrays.push_back({column.name, all});
+    NpzFile archive(file, arrays);
     const std::size_t width = data.columns.size();
-    const auto add = [&](const std::string& name, ValuesOf values) {
-        arrays.push_back({name, rows, [&data, values, width](const auto& put) {
-                              std::vector<double> piece;
-                              each_point(data, [&](const StoredPoint& p) {
-                                  piece.clear();
-                                  values(p, std::max<std::size_t>(p.samples.size() / width, 1), piece);
-                                  put(std::span<const double>(piece));
-                              });
-                          }});
-    };
-    for (std::size_t a = 0; a < data.axes.size(); ++a)
-        add(data.axes[a].name, [&data, a](const StoredPoint& p, std::size_t n, std::vector<double>& out) {
-            out.assign(n, data.place(p.point)[a]);
-        });
-    for (std::size_t c = 0; c < kPointColumnCount; ++c)
-        add(kPointColumns[c], [&data, c](const StoredPoint& p, std::size_t n, std::vector<double>& out) {
-            out.assign(n, point_value(data, p, c));
-        });
-    add("sample", [](const StoredPoint& p, std::size_t n, std::vector<double>& out) {
-        for (std::size_t row = 0; row < n; ++row) out.push_back(p.samples.empty() ? kNone : static_cast<double>(row));
+    std::vector<double> values;  // of one array
+    each_point(data, [&](const StoredPoint& p) {
+        const std::size_t samples = p.samples.size() / width, rows = std::max<std::size_t>(samples, 1);
+        std::size_t array = 0;
+        const auto append = [&](auto&& value) {
+            values.assign(rows, kNone);
+            for (std::size_t row = 0; row < rows; ++row) values[row] = value(row);
+            archive.append(array++, values);
+        };
+        for (const double value : data.place(p.point)) append([=](std::size_t) { return value; });
+        for (std::size_t c = 0; c < kPointColumnCount; ++c)
+            append([value = point_value(data, p, c)](std::size_t) { return value; });
+        append([=](std::size_t row) { return samples == 0 ? kNone : static_cast<double>(row); });
+        for (std::size_t c = 0; c < width; ++c)
+            append([&, c](std::size_t row) { return samples == 0 ? kNone : p.samples[row * width + c]; });
     });
-    for (std::size_t c = 0; c < width; ++c)
-        add(data.columns[c].name, [c, width](const StoredPoint& p, std::size_t n, std::vector<double>& out) {
-            for (std::size_t row = 0; row < n; ++row)
-                out.push_back(p.samples.empty() ? kNone : p.samples[row * width + c]);
-        });
-    write_npz(file, arrays);
+    archive.commit();
 }
 
 }  // namespace

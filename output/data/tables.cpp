@@ -66,9 +66,10 @@ void write_csv(const Target& file, const Columns& table) {
 
 void write_npz(const Target& file, const Columns& table) {
     std::vector<NpzArray> arrays;
-    for (std::size_t c = 0; c < table.names.size(); ++c)
-        arrays.push_back({table.names[c], table.rows(), [&table, c](const auto& put) { put(table.values[c]); }});
-    write_npz(file, arrays);
+    for (const auto& name : table.names) arrays.push_back({std::string(name), table.rows()});
+    NpzFile npz(file, arrays);
+    for (std::size_t c = 0; c < arrays.size(); ++c) npz.append(c, table.values[c]);
+    npz.commit();
 }
 
 void write_columns(const Target& file, const Columns& table) {

@@ -121,6 +121,16 @@ void AtomicFile::write(std::string_view bytes) {
     }
 }
 
+void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw write_error(target_.path, errno);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+        offset += static_cast<std::uint64_t>(written);
+    }
+}
+
 void AtomicFile::commit(Durability durability) {
     if (!pending_) throw std::logic_error("AtomicFile: " + target_.path.string() + " is committed already");
     if (durability == Durability::synced && fsync(descriptor_) != 0) throw write_error(target_.path, errno);

@@ -4,6 +4,7 @@
 // It does not ask whether the target may be replaced: that is manifest.hpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,8 +29,9 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    void write(std::string_view bytes);                       // throws IoError
-    void commit(Durability durability = Durability::synced);  // throws IoError; at most once
+    void write(std::string_view bytes);                           // throws IoError
+    void write_at(std::uint64_t offset, std::string_view bytes);  // throws IoError; does not move `write`
+    void commit(Durability durability = Durability::synced);      // throws IoError; at most once
 
     const std::filesystem::path& target() const { return target_.path; }
     // For libraries that open files themselves. Exists, empty, until they write to it.

@@ -40,7 +40,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-// "601", or "601n": so many values; else it is a step, as "0.02", "2.0" and "2 rad/s" are. No range has one value.
+// "601", or "601n": so many values; else it is a step, as "0.02", "2.0" and "2 rad/s" are. No range from one number to
+// another has one value, so "1" is a step, too.
 bool is_count(const std::string& text) {
     const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
     return text.ends_with('n') || (digits && text != "0" && text != "1");

@@ -123,7 +123,7 @@ void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptio
         for (std::size_t k = 0; k < results.compared[i].size(); ++k) capture.compared(i, k, results.compared[i][k]);
     std::optional<SweepRun> sweep;
     if (!plan.sweep.empty()) {
-        sweep.emplace(scene, SweepPart(), temporary_store());
+        sweep.emplace(scene);
         sweep->make(options.threads, context.progress);
     }
     for (std::size_t i = 0; i < plan.figures.size(); ++i) {
@@ -132,7 +132,6 @@ void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptio
         capture.figure(figure_image(plan.figures[i].make(of_figure),
                                     std::get<FigureOutput>(scene.outputs[plan.figures[i].output])));
     }
-    if (sweep) sweep->remove();
     for (std::size_t i = 0; i < plan.pictures.size(); ++i) {
         stop_if_interrupted();
         const render::Film film(film_setup(plan, i, scene, results));

@@ -95,10 +95,19 @@ void SceneRun::find_impacts(double far) {
 // Until all files are written the points stand beside the first of them.
 void SceneRun::make_sweep() {
     if (plan_.sweep.empty()) return;
-    const Ask& ask = context_.options.ask;
-    sweep_ = std::make_unique<SweepRun>(
-        scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
-        is_stdout(plan_.sweep) ? temporary_store() : fs::path(files_.path_of(plan_.sweep).string() + ".part"));
+    if (is_stdout(plan_.sweep)) {
+        sweep_ = std::make_unique<SweepRun>(scene_);
+    } else {
+        const Ask& ask = context_.options.ask;
+        const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
+        sweep_ = std::make_unique<SweepRun>(
+            scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
+            store);
+        if (sweep_->dropped_others())
+            context_.say(
+                "dropped the points in {}: another sweep, or another version of beamcam, was interrupted there\n",
+                store.string());
+    }
     for (const Output& output : scene_.outputs)
         if (const auto* finished = std::get_if<SweepOutput>(&output);
             finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_goes_on)
@@ -108,7 +117,8 @@ void SceneRun::make_sweep() {
         sweep_->make(context_.options.threads, context_.progress);
     } catch (const sim::Interrupted&) {
         context_.progress.end();
-        context_.say("{} points are kept; the same command goes on from there\n", sweep_->points_there());
+        if (!is_stdout(plan_.sweep))
+            context_.say("{} points are kept; the same command goes on from there\n", sweep_->points_there());
         throw;
     }
     context_.say("{}\n", sweep_->summary());

@@ -67,8 +67,8 @@ class PointMaker {
             }
             const output::StoredPoint point = made(index, task.carries ? end : std::nullopt);
             end = end_of(point);
-            const std::lock_guard lock(mutex_);
             store_.add(point);
+            const std::lock_guard lock(mutex_);
             progress_.reach(static_cast<double>(++done_));
         }
     }
@@ -90,7 +90,7 @@ class PointMaker {
     const SweepGrid& grid_;
     output::PointStore& store_;
     Progress& progress_;
-    std::mutex mutex_;  // guards the store and what follows
+    std::mutex mutex_;  // guards what follows
     std::uint64_t done_ = 0;
 };
 
@@ -188,7 +188,7 @@ output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store
         {"transient", span(sampling.transient)},
         {"keep", span(sampling.keep)},
         {"seeds", seeds},
-        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89)"},
+        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89a)"},
         {"tolerance", fmt::format("rtol {:g}, atol {:g}; a rigid beam with impulsive contact is followed to rounding",
                                   grid.scene().problem.solver.rtol, grid.scene().problem.solver.atol)},
         {"beamcam_scene", to_json(grid.scene())},

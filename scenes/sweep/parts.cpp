@@ -81,6 +81,17 @@ void require_whole(const std::vector<Part>& parts) {
                       ", ")));
 }
 
+// A command within a string of Python whose braces Snakemake fills in.
+std::string in_snakefile(const std::string& command) {
+    std::string text;
+    for (const char c : command) {
+        if (c == '{' || c == '}') text += c;
+        if (c == '"' || c == '\\') text += '\\';
+        text += c;
+    }
+    return text;
+}
+
 }  // namespace
 
 SweepPart part_argument(const std::string& text, const std::function<const char*(const char*)>& variable) {
@@ -149,9 +160,9 @@ std::string engine_script(const std::string& engine, const std::string& command,
     if (engine == "parallel")
         return fmt::format(
             "#!/bin/sh\n# GNU parallel on all cores; several hosts: add --sshlogin HOST,HOST --workdir .\n"
-            "# Run again, it makes what failed or is missing.\nset -e\n"
-            "seq {0} | parallel --joblog {1}.joblog --resume-failed --retries 3 \\\n"
-            "    {2} -o {3} --shard '{{}}/{0}' -j1 -q\n"
+            "# Run again, it makes what failed or is missing: finished parts are left alone.\nset -e\n"
+            "seq {0} | parallel --joblog {1}.joblog --retries 3 -I _PART_ --quote \\\n"
+            "    {2} -o {3} --shard _PART_/{0} -j1 -q\n"
             "beamcam collect {4} -o {3}\n",
             parts, stem, command, file, all);
     return fmt::format(
@@ -160,7 +171,7 @@ std::string engine_script(const std::string& engine, const std::string& command,
         "    shell: \"{2} -o {3} --shard {{wildcards.i}}/{0} -j {{threads}} -q\"\n\n"
         "rule collect:\n    input: expand(\"{1}.{{i}}of{0}{4}\", i=range(1, {5}))\n    output: \"{3}\"\n"
         "    shell: \"beamcam collect {{input}} -o {{output}} -q\"\n",
-        parts, stem, command, file, ending, parts + 1);
+        parts, stem, in_snakefile(command), file, ending, parts + 1);
 }
 
 }  // namespace beamcam::scenes

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <map>
 
 #include "output/data/netcdf_library.hpp"
@@ -10,12 +11,26 @@
 #include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
+namespace {
+
+// A new empty file with a name that nobody could guess.
+std::filesystem::path temporary_store() {
+    std::string name = (std::filesystem::temp_directory_path() / "beamcam-sweep-XXXXXX").string();
+    const int descriptor = mkstemp(name.data());
+    if (descriptor < 0) throw output::IoError(name + ": cannot be made; points of the sweep would be kept there");
+    close(descriptor);
+    return name;
+}
+
+}  // namespace
 
 SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store)
     : grid_(scene),
       part_(part),
       store_(std::move(store), grid_.points(), grid_.identity()),
       data_(data_of(grid_, store_, part_)) {}
+
+SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, SweepPart(), temporary_store()) { store_.remove(); }
 
 void SweepRun::take_from(const std::filesystem::path& file) try {
     if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
@@ -52,10 +67,6 @@ std::string SweepRun::summary() const {
                             name(static_cast<sim::AttractorClass>(kind)));
     if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
     return text;
-}
-
-std::filesystem::path temporary_store() {
-    return std::filesystem::temp_directory_path() / fmt::format("beamcam-sweep-{}.part", getpid());
 }
 
 }  // namespace beamcam::scenes

@@ -15,7 +15,10 @@ class SweepRun {
     // `store`: where the points stand until `remove`; what an earlier run left there is not made again. Throws what
     // SweepGrid and PointStore throw.
     SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store);
+    // The whole sweep, whose points no file keeps beyond this.
+    explicit SweepRun(const Scene& scene);
 
+    bool dropped_others() const { return store_.dropped_others(); }  // points of another sweep or version in the store
     std::uint64_t points_there() const { return store_.count(); }
     // The points of a finished .nc file of the same sweep by the same program; none of another or a damaged one.
     void take_from(const std::filesystem::path& file);
@@ -35,8 +38,5 @@ class SweepRun {
     output::SweepData data_;
     double seconds_ = 0;
 };
-
-// For points that no file keeps.
-std::filesystem::path temporary_store();
 
 }  // namespace beamcam::scenes

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <variant>
 
 #include "sim/orbit/exponents.hpp"
 
@@ -20,6 +21,7 @@ constexpr double kNear = 0.02;            // of the lift: differences from a per
 constexpr std::size_t kBlocks = 10;       // of the exponent
 constexpr double kSureErrors = 3;         // standard errors
 constexpr double kSmallError = 0.02;      // per turn, of an exponent that is zero
+constexpr double kLinearGrowth = 1.2;  // in the later half: differences that grow like the time double, ln 2 and some
 
 using Strobes = std::span<const Strobe>;
 
@@ -100,22 +102,31 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
         squares += off * off;
     }
     out.error = std::sqrt(squares / (kBlocks * (kBlocks - 1))) / cam_period(problem);
-    out.grows_late = sum(growth.size() / 2, growth.size()) > kLateGrowth;
+    out.late_growth = sum(growth.size() / 2, growth.size());
     return out;
+}
+
+// By impacts, contact damping or friction. Flexible beams may lose more.
+bool loses_energy(const Contact& contact) {
+    const bool damped = contact.model == ContactModel::restitution || contact.damping != DampingLaw::none;
+    return (damped && contact.restitution < 1) || !std::holds_alternative<NoFriction>(contact.friction);
 }
 
 // Where no period is found. Without an exponent: aperiodic.                                                  (S89)
 AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool near_period) {
-    const bool grows = exponent.value > kSureErrors * exponent.error && exponent.grows_late;
-    if (std::isfinite(exponent.value) && grows) return AttractorClass::chaotic;
+    const bool positive = exponent.value > kSureErrors * exponent.error;
+    if (std::isfinite(exponent.value) && positive && exponent.late_growth > kLateGrowth) return AttractorClass::chaotic;
     if (near_period) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
     if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // it forgets, so it has a period
     // A map of the plane that contracts areas keeps no closed curve: a rigid beam that loses energy has no torus.
-    if (problem.beam.model == ModelKind::rigid && problem.contact.restitution < 1) return AttractorClass::unsettled;
+    const bool rigid = problem.beam.model == ModelKind::rigid;
+    if (rigid && loses_energy(problem.contact)) return AttractorClass::unsettled;
     const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
+    // Neighbouring tori of a beam that loses nothing turn at other rates: their distance grows like the time.
+    const bool linear = rigid && positive && exponent.late_growth < kLinearGrowth;
     const bool known = exponent.error * cam_period(problem) < kSmallError;
-    return zero && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
+    return (zero || linear) && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
 }
 
 bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {

@@ -26,7 +26,7 @@ bool has_section(AttractorClass kind);
 // The largest Lyapunov exponent over the samples, per second, with the standard error of its mean over blocks.
 struct LargestExponent {
     double value = kNan, error = kNan;
-    bool grows_late = false;  // the later half of the turns alone multiplies differences by more than e³
+    double late_growth = kNan;  // logarithm of what the later half of the turns alone multiplies differences by
 };
 
 struct Attractor {

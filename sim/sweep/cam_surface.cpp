@@ -30,15 +30,18 @@ CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
     longest_ = lever(away + eccentricity_);
     highest_ = -std::numeric_limits<double>::infinity();
     lowest_ = -highest_;
+    std::vector<double> pushes;
     for (int i = 0; i < kLooks; ++i) {
-        const double value = acceleration(at(period_ * i / kLooks));
+        const SurfaceAngle c = at(period_ * i / kLooks);
+        const double value = acceleration(c);
         highest_ = std::max(highest_, value);
         lowest_ = std::min(lowest_, value);
+        pushes.push_back(push(c));
     }
     const double margin = kMargin * (highest_ - lowest_);
     highest_ += margin;
     lowest_ -= margin;
-    find_lifts();
+    find_lifts(pushes);
 }
 
 // With B = C + e(cos ψ, sin ψ), ρ = |B|, ℓ² = ρ² − R'²:                                                      (S81)
@@ -60,20 +63,19 @@ SurfaceAngle CamSurface::at_angle(double psi) const {
 
 double CamSurface::push(const SurfaceAngle& c) const { return acceleration(c) + k_ * std::cos(c.angle) - alpha_; }
 
-void CamSurface::find_lifts() {
-    const auto f = [&](double s) { return push(at(s)); };
+void CamSurface::find_lifts(const std::vector<double>& pushes) {
+    const bool starts_pulled = pushes.front() < 0;
     if (speed_ == 0 || eccentricity_ == 0) {
-        always_pulls_ = f(0) < 0;
+        always_pulls_ = starts_pulled;
         return;
     }
+    const auto f = [&](double s) { return push(at(s)); };
     std::vector<double> passes;  // f changes its sign
-    double before = f(0), first = before;
-    bool starts_pulled = first < 0;
     for (int i = 1; i <= kLooks; ++i) {
-        const double s = period_ * i / kLooks, from = period_ * (i - 1) / kLooks;
-        const double now = i == kLooks ? first : f(s);
-        if ((before < 0) != (now < 0)) passes.push_back(find_root(f, from, s, before, now));
-        before = now;
+        const double before = pushes[static_cast<std::size_t>(i - 1)];
+        const double now = pushes[static_cast<std::size_t>(i % kLooks)];
+        if ((before < 0) != (now < 0))
+            passes.push_back(find_root(f, period_ * (i - 1) / kLooks, period_ * i / kLooks, before, now));
     }
     if (passes.empty()) {
         always_pulls_ = starts_pulled;

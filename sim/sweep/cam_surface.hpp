@@ -41,7 +41,7 @@ class CamSurface {
     bool always_pulls() const { return always_pulls_; }
 
   private:
-    void find_lifts();
+    void find_lifts(const std::vector<double>& pushes);  // of the cam on a beam that lies on it, around the turn
 
     Vec2 centre_;
     double eccentricity_, phase_, speed_, reach_, k_, alpha_, period_;

@@ -95,8 +95,9 @@ void RigidMotion::begin(const InitialState& start) {
     }
 }
 
-SampledMotion RigidMotion::follow(const Progress& progress) {
+SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
     for (long count = 1; turn_ < span_.to && !motion_.over_the_top; ++count) {
+        if (until_return && returned_) break;
         if (count % kStretchesPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
             throw Interrupted();
         follows_difference_ = turn_ >= span_.from - kWarmUp;
@@ -236,6 +237,7 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double
 // Lasting contact: no difference of the state outlives it.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
     lying_ = true;
+    rested_ = true;
     swing_ = {c.angle, surface_.rate(c), 0, 0};
 }
 
@@ -247,11 +249,14 @@ void RigidMotion::lie() {
     };
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     double from = end(), to = from;
-    for (const CamSurface::Lift& lift : surface_.lifts())
+    std::optional<std::size_t> window;  // none: it lies where the cam falls away already
+    for (std::size_t i = 0; i < surface_.lifts().size(); ++i)
         for (const double turn : {-period_, 0.0, period_}) {
+            const CamSurface::Lift& lift = surface_.lifts()[i];
             if (!(lift.to + turn > s_) || !(std::max(lift.from + turn, s_) < from)) continue;
             from = std::max(lift.from + turn, s_);
             to = lift.to + turn;
+            window = lift.from + turn > s_ ? std::optional(i) : std::nullopt;
         }
     motion_.all_following = surface_.lifts().empty();
     observe(from, at);
@@ -261,7 +266,16 @@ void RigidMotion::lie() {
     move_to(from);
     if (ends) return;
     end_lasting();
+    if (window) note_lift(*window);
     lift(s_ + stays);
+}
+
+// From the same state, at the same phase of the cam, the same motion follows.                               (S89b)
+void RigidMotion::note_lift(std::size_t window) {
+    last_lifts_.resize(surface_.lifts().size());
+    std::optional<Return>& last = last_lifts_[window];
+    if (last && !returned_) returned_ = Return{turn_ - last->turns, motion_.impacts - last->impacts};
+    last = Return{turn_, motion_.impacts};
 }
 
 // Flight begins on the surface and leaves it at least until the middle of the time in which the cam would pull.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sim/run/simulate.hpp"
 #include "sim/sweep/cam_surface.hpp"
@@ -20,8 +21,16 @@ class RigidMotion {
 
     // `start`: a state to begin with instead of the problem's.
     RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start);
-    // Once. Throws Interrupted.
-    SampledMotion follow(const Progress& progress);
+    // Once; `until_return`: no farther than to where the motion is known to repeat itself. Throws Interrupted.
+    SampledMotion follow(const Progress& progress, bool until_return = false);
+    // Lasting contact ended every difference of the state at least once.
+    bool rested() const { return rested_; }
+    // The turns and impacts between two lifts from lasting contact at the same phase, that is in the same state: the
+    // period from then on.
+    struct Return {
+        long turns = 0, impacts = 0;
+    };
+    const std::optional<Return>& returned() const { return returned_; }
 
   private:
     // The problem with the beam on the counter-clockwise side of the disc: itself, or mirrored in the X axis.
@@ -42,6 +51,7 @@ class RigidMotion {
     bool sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const;
     void rest_on(const SurfaceAngle& c);
     void lift(double until);
+    void note_lift(std::size_t window);
     void start_of_lift();
     void move_to(double s);
     template <class At>
@@ -66,7 +76,10 @@ class RigidMotion {
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     Swing swing_;
-    bool lying_ = false;      // in sustained contact
+    bool lying_ = false;  // in sustained contact
+    bool rested_ = false;
+    std::vector<std::optional<Return>> last_lifts_;  // by the windows of the surface: turn and impacts so far
+    std::optional<Return> returned_;
     bool lasting_ = false;    // since the last sample
     bool touched_ = false;    // the flight starts on the surface
     double clear_until_ = 0;  // after a lift nothing touches before this time

@@ -1,5 +1,7 @@
 #include "sim/sweep/sweep_point.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "sim/orbit/exponents.hpp"
@@ -9,6 +11,8 @@
 
 namespace beamcam::sim {
 namespace {
+
+constexpr long kLaterTurns = 1000;  // in which a chaotic motion may settle: milliseconds by closed forms
 
 // The motion goes on for as long as its samples were taken, with its largest exponent. The cam stands then where it
 // stood at the start: samples are taken over whole turns.
@@ -21,10 +25,76 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
-        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), found.grows_late()});
+        const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
+        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
     } catch (const SolverError&) {
         return point.attractor;  // its exponent stays unknown
     }
+}
+
+// The sampling of a motion that goes on for as long again, by closed forms for kLaterTurns at least.
+Sampling later(const Problem& problem, Sampling sampling) {
+    const SampleSpan span = sample_span(problem, sampling);
+    const long least = RigidMotion::applies(problem, sampling) ? kLaterTurns : 0;
+    sampling.keep = {static_cast<double>(span.kept()), {}};
+    sampling.transient = {static_cast<double>(std::max(span.from, least - span.kept())), {}};
+    return sampling;
+}
+
+// What a chaotic motion did later has no period.                                                           (S89a)
+bool stays_chaotic(const Problem& problem, SampledMotion motion) {
+    if (classify(problem, motion).kind == AttractorClass::chaotic) return true;
+    // The exponent of other turns may be less sure: what counts is that nothing returns.
+    for (Strobe& strobe : motion.strobes) strobe.growth = kNan;
+    return classify(problem, motion).kind == AttractorClass::aperiodic;
+}
+
+// Lasting contact ends at a few phases of the cam: a motion that comes to it twice repeats itself.           (S89b)
+Attractor returning(const RigidMotion::Return& period) {
+    Attractor out;
+    out.kind = AttractorClass::periodic;
+    out.period = static_cast<int>(period.turns);
+    out.impacts_per_period = static_cast<double>(period.impacts);
+    out.exponent = {-std::numeric_limits<double>::infinity(), 0, kNan};
+    return out;
+}
+
+SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& sampling, const InitialState* start,
+                                 const Progress& progress) {
+    SweepPoint point;
+    RigidMotion motion(problem, sampling, start);
+    point.motion = motion.follow(progress);
+    point.attractor = classify(problem, point.motion);
+    const bool chaotic = point.attractor.kind == AttractorClass::chaotic;
+    if (!chaotic && point.attractor.kind != AttractorClass::unsettled) return point;
+    if (!chaotic && !motion.rested()) return point;
+    std::optional<RigidMotion::Return> period = motion.returned();
+    if (!period) {
+        const Sampling as_long_again = later(problem, sampling);
+        RigidMotion rest(problem, as_long_again, &point.motion.end);
+        const SampledMotion after = rest.follow(progress, true);
+        period = rest.returned();
+        if (!period && chaotic && (rest.rested() || !stays_chaotic(problem, after)))
+            point.attractor.kind = AttractorClass::unsettled;
+    }
+    if (period) point.attractor = returning(*period);
+    return point;
+}
+
+SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const InitialState* start,
+                        const Progress& progress) {
+    SweepPoint point;
+    std::optional<InitialState> moved;
+    if (start) moved = carried(problem, *start);
+    point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
+    point.attractor = classify(problem, point.motion);
+    if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
+        point.attractor = by_tangents(problem, sampling, point, progress);
+    if (point.attractor.kind != AttractorClass::chaotic) return point;
+    const InitialState end = carried(problem, point.motion.end);
+    if (!stays_chaotic(problem, sample_by_run(problem, later(problem, sampling), &end, progress)))
+        point.attractor.kind = AttractorClass::unsettled;
+    return point;
 }
 
 }  // namespace
@@ -34,18 +104,10 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
     for (const Finding& finding : validate(problem))
         if (finding.fatal && !(start && finding.path.starts_with("initial")))
             throw std::invalid_argument(finding.path + ": " + finding.message);
-    SweepPoint point;
-    if (RigidMotion::applies(problem, sampling)) {
-        point.motion = RigidMotion(problem, sampling, start).follow(progress);
-    } else {
-        std::optional<InitialState> moved;
-        if (start) moved = carried(problem, *start);
-        point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
-    }
+    SweepPoint point = RigidMotion::applies(problem, sampling)
+                           ? point_by_closed_forms(problem, sampling, start, progress)
+                           : point_by_run(problem, sampling, start, progress);
     if (point.motion.over_the_top) point.motion.samples.clear();  // of no attractor
-    point.attractor = classify(problem, point.motion);
-    if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
-        point.attractor = by_tangents(problem, sampling, point, progress);
     return point;
 }
 

@@ -3,9 +3,11 @@
 #include <netcdf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
+#include "output/data/netcdf/chunk_file.hpp"
 #include "output/data/netcdf_library.hpp"
 #include "render/base/modules.hpp"
 
@@ -13,6 +15,8 @@ namespace beamcam::output {
 namespace {
 
 constexpr std::uint64_t kChunk = 1 << 17;  // numbers of one chunk, about: 1 MB
+constexpr std::uint64_t kUneven = 4;       // points of so many times the samples of the mean one are long
+constexpr std::uint64_t kUnevenShare = 8;  // of a chunk, where some are long
 constexpr int kDeflate = 1;                // more takes three times as long for a few per cent
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMissing = -1;  // class and count of a point that is not in this file
@@ -83,55 +87,66 @@ std::string from_udunits(const std::string& unit) {
     return unit;
 }
 
+// A sweep's variables: libnetcdf defines them, ChunkFile fills them.
 class Writer {
   public:
-    Writer(File& file, const SweepData& data)
-        : file_(file),
-          data_(data),
-          first_(data.axes[0].values.size()),
-          samples_(std::max<std::uint64_t>(1, data.most_rows())) {}
+    Writer(const std::filesystem::path& file, std::filesystem::path named, const SweepData& data)
+        : path_(file), data_(data), file_(File::create(file, std::move(named))) {
+        const std::uint64_t first = data.axes[0].values.size(), points = data.points();
+        const std::uint64_t most = std::max<std::uint64_t>(1, data.most_rows());
+        extent_ = {points / data.seeds / first, first, data.seeds, most};
+        // A chunk holds whole points, and of those whole rows of the grid, where they are small. Where few points have
+        // many more samples than the others, chunks are smaller and hold parts of the long points but more than the
+        // short ones have: what is empty costs little then.
+        std::uint64_t room = kChunk;
+        chunk_ = extent_;
+        const std::uint64_t usual = std::max<std::uint64_t>(1, kUneven * data.rows_in_all() / points);
+        if (most > usual) {
+            room /= kUnevenShare;
+            chunk_[3] = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(most) * static_cast<double>(usual)));
+        }
+        for (std::size_t d = 4; d-- > 0; room /= chunk_[d]) chunk_[d] = std::clamp<std::uint64_t>(room, 1, chunk_[d]);
+    }
 
     void write() {
         define();
-        need(nc_enddef(file_.id));
+        need(nc_enddef(file_->id));
         coordinates();
-        const std::uint64_t point = std::max<std::uint64_t>(1, kChunk / samples_);
-        const std::uint64_t seeds = std::min(data_.seeds, point), values = chunk_values();
-        for (std::uint64_t row = 0; row < data_.points() / data_.seeds / first_; ++row)
-            for (std::uint64_t value = 0; value < first_; value += values)
-                for (std::uint64_t seed = 0; seed < data_.seeds; seed += seeds)
-                    block(row, value, std::min(values, first_ - value), seed, std::min(seeds, data_.seeds - seed));
+        file_->close();
+        ChunkFile chunks(path_, file_->named);
+        open_variables(chunks);
+        for (std::uint64_t row = 0; row < extent_[0]; row += chunk_[0])
+            for (std::uint64_t value = 0; value < extent_[1]; value += chunk_[1])
+                for (std::uint64_t seed = 0; seed < extent_[2]; seed += chunk_[2]) block(chunks, {row, value, seed});
+        chunks.close();
     }
 
   private:
-    void need(int status) const { file_.need(status, "cannot be written"); }
-    // Values of the first axis in a chunk: all seeds of several of them, or some of one.
-    std::uint64_t chunk_values() const {
-        return std::clamp<std::uint64_t>(kChunk / (samples_ * data_.seeds), 1, first_);
-    }
+    void need(int status) const { file_->need(status, "cannot be written"); }
 
     int dimension(const std::string& name, std::uint64_t size) {
         int id = 0;
-        need(nc_def_dim(file_.id, name.c_str(), size, &id));
+        need(nc_def_dim(file_->id, name.c_str(), size, &id));
         return id;
     }
     int variable(const std::string& name, nc_type type, const std::vector<int>& dimensions, const std::string& unit,
                  const std::string& meaning) {
         int id = 0;
-        need(nc_def_var(file_.id, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &id));
-        if (!unit.empty()) file_.set(id, "units", udunits(unit));
-        if (!meaning.empty()) file_.set(id, "long_name", meaning);
+        need(nc_def_var(file_->id, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &id));
+        if (!unit.empty()) file_->set(id, "units", udunits(unit));
+        if (!meaning.empty()) file_->set(id, "long_name", meaning);
         return id;
     }
-    void compress(int id, bool with_samples) {
-        const std::uint64_t point = std::max<std::uint64_t>(1, kChunk / samples_);
-        std::vector<std::size_t> chunk;
-        if (data_.axes.size() > 1) chunk.push_back(1);
-        chunk.push_back(with_samples ? chunk_values() : first_);
-        chunk.push_back(std::min(data_.seeds, with_samples ? point : kChunk));
-        if (with_samples) chunk.push_back(samples_);
-        need(nc_def_var_chunking(file_.id, id, NC_CHUNKED, chunk.data()));
-        need(nc_def_var_deflate(file_.id, id, 1, 1, kDeflate));
+    // Without the dimension of the second axis where there is none.
+    template <class Numbers>
+    Numbers dimensions_of(Numbers numbers) const {
+        if (data_.axes.size() == 1) numbers.erase(numbers.begin());
+        return numbers;
+    }
+    void compress(int id, std::vector<std::size_t> chunk) {
+        chunk = dimensions_of(std::move(chunk));
+        need(nc_def_var_chunking(file_->id, id, NC_CHUNKED, chunk.data()));
+        need(nc_def_var_deflate(file_->id, id, 1, 1, kDeflate));
     }
 
     void define() {
@@ -145,91 +160,129 @@ class Writer {
         point.push_back(dimension("seed", data_.seeds));
         seed_ = variable("seed", NC_INT, {point.back()}, "1", "Number of the start");
         std::vector<int> all = point;
-        all.push_back(dimension("sample", samples_));
+        all.push_back(dimension("sample", extent_[3]));
         sample_ = variable("sample", NC_INT, {all.back()}, "1", "Number of the sample");
         define_points(point);
         for (const SweepColumn& column : data_.columns) {
-            columns_.push_back(variable(column.name, NC_DOUBLE, all, column.unit, column.meaning));
-            need(nc_def_var_fill(file_.id, columns_.back(), NC_FILL, &kNone));
-            compress(columns_.back(), true);
+            const int id = variable(column.name, NC_DOUBLE, all, column.unit, column.meaning);
+            need(nc_def_var_fill(file_->id, id, NC_FILL, &kNone));
+            compress(id, {chunk_.begin(), chunk_.end()});
         }
-        for (const auto& [name, value] : data_.attributes) file_.set(NC_GLOBAL, name.c_str(), value);
+        for (const auto& [name, value] : data_.attributes) file_->set(NC_GLOBAL, name.c_str(), value);
     }
     void define_points(const std::vector<int>& point) {
-        class_ = variable("class", NC_BYTE, point, "1", "What the motion settles to");
+        const int kind = variable("class", NC_BYTE, point, "1", "What the motion settles to");
         const signed char missing = kMissing;
-        need(nc_def_var_fill(file_.id, class_, NC_FILL, &missing));
+        need(nc_def_var_fill(file_->id, kind, NC_FILL, &missing));
         std::vector<signed char> values;
         std::string meanings;
         for (const std::string& name : data_.classes) {
             values.push_back(static_cast<signed char>(values.size()));
             meanings += (meanings.empty() ? "" : " ") + name;
         }
-        need(nc_put_att_schar(file_.id, class_, "flag_values", NC_BYTE, values.size(), values.data()));
-        file_.set(class_, "flag_meanings", meanings);
-        period_ = variable("period", NC_INT, point, "1", "Period in turns of the cam; 0: none");
-        count_ = variable("sample_count", NC_INT, point, "1", "Samples of the point; -1: not in this file");
-        for (const int id : {period_, count_}) need(nc_def_var_fill(file_.id, id, NC_FILL, &kMissing));
+        need(nc_put_att_schar(file_->id, kind, "flag_values", NC_BYTE, values.size(), values.data()));
+        file_->set(kind, "flag_meanings", meanings);
+        std::vector<int> all{
+            kind, variable("period", NC_INT, point, "1", "Period in turns of the cam; 0: none"),
+            variable("sample_count", NC_INT, point, "1", "Samples of the point; -1: not in this file")};
+        for (const int id : {all[1], all[2]}) need(nc_def_var_fill(file_->id, id, NC_FILL, &kMissing));
         for (std::size_t k = 0; k < std::size(kPointNumbers); ++k) {
-            numbers_.push_back(variable(kPointNumbers[k], NC_DOUBLE, point, kPointUnits[k], kPointMeanings[k]));
-            need(nc_def_var_fill(file_.id, numbers_.back(), NC_FILL, &kNone));
+            all.push_back(variable(kPointNumbers[k], NC_DOUBLE, point, kPointUnits[k], kPointMeanings[k]));
+            need(nc_def_var_fill(file_->id, all.back(), NC_FILL, &kNone));
         }
-        for (const int id : {class_, period_, count_}) compress(id, false);
-        for (const int id : numbers_) compress(id, false);
+        std::vector<std::size_t> chunk(3);
+        std::uint64_t room = kChunk;
+        for (std::size_t d = 3; d-- > 0; room /= chunk[d]) chunk[d] = std::clamp<std::uint64_t>(room, 1, extent_[d]);
+        for (const int id : all) compress(id, chunk);
     }
 
     void coordinates() {
         for (std::size_t a = 0; a < data_.axes.size(); ++a)
-            need(nc_put_var_double(file_.id, axes_[a], data_.axes[a].values.data()));
-        for (const auto& [id, size] : {std::pair{seed_, data_.seeds}, std::pair{sample_, samples_}}) {
+            need(nc_put_var_double(file_->id, axes_[a], data_.axes[a].values.data()));
+        for (const auto& [id, size] : {std::pair{seed_, extent_[2]}, std::pair{sample_, extent_[3]}}) {
             std::vector<int> numbers(size);
             for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<int>(i);
-            need(nc_put_var_int(file_.id, id, numbers.data()));
+            need(nc_put_var_int(file_->id, id, numbers.data()));
         }
     }
 
-    // A block of points, one chunk of each variable.
-    void block(std::uint64_t row, std::uint64_t value, std::uint64_t values, std::uint64_t seed, std::uint64_t seeds) {
-        const std::size_t points = values * seeds, width = columns_.size();
-        std::vector<std::vector<double>> samples(width, std::vector<double>(points * samples_, kNone));
-        std::vector<std::vector<double>> numbers(numbers_.size(), std::vector<double>(points, kNone));
-        std::vector<int> periods(points, kMissing), counts(points, kMissing);
-        std::vector<signed char> classes(points, kMissing);
+    void open_variables(ChunkFile& chunks) {
+        class_ = chunks.variable("class");
+        period_ = chunks.variable("period");
+        count_ = chunks.variable("sample_count");
+        for (const char* name : kPointNumbers) numbers_.push_back(chunks.variable(name));
+        for (const SweepColumn& column : data_.columns) columns_.push_back(chunks.variable(column.name));
+    }
+
+    // The points of one chunk, those that are not in this file empty.
+    void block(ChunkFile& chunks, const Extent& at) const {
+        Extent size(3);
+        for (std::size_t d = 0; d < 3; ++d) size[d] = std::min(chunk_[d], extent_[d] - at[d]);
+        std::vector<StoredPoint> points;
         bool any = false;
-        for (std::uint64_t i = 0; i < points; ++i) {
-            const std::uint64_t index = ((row * first_ + value + i / seeds) * data_.seeds) + seed + i % seeds;
-            if (!data_.has(index)) continue;
-            any = true;
-            const StoredPoint p = data_.read(index);
-            classes[i] = static_cast<signed char>(p.kind);
-            periods[i] = p.period;
-            counts[i] = static_cast<int>(p.samples.size() / width);
-            numbers[0][i] = p.impacts_per_period;
-            numbers[1][i] = p.exponent;
-            numbers[2][i] = p.exponent_error;
-            for (std::size_t k = 0; k < p.samples.size(); ++k)
-                samples[k % width][i * samples_ + k / width] = p.samples[k];
-        }
+        for (std::uint64_t i = 0; i < size[0]; ++i)
+            for (std::uint64_t j = 0; j < size[1]; ++j)
+                for (std::uint64_t k = 0; k < size[2]; ++k) {
+                    const std::uint64_t index = ((at[0] + i) * extent_[1] + at[1] + j) * extent_[2] + at[2] + k;
+                    const bool here = data_.has(index);
+                    points.push_back(here ? data_.read(index) : StoredPoint());
+                    if (!here) points.back().kind = kMissing;
+                    any = any || here;
+                }
         if (!any) return;
-        std::vector<std::size_t> start, count;
-        if (data_.axes.size() > 1) start.push_back(row), count.push_back(1);
-        start.insert(start.end(), {value, seed, 0});
-        count.insert(count.end(), {values, seeds, samples_});
-        const auto at = start.data(), size = count.data();
-        need(nc_put_vara_schar(file_.id, class_, at, size, classes.data()));
-        need(nc_put_vara_int(file_.id, period_, at, size, periods.data()));
-        need(nc_put_vara_int(file_.id, count_, at, size, counts.data()));
-        for (std::size_t k = 0; k < numbers_.size(); ++k)
-            need(nc_put_vara_double(file_.id, numbers_[k], at, size, numbers[k].data()));
-        for (std::size_t c = 0; c < width; ++c)
-            need(nc_put_vara_double(file_.id, columns_[c], at, size, samples[c].data()));
+        write_points(chunks, dimensions_of(at), dimensions_of(size), points);
+        write_samples(chunks, at, size, points);
     }
 
-    File& file_;
+    void write_points(ChunkFile& chunks, const Extent& at, const Extent& size,
+                      const std::vector<StoredPoint>& points) const {
+        std::vector<signed char> kinds;
+        std::vector<int> periods, counts;
+        std::vector<double> numbers[std::size(kPointNumbers)];
+        for (const StoredPoint& p : points) {
+            const bool here = p.kind != kMissing;
+            kinds.push_back(static_cast<signed char>(p.kind));
+            periods.push_back(here ? p.period : kMissing);
+            counts.push_back(here ? static_cast<int>(p.samples.size() / columns_.size()) : kMissing);
+            numbers[0].push_back(p.impacts_per_period);
+            numbers[1].push_back(p.exponent);
+            numbers[2].push_back(p.exponent_error);
+        }
+        chunks.write(class_, at, size, kinds.data());
+        chunks.write(period_, at, size, periods.data());
+        chunks.write(count_, at, size, counts.data());
+        for (std::size_t k = 0; k < numbers_.size(); ++k) chunks.write(numbers_[k], at, size, numbers[k].data());
+    }
+
+    void write_samples(ChunkFile& chunks, const Extent& at, const Extent& size,
+                       const std::vector<StoredPoint>& points) const {
+        const std::size_t width = columns_.size(), length = chunk_[3];
+        std::size_t most = 0;
+        for (const StoredPoint& p : points) most = std::max(most, p.samples.size() / width);
+        std::vector<double> numbers(chunk_[0] * chunk_[1] * chunk_[2] * length);
+        for (std::size_t first = 0; first < most; first += length)
+            for (std::size_t c = 0; c < width; ++c) {
+                std::ranges::fill(numbers, kNone);
+                for (std::size_t p = 0; p < points.size(); ++p) {
+                    const std::size_t k = p % size[2], j = p / size[2] % size[1], i = p / size[2] / size[1];
+                    double* out = &numbers[((i * chunk_[1] + j) * chunk_[2] + k) * length];
+                    const std::vector<double>& samples = points[p].samples;
+                    const std::size_t rows = samples.size() / width;
+                    for (std::size_t row = first; row < std::min(rows, first + length); ++row)
+                        *out++ = samples[row * width + c];
+                }
+                chunks.write_chunk(columns_[c], dimensions_of(Extent{at[0], at[1], at[2], first}), numbers);
+            }
+    }
+
+    const std::filesystem::path& path_;
     const SweepData& data_;
-    std::uint64_t first_, samples_;
-    std::vector<int> axes_, numbers_, columns_;
-    int seed_ = 0, sample_ = 0, class_ = 0, period_ = 0, count_ = 0;
+    std::shared_ptr<File> file_;
+    Extent extent_, chunk_;  // second axis, first axis, seeds, samples
+    std::vector<int> axes_;
+    int seed_ = 0, sample_ = 0;
+    std::vector<std::size_t> numbers_, columns_;  // of ChunkFile
+    std::size_t class_ = 0, period_ = 0, count_ = 0;
 };
 
 void write_columns(const File& file, const ColumnTable& table) {
@@ -353,9 +406,7 @@ class Library final : public NetcdfLibrary {
   public:
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
-        const std::shared_ptr<File> made = File::create(file, named);
-        Writer(*made, data).write();
-        made->close();
+        Writer(file, named, data).write();
     }
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const ColumnTable& table) const override {

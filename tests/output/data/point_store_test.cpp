@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
+#include "output/files/atomic_file.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -94,7 +96,45 @@ TEST(PointStore, DropsThePointsOfAnotherSweep) {
     const Scratch scratch;
     const std::filesystem::path file = scratch / "a.part";
     PointStore(file, 4, "one").add(point(1));
-    EXPECT_EQ(PointStore(file, 4, "other").count(), 0u);
+    EXPECT_FALSE(PointStore(file, 4, "one").dropped_others());
+    const PointStore other(file, 4, "other");
+    EXPECT_EQ(other.count(), 0u);
+    EXPECT_TRUE(other.dropped_others());
+}
+
+TEST(PointStore, LeavesAloneAFileThatIsNoStore) {
+    const Scratch scratch;
+    for (const std::string text : {"a download", "beamcam points of mine", "beamcam points 2\n"}) {
+        write_file(scratch / "a.part", text);
+        EXPECT_THROW(PointStore(scratch / "a.part", 4, "sweep"), IoError);
+        EXPECT_EQ(read_file(scratch / "a.part"), text);
+    }
+    // The program was killed while it wrote the head.
+    write_file(scratch / "a.part", "beamcam po");
+    EXPECT_EQ(PointStore(scratch / "a.part", 4, "sweep").count(), 0u);
+}
+
+TEST(PointStore, TakesPointsOfManyThreads) {
+    const Scratch scratch;
+    constexpr std::uint64_t kEach = 200;
+    PointStore store(scratch / "a.part", 4 * kEach, "sweep");
+    std::vector<std::thread> threads;
+    for (std::uint64_t thread = 0; thread < 4; ++thread)
+        threads.emplace_back([&store, thread] {
+            for (std::uint64_t k = 0; k < kEach; ++k) store.add(point(4 * k + thread));
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(store.count(), 4 * kEach);
+    for (std::uint64_t k = 0; k < 4 * kEach; ++k) expect_same(store.read(k), point(k));
+}
+
+TEST(PointStore, KeepsItsPointsWhenItsNameIsGone) {
+    const Scratch scratch;
+    PointStore store(scratch / "a.part", 4, "sweep");
+    store.remove();
+    store.add(point(3));
+    expect_same(store.read(3), point(3));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a.part"));
 }
 
 TEST(PointStore, IsOfOneProgramAtATime) {

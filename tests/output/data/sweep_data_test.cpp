@@ -2,6 +2,9 @@
 #include "output/data/sweep_data.hpp"
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <sstream>
 
 #include "output/data/netcdf_library.hpp"
@@ -90,17 +93,100 @@ TEST(SweepData, RefusesAFileThatIsNoSweep) {
     EXPECT_THROW(netcdf_library().open(scratch / "none.nc"), IoError);
 }
 
+// The samples of a point with `rows` rows, its columns numbers that compress badly.
+StoredPoint noisy(std::uint64_t k, std::uint64_t rows, std::size_t width) {
+    StoredPoint p;
+    p.point = k;
+    p.kind = 1;
+    for (std::uint64_t i = 0; i < rows * width; ++i)
+        p.samples.push_back(std::sin(static_cast<double>(k * 7919 + i * i)));
+    return p;
+}
+
+SweepData wide(std::uint64_t rows, std::uint64_t values, std::uint64_t seeds,
+               const std::function<std::uint64_t(std::uint64_t)>& samples) {
+    SweepData data = grid();
+    data.axes = {{"cam.speed", "rad/s", std::vector<double>(values)}, {"gravity", "m/s^2", std::vector<double>(rows)}};
+    for (SweepAxis& axis : data.axes)
+        for (std::size_t i = 0; i < axis.values.size(); ++i) axis.values[i] = static_cast<double>(i);
+    if (rows == 1) data.axes.pop_back();
+    data.seeds = seeds;
+    data.has = [](std::uint64_t) { return true; };
+    data.rows = samples;
+    data.read = [samples](std::uint64_t k) { return noisy(k, samples(k), 2); };
+    return data;
+}
+
+TEST(SweepData, ReadsBackFromNetcdfOverTheEdgesOfItsChunks) {
+    const Scratch scratch;
+    const auto read_back = [&](const SweepData& data) {
+        write_sweep(scratch / "a.nc", data);
+        const SweepData back = netcdf_library().open(scratch / "a.nc");
+        ASSERT_EQ(back.points(), data.points());
+        for (std::uint64_t k = 0; k < data.points(); k += 1 + data.points() / 997)
+            ASSERT_EQ(back.read(k).samples, data.read(k).samples) << k;
+    };
+    read_back(wide(3, 700, 2, [](std::uint64_t k) { return 60 + k % 41; }));  // several chunks in each row
+    read_back(wide(301, 7, 3, [](std::uint64_t k) { return 50 - k % 3; }));   // several rows in each chunk
+    read_back(wide(1, 3, 150'000, [](std::uint64_t k) { return k % 2; }));    // seeds beyond a chunk
+    read_back(wide(1, 2, 2, [](std::uint64_t k) { return 200'000 * k; }));    // a point beyond a chunk
+}
+
+TEST(SweepData, TakesNoRoomForSamplesThatFewPointsHave) {
+    const Scratch scratch;
+    // One point of 20 000 has 20 000 samples: the grid would hold 6 GB of empty numbers.
+    const SweepData data = wide(1, 20'000, 1, [](std::uint64_t k) { return k == 777 ? 20'000 : 1; });
+    write_sweep(scratch / "a.nc", data);
+    EXPECT_LT(std::filesystem::file_size(scratch / "a.nc"), 3'000'000u);
+    EXPECT_EQ(netcdf_library().open(scratch / "a.nc").read(777).samples, data.read(777).samples);
+    EXPECT_EQ(netcdf_library().open(scratch / "a.nc").read(778).samples, data.read(778).samples);
+}
+
+// Whether a reader in Python, which is not beamcam's, finds everything as it should.
+void expect_reads(const Scratch& scratch, const char* module, const std::string& script) {
+    write_sweep(scratch / "a.nc", grid(7));
+    const std::string python = "/usr/bin/python3 -c '";
+    if (std::system((python + "import " + module + "' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no " << module;
+    const std::string file = "f = \"" + (scratch / "a.nc").string() + "\"; ";
+    EXPECT_EQ(std::system((python + file + script + "'").c_str()), 0);
+}
+
 TEST(SweepData, IsReadByNetcdf4Python) {
     const Scratch scratch;
+    expect_reads(scratch, "netCDF4",
+                 "import netCDF4 as n; d = n.Dataset(f); v = d.variables; assert v[\"theta\"].dimensions == "
+                 "(\"gravity\", \"cam.speed\", \"seed\", \"sample\"); assert v[\"theta\"].units == \"rad\"; assert "
+                 "v[\"theta\"][0, 2, 1, 1] == 5.3; assert v[\"class\"].flag_meanings == \"rest periodic\"; assert "
+                 "v[\"sample_count\"][1, 0, 1] is n.numpy.ma.masked; assert d.source == \"beamcam\"; assert "
+                 "v[\"theta\"].filters()[\"zlib\"] and v[\"theta\"].filters()[\"shuffle\"]");
+}
+
+TEST(SweepData, IsReadByH5py) {
+    const Scratch scratch;
+    expect_reads(scratch, "h5py",
+                 "import h5py, numpy; d = h5py.File(f); t = d[\"theta\"]; assert t.shape == (2, 3, 2, 2); assert "
+                 "t[0, 2, 1, 1] == 5.3; assert numpy.isnan(t[1, 0, 1, 0]); assert [t.dims[i][0].name for i in "
+                 "range(4)] == [\"/gravity\", \"/cam.speed\", \"/seed\", \"/sample\"]; assert t.attrs[\"units\"] == "
+                 "b\"rad\"; assert list(d[\"cam.speed\"]) == [1, 2, 3]; assert d[\"sample_count\"][1, 0, 1] == -1; "
+                 "assert t.compression == \"gzip\" and t.shuffle");
+}
+
+TEST(SweepData, IsReadByXarray) {
+    const Scratch scratch;
+    expect_reads(scratch, "xarray",
+                 "import xarray, numpy; r = xarray.open_dataset(f); assert r.theta.sel({\"cam.speed\": 3, "
+                 "\"gravity\": 9, \"seed\": 1, \"sample\": 1}) == 5.3; assert r.theta.units == \"rad\"; assert "
+                 "numpy.isnan(r.sample_count.values[1, 0, 1]); assert r.source == \"beamcam\"");
+}
+
+TEST(SweepData, IsReadByOctave) {
+    const Scratch scratch;
     write_sweep(scratch / "a.nc", grid(7));
-    if (std::system("/usr/bin/python3 -c 'import netCDF4' 2>/dev/null") != 0) GTEST_SKIP() << "no python3-netcdf4";
-    const std::string script =
-        "import netCDF4 as n; d = n.Dataset(\"" + (scratch / "a.nc").string() +
-        "\"); v = d.variables; assert v[\"theta\"].dimensions == (\"gravity\", \"cam.speed\", "
-        "\"seed\", \"sample\"); assert v[\"theta\"].units == \"rad\"; assert v[\"theta\"][0, 2, 1, "
-        "1] == 5.3; assert v[\"class\"].flag_meanings == \"rest periodic\"; assert "
-        "v[\"sample_count\"][1, 0, 1] is n.numpy.ma.masked; assert d.source == \"beamcam\"";
-    EXPECT_EQ(std::system(("/usr/bin/python3 -c '" + script + "'").c_str()), 0);
+    if (std::system("octave --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no Octave";
+    const std::string script = "d = load(\"" + (scratch / "a.nc").string() +
+                               "\"); assert(size(d.theta), [2 2 3 2]); assert(d.theta(2, 2, 3, 1), 5.3); "
+                               "assert(isnan(d.theta(1, 2, 1, 2))); assert(d.sample_count(2, 1, 2) == -1);";
+    EXPECT_EQ(std::system(("octave --no-gui --no-init-file --quiet --eval '" + script + "'").c_str()), 0);
 }
 
 }  // namespace

@@ -12,9 +12,11 @@
 namespace beamcam::scenes {
 namespace {
 
+using ::testing::AllOf;
 using testing::Finished;
 using testing::Folder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::shell;
 using testing::slurp;
 
@@ -113,25 +115,63 @@ TEST(SweepParts, EndWithTheSameBytesAfterTheyWereKilled) {
                 HasSubstr("made from the same inputs"));
 }
 
-TEST(SweepParts, AreMadeByTheEngines) {
+// A sweep whose command needs every kind of quoting: spaces, braces, quotation marks, and a name of a scene with one.
+constexpr const char* kQuoted =
+    "'a scene.json' --set 'contact={\"model\": \"restitution\", \"restitution\": 0.6}' --over cam.speed=40:44:9n";
+
+std::string made_by(const char* engine) {
+    return "mkdir bin; ln -s \"$BEAMCAM\" bin/beamcam; PATH=\"$PWD/bin:$PATH\"; $BEAMCAM sweep " +
+           std::string(kQuoted) + " -q -o whole.nc && $BEAMCAM sweep " + kQuoted + " -o r.nc --parts 3 --emit " +
+           engine;
+}
+
+TEST(SweepParts, AreAnArrayOfSlurm) {  // tests/campaign/slurm.py runs one
     const Folder folder;
-    folder.write("s.json", kPartedScene);
-    const std::string emit =
-        "$BEAMCAM sweep s.json --set 'contact.restitution=0.6' --over cam.speed=40:44:9n -o 'r.nc' "
-        "--parts 3 --emit ";
-    const std::string slurm = shell(folder, emit + "slurm").out;
-    EXPECT_THAT(slurm, HasSubstr("#SBATCH --array=1-3\n"));
-    EXPECT_THAT(slurm, HasSubstr("--shard auto"));
-    EXPECT_THAT(shell(folder, emit + "snakemake").out, HasSubstr("range(1, 4)"));
-    ASSERT_EQ(shell(folder,
-                    "mkdir bin && ln -s \"$BEAMCAM\" bin/beamcam && " + emit +
-                        "parallel > run.sh && "
-                        "$BEAMCAM sweep s.json -q --set contact.restitution=0.6 --over cam.speed=40:44:9n -o whole.nc")
-                  .code,
-              0);
-    if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
-    const Finished done = shell(folder, "PATH=\"$PWD/bin:$PATH\" sh run.sh");
+    folder.write("a scene.json", kPartedScene);
+    const std::string script = shell(folder, made_by("slurm")).out;
+    EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-3\n"));
+    EXPECT_THAT(script, HasSubstr("--shard auto"));
+    // The tasks of the array, one after the other.
+    const Finished done = shell(folder, made_by("slurm") +
+                                            " > run.sh; for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i "
+                                            "SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_COUNT=3 sh run.sh || exit; done; "
+                                            "$BEAMCAM collect r.*of3.nc -o r.nc");
     ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+}
+
+TEST(SweepParts, AreMadeByGnuParallel) {
+    if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
+    const Folder folder;
+    folder.write("a scene.json", kPartedScene);
+    const Finished done = shell(folder, made_by("parallel") + " > run.sh && sh run.sh");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    // Another sweep of the same name: its parts are made again.
+    folder.write("a scene.json", std::string(kPartedScene) + "\n// changed\n");
+    const Finished again = shell(folder,
+                                 "PATH=\"$PWD/bin:$PATH\"; sed 's/40:44/41:45/' run.sh > again.sh && sh again.sh && "
+                                 "beamcam sweep 'a scene.json' -q -o other.nc --over cam.speed=41:45:9n --set "
+                                 "'contact={\"model\": \"restitution\", \"restitution\": 0.6}'");
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "other.nc"));
+    EXPECT_NE(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+}
+
+TEST(SweepParts, AreMadeBySnakemake) {
+    SKIP_UNDER_SANITIZERS();
+    if (std::system("snakemake --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no Snakemake";
+    const Folder folder;
+    folder.write("a scene.json", kPartedScene);
+    const std::string snakemake = "HOME=\"$PWD\" snakemake --cores 2 --quiet";
+    const Finished done = shell(folder, made_by("snakemake") + " > Snakefile && " + snakemake);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    // A part that is lost is made again, and nothing else.
+    const Finished again = shell(folder, "PATH=\"$PWD/bin:$PATH\"; rm r.2of3.nc r.nc && touch mark && " + snakemake +
+                                             " && find . -name 'r.*' -newer mark");
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, AllOf(HasSubstr("r.2of3.nc"), HasSubstr("r.nc"), Not(HasSubstr("r.1of3.nc"))));
     EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
 }
 

@@ -90,6 +90,38 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     EXPECT_EQ(slurp(folder / "mine.csv"), "1,2");
 }
 
+TEST(SweepCommand, SaysThatItDropsThePointsOfAnotherSweep) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    const std::string begun =
+        "$BEAMCAM sweep s.json -q --transient 20000 -o a.csv & pid=$!; while [ ! -s a.csv.part ] || "
+        "[ $(stat -c %s a.csv.part) -lt 2000 ]; do :; done; kill -9 $pid; wait $pid; ";
+    const Finished done = shell(folder, begun + "$BEAMCAM sweep s.json -o a.csv");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("dropped the points in a.csv.part"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o b.csv").err, Not(HasSubstr("dropped")));
+}
+
+TEST(SweepCommand, LeavesAloneAFileWhereItWouldKeepPoints) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    folder.write("a.csv.part", "mine");
+    const Finished done = shell(folder, "$BEAMCAM sweep s.json -o a.csv");
+    EXPECT_EQ(done.code, 6);
+    EXPECT_THAT(done.err, HasSubstr("a.csv.part: points would be kept here, but this file is not beamcam's"));
+    EXPECT_EQ(slurp(folder / "a.csv.part"), "mine");
+}
+
+TEST(SweepCommand, LeavesNothingBehindWhenItsTableOnStandardOutputIsKilled) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    shell(folder,
+          "mkdir tmp; TMPDIR=$PWD/tmp $BEAMCAM sweep s.json -q --transient 200000 > out.csv & pid=$!; sleep 0.3; kill "
+          "-9 $pid; wait $pid");
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+}
+
 TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
     Folder folder;
     folder.write("s.json", kSweptScene);
@@ -140,6 +172,11 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     EXPECT_THAT(first_column("cam.speed=40:44:3"), ElementsAre("40", "42", "44"));
     EXPECT_THAT(first_column("cam.speed=40:44:2.0"), ElementsAre("40", "42", "44"));
     EXPECT_THAT(first_column("cam.speed=40:44:1"), ElementsAre("40", "41", "42", "43", "44"));
+    EXPECT_THAT(first_column("cam.speed=40:42:1e0"), ElementsAre("40", "41", "42"));
+    EXPECT_THAT(first_column("cam.speed=44:40:-2"), ElementsAre("44", "42", "40"));
+    EXPECT_THAT(first_column("cam.speed=44:40:2"), ElementsAre("44", "40"));
+    EXPECT_THAT(first_column("cam.speed=40:40:1n"), ElementsAre("40"));
+    EXPECT_THAT(first_column("cam.speed=40 rad/s:42 rad/s:2 rad/s"), ElementsAre("40", "42"));
     EXPECT_THAT(first_column("cam.speed=25:100:3n:log"), ElementsAre("25", "50", "100"));
     EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
     EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
@@ -153,6 +190,14 @@ TEST(SweepCommand, RefusesInWords) {
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
           {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
           {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
+          {"--over cam.speed=40:44:1n", 2, "one value, but two ends"},
+          {"--over cam.speed=40:44:1:log", 2, "one value, but two ends"},
+          {"--over cam.speed=40:44:0", 2, "0 is no step"},
+          {"--over cam.speed=44:40:1", 2, "1 is no step"},
+          {"--over cam.speed=40:44:0n", 2, "0 is no number of values"},
+          {"--over cam.speed=40:44:-3n", 2, "is no number of values"},
+          {"--over cam.speed=0:44:3:log", 2, "log"},
+          {"--over cam.speed=40:44:3s", 2, "3s"},
           {"--seed up", 2, "carry-up"},
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},

@@ -49,6 +49,29 @@ TEST(Attractor, IsNotChaoticWhileTheExponentMayBeAnError) {
     EXPECT_NE(kind(motion), AttractorClass::chaotic);
 }
 
+TEST(Attractor, IsATorusWhereNothingIsLostAndDifferencesGrowLikeTheTime) {
+    SampledMotion motion = circle(5.3137, 0);
+    for (std::size_t k = 0; k < motion.strobes.size(); ++k)
+        motion.strobes[k].growth = std::log((20.0 + static_cast<double>(k)) / (19.0 + static_cast<double>(k)));
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 1;
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::quasi_periodic);
+    p.contact.friction = CoulombFriction{};
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
+    p.contact.friction = NoFriction{};
+    p.contact.restitution = 0.99;
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
+    p.contact.model = ContactModel::compliant;
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
+    p.contact.damping = DampingLaw::none;
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::quasi_periodic);
+    // Growth that goes on at a rate that is small but sure is not that of a torus, and not enough for chaos.
+    for (Strobe& strobe : motion.strobes) strobe.growth = 0.06;
+    EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
+}
+
 TEST(Attractor, IsUnsettledWhenAPeriodBeginsWithinTheSamples) {
     SampledMotion motion = circle(5.3137, 0.4);
     for (std::size_t k = 30; k < motion.strobes.size(); ++k) motion.strobes[k] = motion.strobes[30];
