@@ -8,7 +8,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;
-constexpr int kMostMapSteps = 3'000'000;  // of one section map: more is stiff contact, which this method is not for
+constexpr int kMostMapSteps = 3'000'000;  // of one section map: no orbit that is worth it needs more
 
 }  // namespace
 
@@ -24,7 +24,7 @@ double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd
 }
 
 Problem for_orbits(Problem problem) {
-    problem.solver.method = Method::rk8;
+    problem.solver.method = Method::automatic;
     problem.solver.rtol = std::min(problem.solver.rtol, kTightRtol);
     problem.solver.atol = std::min(problem.solver.atol, kTightAtol);
     problem.solver.max_steps = std::min(problem.solver.max_steps, kMostMapSteps);
