@@ -51,6 +51,7 @@ void Saltation::pass(double t, const double* before, const Phase& was, const dou
         release(tangents);
     else if (was.grip != is.grip)
         change_grip(at, tangents);
+    if (!is.touching && (jumps || was.touching)) left_ = t;
 }
 
 void Saltation::start_on_cam(double t, const double* y, const Phase& is, Eigen::MatrixXd& tangents) {
@@ -67,8 +68,10 @@ std::vector<double> Saltation::flow_after(const Instant& at) {
 }
 
 // Of the contact near_, whose geometry `jets_` holds.
-void Saltation::note_touch(double t) {
-    if (-near_.gap_rate > kRestSpeed) touches_.push_back({t, -near_.gap_rate, jets_.foot(near_), near_.at_end});
+void Saltation::note_touch(const Instant& at) {
+    if (-near_.gap_rate > kRestSpeed)
+        touches_.push_back(
+            {at.t, -near_.gap_rate, at.t - left_, near_.x, jets_.foot(near_) - probe_.problem().beam.length});
 }
 
 // The state before an event as jets: tangents from column `first` on, and in the last direction the motion itself.
@@ -99,7 +102,7 @@ void Saltation::strike(const Instant& at, Eigen::MatrixXd& tangents) {
         JetState s = jets_before(at, tangents, first);
         const double pre_set = probe_.problem().contact.restitution;
         const Jet gap = jets_.gap(s, near_).gap;
-        if (first == 0) note_touch(at.t);
+        if (first == 0) note_touch(at);
         jets_.strike(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
@@ -148,7 +151,7 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
         const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
                            std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
         const ModalJets::Gap gap = jets_.gap(s, near_);
-        if (first == 0) note_touch(at.t);
+        if (first == 0) note_touch(at);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             tangents(2 * n_, first + k) = 0;  // the bristle is relaxed
             double& row = tangents(rows_ - 1, first + k);

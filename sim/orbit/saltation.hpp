@@ -12,8 +12,9 @@ namespace beamcam::sim {
 struct TangentTouch {
     double t = 0;         // [s]
     double approach = 0;  // −ġ before it [m/s]
-    double place = 0;     // of the foot along the beam; at an end, where the straight continuation has it [m]
-    bool at_end = false;  // of the beam
+    double flight = 0;    // since the beam left the cam, or since the start [s]
+    double x = 0;         // of the foot along the beam [m]
+    double overhang = 0;  // of the foot over the tip: negative between root and tip [m]
 };
 
 // Rows of tangents beside the coordinates and their rates: z and δ̇₋.
@@ -47,7 +48,7 @@ class Saltation {
     void keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents);
     JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
     std::vector<double> flow_after(const Instant& at);
-    void note_touch(double t);
+    void note_touch(const Instant& at);
 
     System probe_;  // evaluates at events, so that the motion does not depend on it
     ModalJets& jets_;
@@ -55,6 +56,7 @@ class Saltation {
     int n_, rows_;
     ContactState near_;  // at the last event
     std::vector<TangentTouch> touches_;
+    double left_ = 0;  // when the beam left the cam last [s]
     long holds_ = 0, lifts_ = 0;
 };
 

@@ -73,10 +73,11 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     orbit.cam_phase = cam_phase_;
     orbit.turns = turns_;
     orbit.period = period_;
-    orbit.chatters = value.map.holds > 0;
+    orbit.holds = value.map.holds;
+    orbit.lifts = value.map.lifts;
     orbit.residual = (value.image - y).norm();
     for (const TangentTouch& touch : value.map.touches)
-        orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach});
+        orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
     Eigen::MatrixXd derivative = value.derivative;
     if (like_.phase.held)  // neighbours on the cam only: leaving it is no freedom of the motion
         derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;
