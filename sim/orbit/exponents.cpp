@@ -173,12 +173,15 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
     e.slowest_impact = slowest;
     const double typical = std::sqrt(squares / static_cast<double>(e.impacts));
     for (const TangentTouch& touch : touches)
-        if (touch.t > e.transient && touch.approach < kGrazing * typical) ++e.near_grazing;
+        if (touch.t > e.transient && touch.approach < kGrazing * typical) {
+            ++e.near_grazing;
+            e.doubt += std::log(typical / touch.approach) / e.duration;
+        }
     if (e.near_grazing > 0)
         e.warnings.push_back(fmt::format(
             "{} of {} impacts are near grazing (slower than {:g} of the typical approach speed): the linearized impact "
-            "holds for small differences only, and the exponents are doubtful",
-            e.near_grazing, e.impacts, kGrazing));
+            "holds for small differences only, and the largest exponent may be too large by {:.3g} 1/s",
+            e.near_grazing, e.impacts, kGrazing, e.doubt));
 }
 
 }  // namespace

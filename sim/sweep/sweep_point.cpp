@@ -21,7 +21,10 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
-        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), found.grows_late()});
+        Attractor judged =
+            with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), found.grows_late()});
+        if (found.chaos() == Chaos::doubtful) judged.kind = AttractorClass::aperiodic;
+        return judged;
     } catch (const SolverError&) {
         return point.attractor;  // its exponent stays unknown
     }

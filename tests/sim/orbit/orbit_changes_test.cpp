@@ -1,5 +1,6 @@
 // Where orbits change their pattern of contact, against closed forms: grazing, contact at the tip, release.
 #include "sim/orbit/continuation.hpp"
+#include "sim/orbit/flow_map.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
 #include "tests/sim/support.hpp"
 
@@ -161,6 +162,77 @@ TEST(OrbitChanges, RestOnTheCamEndsWhereTheBouncesNoLongerDieOutInTime) {
     ASSERT_EQ(released.size(), 1u);
     // Where the pull vanishes with the bounces, it is not steady enough to sum them up: the last ones are left out.
     EXPECT_NEAR(released.front()->at.parameter, expected, 5e-5 * expected);
+}
+
+// A bending mode that keeps in step with the bounces of a beam with a heavy hub takes energy from them and gives it
+// back: the softer beam's orbit of one impact sheds a torus.
+struct BendingBeam {
+    PressedBeam pressed{0.001, 0.8, 15, 0.12, 0.05};
+    Problem operator()(double softness) const {
+        constexpr double kSpeed = 36, kHub = 3;  // I_h in inertias of the beam
+        Problem p = pressed.on_orbit(kSpeed);
+        const double inertia = p.beam.line_density() * std::pow(p.beam.length, 3) / 3;
+        p.beam.model = ModelKind::first_order;
+        p.beam.modes = 1;
+        p.beam.youngs_modulus *= softness;
+        p.hub.inertia = kHub * inertia;
+        p.hub.drive = ConstantTorque{-pressed.alpha * (1 + kHub) * inertia};
+        return p;
+    }
+};
+
+// How the logarithm of a small disturbance of the orbit grows a turn, between two times some turns apart: of the motion
+// itself, without any tangent.
+double growth(const Problem& problem, const PeriodicOrbit& orbit) {
+    Problem p = problem;
+    p.cam->phase = orbit.section;
+    p.solver.rtol = 1e-11;
+    p.solver.atol = 1e-13;
+    constexpr int kFirst = 200, kTurns = 800, kWindow = 30;  // a window shows the pair all around
+    InitialState state = orbit.start;
+    state.y[0] += 1e-5;
+    double early = 0, late = 0;
+    for (int turn = 0; turn < kTurns + kWindow; ++turn) {
+        state = motion_end(p, state, orbit.period);
+        std::fill(state.y.begin() + 4, state.y.end(), 0.0);  // the ledger
+        const double off = std::hypot(state.y[0] - orbit.start.y[0], (state.y[2] - orbit.start.y[2]) * orbit.period);
+        if (turn >= kFirst && turn < kFirst + kWindow) early = std::max(early, off);
+        if (turn >= kTurns) late = std::max(late, off);
+    }
+    return std::log(late / early) / (kTurns - kFirst);
+}
+
+// There are two orbits of one impact; one is a saddle.
+std::optional<PeriodicOrbit> no_saddle(const Problem& problem) {
+    OrbitRequest search;
+    search.transient = 0;
+    search.impacts = 1;
+    for (const PeriodicOrbit& orbit : find_orbits(problem, search))
+        if (orbit.multipliers.front().imag() != 0) return orbit;
+    return std::nullopt;
+}
+
+TEST(OrbitChanges, ANeimarkSackerPointPartsConvergingFromDivergingMotions) {
+    const BendingBeam family;
+    const auto start = no_saddle(family(0.32));
+    ASSERT_TRUE(start.has_value());
+    const auto branches = continue_orbit(family, {0.32, *start}, {0.31, 0.346, 0.05, 300, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const auto found = all_of(branches.front(), OrbitChange::neimark_sacker);
+    ASSERT_EQ(found.size(), 1u);
+    const PeriodicOrbit& orbit = found.front()->at.orbit;
+    EXPECT_NEAR(std::abs(orbit.multipliers[0]), 1, 1e-8);
+    EXPECT_NEAR(std::abs(orbit.multipliers[0] - std::conj(orbit.multipliers[1])), 0, 1e-12);
+    EXPECT_GT(std::fabs(orbit.multipliers[0].imag()), 0.1);
+    EXPECT_LT(std::abs(orbit.multipliers[2]), 0.9);
+    for (const double side : {0.997, 1.003}) {
+        const Problem p = family(side * found.front()->at.parameter);
+        const auto near = no_saddle(p);
+        ASSERT_TRUE(near.has_value());
+        EXPECT_EQ(near->stable(), side > 1);
+        const double expected = std::log(std::abs(near->multipliers.front()));
+        EXPECT_NEAR(growth(p, *near), expected, 0.05 * std::fabs(expected)) << side;
+    }
 }
 
 }  // namespace
