@@ -31,11 +31,11 @@ OrbitJson state_json(const sim::PeriodicOrbit& orbit) {
 OrbitJson orbit_json(const sim::PeriodicOrbit& orbit) {
     OrbitJson touches = OrbitJson::array(), multipliers = OrbitJson::array();
     for (const sim::OrbitImpact& impact : orbit.impacts)
-        touches.push_back({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}});
+        touches.push_back({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}, {"x", impact.x}});
     for (const std::complex<double>& m : orbit.multipliers) multipliers.push_back({m.real(), m.imag()});
     return {{"period", orbit.turns},           {"duration", orbit.period},
             {"impacts", orbit.impacts.size()}, {"stable", orbit.stable()},
-            {"chatters", orbit.chatters},      {"always_touching", orbit.always_touching()},
+            {"chatters", orbit.chatters()},    {"always_touching", orbit.always_touching()},
             {"residual", orbit.residual},      {"multipliers", std::move(multipliers)},
             {"state", state_json(orbit)},      {"touches", std::move(touches)}};
 }
@@ -70,6 +70,7 @@ void add_rows(ColumnTable& table, double branch, double index, double value, con
                                    impact ? static_cast<double>(i + 1) : kUndefined,
                                    impact ? orbit.impacts[i].cam_angle : kUndefined,
                                    impact ? orbit.impacts[i].approach : kUndefined,
+                                   impact ? orbit.impacts[i].x : kUndefined,
                                    orbit.cam_phase,
                                    at.angle,
                                    at.angular_velocity};
@@ -125,6 +126,7 @@ std::string orbits_json(const BranchTable& table) {
                        {"duration", "s"},
                        {"cam_angle", "rad"},
                        {"approach", "m/s"},
+                       {"x", "m"},
                        {"theta", "rad"},
                        {"theta_dot", "rad/s"}};
     return records_text({{"units", std::move(units)},
@@ -148,6 +150,7 @@ ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std
                      {"impact", "1", "Number of the impact"},
                      {"cam_angle", "rad", "Angle of the cam at the impact, counted from the section"},
                      {"approach", "m/s", "Approach speed of the impact"},
+                     {"x", "m", "Place of the impact along the beam"},
                      {"cam_phase", "1", "Of the section: turns of the cam after the scene's start"},
                      {"theta", "rad", "Angle of the hub at the section"},
                      {"theta_dot", "rad/s", "Its rate"}};

@@ -92,7 +92,7 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     std::string text = fmt::format(
         "period {} {} of the cam, {} {}: {}{}\n", orbit.turns, orbit.turns == 1 ? "turn" : "turns",
         orbit.impacts.size(), orbit.impacts.size() == 1 ? "impact" : "impacts", orbit.stable() ? "stable" : "unstable",
-        orbit.chatters            ? ", rests on the cam for a while"
+        orbit.chatters()            ? ", rests on the cam for a while"
         : orbit.always_touching() ? ", always touching"
                                   : "");
     text += fmt::format("  period {:.12g} s, section at cam angle {:.9g} rad, residual {:.1e}\n", orbit.period,
@@ -179,7 +179,7 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scen
 // The first that can be continued.
 const sim::PeriodicOrbit* first_smooth(const std::vector<sim::PeriodicOrbit>& orbits) {
     for (const sim::PeriodicOrbit& orbit : orbits)
-        if (!orbit.chatters) return &orbit;
+        if (!orbit.chatters()) return &orbit;
     return nullptr;
 }
 

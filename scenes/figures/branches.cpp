@@ -43,6 +43,8 @@ const char* letters(sim::OrbitChange change) {
             return "BP";
         case sim::OrbitChange::grazing:
             return "G";
+        case sim::OrbitChange::corner:
+            return "C";
         case sim::OrbitChange::release:
             return "R";
     }
@@ -107,16 +109,17 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     figure.name = "branches";
     figure.title = en ? "Branches of periodic orbits" : "周期轨道分支";
     figure.panels.push_back(std::move(panel));
-    figure.caption = filled(
-        en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
-             "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, R release. {}. {}{}"
-           : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-             "Neimark–Sacker，BP 分支点，G 擦边，R 脱离。{}。{}{}",
-        symbol_of(table.key), special,
-        swept.parameter.empty() ? ""
-        : en                    ? "Dots: impacts of a sweep. "
-                                : "点：扫描所得碰撞。",
-        facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+    figure.caption =
+        filled(en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
+                    "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
+                    "contact passes the tip), R release. {}. {}{}"
+                  : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
+                    "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
+               symbol_of(table.key), special,
+               swept.parameter.empty() ? ""
+               : en                    ? "Dots: impacts of a sweep. "
+                                       : "点：扫描所得碰撞。",
+               facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
     figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
                          : "截面映射上的 Newton 法，相对容差 10^{−12}。";
     return figure;

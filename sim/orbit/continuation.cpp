@@ -6,111 +6,24 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "sim/base/numerics.hpp"
-#include "sim/orbit/section_map.hpp"
+#include "sim/orbit/branch_arc.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMostArcNewton = 8;
-// Residual of the corrector, in sizes of the orbit: converged; still taken where rounding allows no better.
-constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
-constexpr double kArcDifference =
-    1e-6;                              // of the range: the derivative by the parameter, which only steers the corrector
 constexpr double kSmallestArc = 1e-9;  // of the range: what stops the branch is located so far
 constexpr double kArcShrink = 0.3, kArcGrowth = 1.4,
                  kLeastCosine = 0.98;     // of a step; cosine between neighbouring tangents
 constexpr double kRealMultiplier = 1e-9;  // of the imaginary part: rounding
-constexpr double kOnCircle = 1e-7;        // of |μ| − 1: rounding, as of pairs that never leave the circle
+constexpr double kOnCircle = 1e-7;        // of |μ|² − 1: rounding, as of pairs that never leave the circle
 constexpr double kFirstArc = 0.1;         // of the longest
-
-// A corrected point of the branch: the orbit's state and the parameter's share of the range; the arc's direction there.
-struct ArcPoint {
-    Eigen::VectorXd z, tangent;
-    Eigen::MatrixXd derivative;  // of the section map
-    SectionMap::Value value;
-    PeriodicOrbit orbit;
-};
-
-class Continuation {
-  public:
-    Continuation(const Family& family, const ContinuationRequest& request, const PeriodicOrbit& like, int turns,
-                 Eigen::VectorXd units, double size)
-        : family_(family), request_(request), like_(like), turns_(turns), units_(std::move(units)), size_(size) {}
-
-    double parameter(const Eigen::VectorXd& z) const {
-        return request_.from + z[z.size() - 1] * (request_.to - request_.from);
-    }
-    double share(double parameter) const { return (parameter - request_.from) / (request_.to - request_.from); }
-    SectionMap map(double share) const {
-        const double p = request_.from + share * (request_.to - request_.from);
-        return {for_orbits(family_(p)), like_.section, turns_, like_.start, units_, size_};
-    }
-    Eigen::MatrixXd derivative_at(const BranchPoint& point) const {
-        const SectionMap here = map(share(point.parameter));
-        return here.at(here.scaled(point.orbit.start), true).derivative;
-    }
-    BranchPoint branch_point(const ArcPoint& point) const { return {parameter(point.z), point.orbit}; }
-
-    std::optional<ArcPoint> correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const;
-    // Steps from a point along its tangent; the point itself is not among the results.
-    void follow(ArcPoint from, const Progress& progress, Branch& branch, std::string& end) const;
-
-  private:
-    void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
-    void locate(const ArcPoint& a, double step, OrbitChange change, const std::function<double(const ArcPoint&)>& test,
-                Branch& branch) const;
-    void end_at_impact(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
-                       std::string& end) const;
-
-    const Family& family_;
-    const ContinuationRequest& request_;
-    const PeriodicOrbit& like_;
-    int turns_;
-    Eigen::VectorXd units_;
-    double size_;
-};
-
-// Newton's method for P(y, p) = y on the plane through z across the tangent.                                   (S76)
-std::optional<ArcPoint> Continuation::correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const try {
-    const Eigen::Index n = z.size() - 1;
-    const Eigen::VectorXd predicted = z;
-    Eigen::VectorXd by_parameter;
-    double last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostArcNewton; ++i) {
-        const Eigen::VectorXd y = z.head(n);
-        ArcPoint point;
-        point.value = map(z[n]).at(y, true);
-        if (i == 0) {  // it only steers
-            const auto image = [&](double shift) { return map(z[n] + shift).at(y, false).image; };
-            by_parameter = (image(kArcDifference) - image(-kArcDifference)) / (2 * kArcDifference);
-        }
-        Eigen::MatrixXd bordered(n + 1, n + 1);
-        bordered << point.value.derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
-        Eigen::VectorXd residual(n + 1);
-        residual << point.value.image - y, tangent.dot(z - predicted);
-        const double size = residual.norm();
-        if (!std::isfinite(size)) return std::nullopt;
-        const Eigen::PartialPivLU<Eigen::MatrixXd> lu(bordered);
-        if (size < kArcConverged || (size < kArcAcceptable && size > 0.5 * last)) {
-            point.z = z;
-            point.tangent = lu.solve(Eigen::VectorXd::Unit(n + 1, n)).normalized();
-            point.derivative = point.value.derivative;
-            point.orbit = map(z[n]).orbit(y, point.value);
-            return point;
-        }
-        if (size > 2 * last) return std::nullopt;
-        last = size;
-        z -= lu.solve(residual);
-    }
-    return std::nullopt;
-} catch (const SolverError&) {
-    return std::nullopt;
-} catch (const StepFailure&) {
-    return std::nullopt;
-}
+constexpr double kAtTip = 1e-6;           // of the beam's length: so near to the tip a branch that stops is at a corner
+constexpr double kMovedSection = 0.01;    // [rad] a section that moves by less stays
+constexpr double kAtRangeEnd = 1e-5;      // of the range; what lies beyond it may be impossible
 
 Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
     return p.derivative + sign * Eigen::MatrixXd::Identity(p.derivative.rows(), p.derivative.cols());
@@ -119,87 +32,177 @@ Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
 double fold_test(const ArcPoint& p) { return p.tangent[p.tangent.size() - 1]; }
 double doubling_test(const ArcPoint& p) { return plus_identity(p, 1).determinant(); }
 double branching_test(const ArcPoint& p) { return plus_identity(p, -1).determinant() * (fold_test(p) > 0 ? 1 : -1); }
-// Of the complex pair nearest the unit circle; nothing without one. Where nothing is lost pairs stay on the circle.
-double circle_test(const ArcPoint& p) {
-    double nearest = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& m : p.orbit.multipliers)
-        if (std::fabs(m.imag()) > kRealMultiplier && !(std::fabs(std::abs(m) - 1) >= std::fabs(nearest)))
-            nearest = std::abs(m) - 1;
-    return nearest;
+
+// μ_iμ_j − 1 of all pairs: their product, which is real and smooth, and the pair that is nearest to nought.
+struct CircleTest {
+    double product = 1, nearest = std::numeric_limits<double>::infinity();
+    bool complex = false;  // the nearest is a complex pair
+};
+CircleTest circle_of(const ArcPoint& p) {
+    const auto& m = p.orbit.multipliers;
+    std::complex<double> product = 1;
+    CircleTest test;
+    for (std::size_t i = 0; i < m.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const std::complex<double> factor = m[i] * m[j] - 1.0;
+            product *= factor;
+            if (!(std::abs(factor) < test.nearest)) continue;
+            test.nearest = std::abs(factor);
+            test.complex = std::fabs(m[i].imag()) > kRealMultiplier && std::abs(m[i] - std::conj(m[j])) < kOnCircle;
+        }
+    test.product = product.real();
+    return test;
 }
-bool crosses_circle(double before, double after) {
-    return before * after < 0 && std::min(std::fabs(before), std::fabs(after)) > kOnCircle;
+double circle_test(const ArcPoint& p) { return circle_of(p).product; }
+// Where nothing is lost pairs stay on the circle.
+bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
+    const CircleTest before = circle_of(a), after = circle_of(b);
+    return before.product * after.product < 0 && std::min(before.nearest, after.nearest) > kOnCircle;
 }
 
-void Continuation::locate(const ArcPoint& a, double step, OrbitChange change,
-                          const std::function<double(const ArcPoint&)>& test, Branch& branch) const {
-    std::optional<ArcPoint> last;
+// An orbit keeps its pattern while nothing grazes or is released. Impacts before a rest on the cam are infinitely many.
+bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
+    return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&
+           a.start.phase.touching == b.start.phase.touching;
+}
+bool same_side_of_tip(const PeriodicOrbit& a, const PeriodicOrbit& b) {
+    for (std::size_t i = 0; i < std::min(a.impacts.size(), b.impacts.size()); ++i)
+        if ((a.impacts[i].overhang > 0) != (b.impacts[i].overhang > 0)) return false;
+    return true;
+}
+
+class Continuation {
+  public:
+    Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
+        : arc_(std::move(arc)), request_(request), progress_(progress) {}
+
+    // Steps from a point along its tangent; the point itself is not among the results.
+    void follow(ArcPoint from, Branch& branch, std::string& end);
+
+  private:
+    using Test = std::function<double(const ArcPoint&)>;
+    std::optional<ArcPoint> root(const ArcPoint& a, double step, const Test& test) const;
+    void locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const;
+    void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
+    std::optional<ArcPoint> recentre(const ArcPoint& at);
+    bool passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
+                std::string& end) const;
+
+    BranchArc arc_;
+    const ContinuationRequest& request_;
+    const Progress& progress_;
+};
+
+std::optional<ArcPoint> Continuation::root(const ArcPoint& a, double step, const Test& test) const {
     const auto value = [&](double s) {
         if (s == 0) return test(a);
-        const auto point = correct(a.z + s * a.tangent, a.tangent);
-        if (!point) return std::numeric_limits<double>::quiet_NaN();
-        last = point;
-        return test(*point);
+        const auto point = arc_.correct(a.z + s * a.tangent, a.tangent);
+        return point ? test(*point) : std::numeric_limits<double>::quiet_NaN();
     };
     const double low = value(0), high = value(step);
-    if (!std::isfinite(low * high) || std::signbit(low) == std::signbit(high)) return;
+    if (!std::isfinite(low * high) || std::signbit(low) == std::signbit(high)) return std::nullopt;
     const double at = find_root(value, 0.0, step, low, high);
-    const auto point = correct(a.z + at * a.tangent, a.tangent);
+    return arc_.correct(a.z + at * a.tangent, a.tangent);
+}
+
+void Continuation::locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const {
+    const auto point = root(a, step, test);
     if (!point) return;
+    if (change == OrbitChange::neimark_sacker && !circle_of(*point).complex) return;  // a saddle with μ_iμ_j = 1
     const double range = std::fabs(request_.to - request_.from);
-    branch.special.push_back({change, branch_point(*point), kArcConverged * range * std::fabs(fold_test(a)) + 1e-15});
+    branch.special.push_back(
+        {change, arc_.branch_point(*point), kArcConverged * range * std::fabs(fold_test(a)) + 1e-15});
 }
 
 void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
     const double step = a.tangent.dot(b.z - a.z);
     const auto changes = [&](auto test) { return std::signbit(test(a)) != std::signbit(test(b)); };
+    const std::size_t count = a.orbit.impacts.size();
+    if (count == b.orbit.impacts.size())
+        for (std::size_t i = 0; i < count; ++i) {
+            const Test overhang = [i, count](const ArcPoint& p) {
+                return p.orbit.impacts.size() == count ? p.orbit.impacts[i].overhang
+                                                       : std::numeric_limits<double>::quiet_NaN();
+            };
+            if (changes(overhang)) locate(a, step, OrbitChange::corner, overhang, branch);
+        }
     const bool folds = changes(fold_test);
     if (folds) locate(a, step, OrbitChange::fold, fold_test, branch);
     if (changes(doubling_test)) locate(a, step, OrbitChange::period_doubling, doubling_test, branch);
     if (!folds && changes(branching_test)) locate(a, step, OrbitChange::branching, branching_test, branch);
-    if (crosses_circle(circle_test(a), circle_test(b)))
-        locate(a, step, OrbitChange::neimark_sacker, circle_test, branch);
+    if (crosses_circle(a, b)) locate(a, step, OrbitChange::neimark_sacker, circle_test, branch);
 }
 
-// The pattern of impacts changes within `step`, too short to halve.
-void Continuation::end_at_impact(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step,
-                                 Branch& branch, std::string& end) const {
-    const OrbitChange change = last.orbit.always_touching() ? OrbitChange::release : OrbitChange::grazing;
+// What changes within `step`, too short to halve. True: the branch goes on beyond it.
+bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
+                          std::string& end) const {
+    const PeriodicOrbit& orbit = last.orbit;
+    if (beyond && same_pattern(orbit, beyond->orbit) && !same_side_of_tip(orbit, beyond->orbit)) {
+        find_changes(last, *beyond, branch);
+        return true;
+    }
+    const auto at_tip = [&](const OrbitImpact& impact) { return std::fabs(impact.overhang) < kAtTip * impact.x; };
+    const bool released = orbit.always_touching() || orbit.chatters() || (beyond && beyond->orbit.chatters());
+    const OrbitChange change = released                                     ? OrbitChange::release
+                               : std::ranges::any_of(orbit.impacts, at_tip) ? OrbitChange::corner
+                                                                            : OrbitChange::grazing;
     const double range = std::fabs(request_.to - request_.from);
-    branch.special.push_back({change, branch_point(last), step * range});
-    end = beyond ? fmt::format("{}: {} impacts become {}", name(change), last.orbit.impacts.size(),
-                               beyond->orbit.impacts.size())
-                 : fmt::format("{}: the orbit cannot be followed with its {} impacts", name(change),
-                               last.orbit.impacts.size());
+    branch.special.push_back({change, arc_.branch_point(last), step * range});
+    end =
+        beyond
+            ? fmt::format("{}: {} impacts become {}", name(change), orbit.impacts.size(), beyond->orbit.impacts.size())
+            : fmt::format("{}: the orbit cannot be followed with its {} impacts", name(change), orbit.impacts.size());
+    return false;
 }
 
-void Continuation::follow(ArcPoint from, const Progress& progress, Branch& branch, std::string& end) const {
+// The same point seen from a section in the middle of its longest flight; nothing where the section is there already.
+std::optional<ArcPoint> Continuation::recentre(const ArcPoint& at) {
+    if (at.orbit.always_touching()) return std::nullopt;
+    const BranchPoint point = arc_.branch_point(at);
+    BranchArc moved = arc_.recentred(point);
+    if (std::fabs(std::remainder(moved.section() - arc_.section(), 2 * std::numbers::pi)) < kMovedSection)
+        return std::nullopt;
+    const Eigen::Index n = at.z.size() - 1;
+    auto same = moved.correct(moved.place(point.parameter), Eigen::VectorXd::Unit(n + 1, n));
+    if (!same || !same_pattern(at.orbit, same->orbit)) return std::nullopt;
+    if (fold_test(*same) * fold_test(at) < 0) same->tangent *= -1;
+    arc_ = std::move(moved);
+    return same;
+}
+
+void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
     const Eigen::Index n = from.z.size() - 1;
     double step = kFirstArc * request_.step;
     for (int count = 0; count < request_.most_points; ++count) {
-        if (progress && !progress(parameter(from.z))) throw Interrupted();
-        auto next = correct(from.z + step * from.tangent, from.tangent);
-        const bool same = next && next->orbit.impacts.size() == from.orbit.impacts.size() &&
-                          next->orbit.start.phase.touching == from.orbit.start.phase.touching;
+        if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
+        auto next = arc_.correct(from.z + step * from.tangent, from.tangent);
+        const bool same = next && same_pattern(from.orbit, next->orbit);
         if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
-            const bool stuck = kArcShrink * step < kSmallestArc;
-            constexpr double kEnd = 1e-5;  // of the range; what lies beyond it may be impossible
-            const bool at_end = !next && (from.z[n] < kEnd || from.z[n] > 1 - kEnd);
-            if (stuck && at_end) {
+            if (kArcShrink * step >= kSmallestArc) {
+                step *= kArcShrink;
+                continue;
+            }
+            if (!next && (from.z[n] < kAtRangeEnd || from.z[n] > 1 - kAtRangeEnd)) {
                 end = "the range ends";
                 return;
             }
-            if (stuck) return end_at_impact(from, next, step, branch, end);
-            step *= kArcShrink;
-            continue;
+            const bool corner = next && same;
+            if (auto moved = corner ? std::nullopt : recentre(from)) {
+                from = std::move(*moved);
+                step = kFirstArc * request_.step;
+                continue;
+            }
+            if (!passes(from, next, step, branch, end)) return;
+            step = kFirstArc * request_.step;
+        } else {
+            find_changes(from, *next, branch);
         }
-        find_changes(from, *next, branch);
         const double share = next->z[n];
         if (share < 0 || share > 1) {
             end = "the range ends";
             return;
         }
-        branch.points.push_back(branch_point(*next));
+        branch.points.push_back(arc_.branch_point(*next));
         from = std::move(*next);
         step = std::min(kArcGrowth * step, request_.step);
     }
@@ -207,7 +210,7 @@ void Continuation::follow(ArcPoint from, const Progress& progress, Branch& branc
 }
 
 // Where y is along the eigenvector of the multiplier −1, on the map of twice as many turns.                     (S77)
-std::optional<ArcPoint> doubled(const Continuation& once, const Continuation& twice, const SpecialPoint& special,
+std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, const SpecialPoint& special,
                                 double size) {
     const Eigen::MatrixXd derivative = once.derivative_at(special.at);
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(derivative);
@@ -215,9 +218,8 @@ std::optional<ArcPoint> doubled(const Continuation& once, const Continuation& tw
     Eigen::Index nearest = 0;
     for (Eigen::Index i = 1; i < n; ++i)
         if (std::abs(solver.eigenvalues()[i] + 1.0) < std::abs(solver.eigenvalues()[nearest] + 1.0)) nearest = i;
-    Eigen::VectorXd z(n + 1), direction(n + 1);
-    const double share = twice.share(special.at.parameter);
-    z << twice.map(share).scaled(special.at.orbit.start), share;
+    const Eigen::VectorXd z = twice.place(special.at);
+    Eigen::VectorXd direction(n + 1);
     direction << solver.eigenvectors().col(nearest).real().normalized(), 0;
     for (double shift = size; shift > 1e-4 * size; shift *= 0.5) {
         auto point = twice.correct(z + shift * direction, direction);
@@ -242,6 +244,8 @@ const char* name(OrbitChange change) {
             return "branching";
         case OrbitChange::grazing:
             return "grazing";
+        case OrbitChange::corner:
+            return "corner";
         case OrbitChange::release:
             return "release";
     }
@@ -251,27 +255,23 @@ const char* name(OrbitChange change) {
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress) {
     constexpr double kDoubledShift = 0.02;  // of the orbit's size: where the doubled branch is begun
-    const Problem problem = for_orbits(family(start.parameter));
-    const SectionScale scale = section_scale(problem, start.orbit);
+    const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit);
     std::vector<Branch> branches(1);
-    const auto run = [&](const Continuation& arc, ArcPoint at, bool both, Branch& branch) {
+    const auto run = [&](const BranchArc& arc, ArcPoint at, bool both, Branch& branch) {
         branch.points.push_back(arc.branch_point(at));
         if (both) {
             ArcPoint back = at;
             back.tangent *= -1;
-            arc.follow(back, progress, branch, branch.first_end);
+            Continuation(arc, request, progress).follow(back, branch, branch.first_end);
             std::reverse(branch.points.begin(), branch.points.end());
             std::reverse(branch.special.begin(), branch.special.end());
         }
-        arc.follow(std::move(at), progress, branch, branch.last_end);
+        Continuation(arc, request, progress).follow(std::move(at), branch, branch.last_end);
     };
     {
-        const Continuation arc(family, request, start.orbit, start.orbit.turns, scale.units, scale.size);
-        const double share = arc.share(start.parameter);
+        const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale);
         const Eigen::Index n = scale.units.size();
-        Eigen::VectorXd z(n + 1);
-        z << arc.map(share).scaled(start.orbit.start), share;
-        const auto first = arc.correct(z, Eigen::VectorXd::Unit(n + 1, n));
+        const auto first = arc.correct(arc.place(start), Eigen::VectorXd::Unit(n + 1, n));
         if (!first) return {};
         run(arc, *first, true, branches.front());
     }
@@ -279,9 +279,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
         const std::vector<SpecialPoint> special = branches[i].special;
         for (const SpecialPoint& point : special) {
             if (point.change != OrbitChange::period_doubling) continue;
-            const Continuation twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale.units,
-                                     scale.size);
-            const Continuation once(family, request, point.at.orbit, point.at.orbit.turns, scale.units, scale.size);
+            const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale);
+            const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale);
             if (auto at = doubled(once, twice, point, kDoubledShift)) run(twice, *at, false, branches.emplace_back());
         }
     }

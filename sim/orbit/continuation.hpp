@@ -18,7 +18,7 @@ struct BranchPoint {
     PeriodicOrbit orbit;
 };
 
-enum class OrbitChange { fold, period_doubling, neimark_sacker, branching, grazing, release };
+enum class OrbitChange { fold, period_doubling, neimark_sacker, branching, grazing, corner, release };
 const char* name(OrbitChange change);
 
 struct SpecialPoint {

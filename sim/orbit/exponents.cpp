@@ -17,10 +17,12 @@ namespace {
 constexpr double kMostDecay = 5;
 constexpr double kUnsettled = 4;  // standard errors between the halves of an average
 constexpr double kUnsettledRounding =
-    1e-3;                              // of the whole: blocks of a periodic motion may agree better than they cut it
-constexpr double kCompliant = 0.02;    // [s]
-constexpr double kNoRank = 1e-13;      // of a unit tangent: what is left of it is rounding
-constexpr double kGrazing = 0.01;      // of the typical approach speed: slower impacts are near grazing
+    1e-3;                            // of the whole: blocks of a periodic motion may agree better than they cut it
+constexpr double kCompliant = 0.02;  // [s]
+constexpr double kNoRank = 1e-13;    // of a unit tangent: what is left of it is rounding
+constexpr double kGrazing = 0.01;    // of the typical approach speed: slower impacts are near grazing
+// Relative errors of a tangent, in a step, in units of rtol: they enter an exponent once, and are not multiplied.
+constexpr double kTangentErrors = 100;
 constexpr std::size_t kHistory = 400;  // points of the convergence, at most about
 
 // The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
@@ -73,6 +75,13 @@ class Stretching {
         if (done_ >= settling_) sum_.array() += left.array().log();
         if (t >= instant(done_ + 1)) advance();
         return instant(done_ + 1);
+    }
+
+    // The last of the instants may be the end but for rounding.
+    void finish(double end, TangentIntegrator& integrator) {
+        if (done_ == settling_ + per_block_ * block_.cols()) return;
+        at(end, integrator);
+        if (done_ < settling_ + per_block_ * block_.cols()) advance();
     }
 
     void results(Exponents& e) const {
@@ -164,12 +173,15 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
     e.slowest_impact = slowest;
     const double typical = std::sqrt(squares / static_cast<double>(e.impacts));
     for (const TangentTouch& touch : touches)
-        if (touch.t > e.transient && touch.approach < kGrazing * typical) ++e.near_grazing;
+        if (touch.t > e.transient && touch.approach < kGrazing * typical) {
+            ++e.near_grazing;
+            e.doubt += std::log(typical / touch.approach) / e.duration;
+        }
     if (e.near_grazing > 0)
         e.warnings.push_back(fmt::format(
             "{} of {} impacts are near grazing (slower than {:g} of the typical approach speed): the linearized impact "
-            "holds for small differences only, and the exponents are doubtful",
-            e.near_grazing, e.impacts, kGrazing));
+            "holds for small differences only, and the largest exponent may be too large by {:.3g} 1/s",
+            e.near_grazing, e.impacts, kGrazing, e.doubt));
 }
 
 }  // namespace
@@ -186,9 +198,10 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     TangentIntegrator* tangents = nullptr;
     std::optional<Stretching> stretching;
     RunOptions options{.start = request.start ? &*request.start : nullptr};
-    options.integrator = [&](System& system) {
+    options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
         const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
-        auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol, v);
+        auto made =
+            std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol, v);
         stretching.emplace(v.cols(), request.blocks, request.transient, request.duration, longest_interval(problem));
         tangents = made.get();
         made->pause_at(stretching->first_pause(), [&](double t) { return stretching->at(t, *tangents); });
@@ -199,7 +212,8 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     e.duration = request.duration;
     Run run(problem, {&span, 1}, progress, options);
     run.integrate();
-    stretching->at(span.end_time, *tangents);
+    tangents->finish(span.end_time);
+    stretching->finish(span.end_time, *tangents);
     stretching->results(e);
     judge_impacts(tangents->touches(), e);
     if (!e.settled)

@@ -26,6 +26,9 @@ struct ExponentsRequest {
     std::optional<InitialState> start = {};  // at t = 0, instead of the problem's
 };
 
+// What the largest exponent says. Doubtful: it is positive beyond its error only by what near-grazing impacts add.
+enum class Chaos { shown, doubtful, not_shown };
+
 struct Exponents {
     std::vector<double> lambda;  // descending [1/s]; −∞ where the motion forgets at once (sustained contact)
     std::vector<double> error;   // standard error from the spread of the blocks [1/s]
@@ -37,14 +40,22 @@ struct Exponents {
     // Impacts so slow that the linearized impact (S71) fails already for small differences: exponents are doubtful.
     long near_grazing = 0;
     double slowest_impact = 0;  // approach speed [m/s]; 0 without impacts
+    // By how much the largest exponent may be too large because of them: as if each parted neighbours like an impact of
+    // the typical speed only [1/s].
+    double doubt = 0;
     // The largest exponent of the first half of the average and that of the second differ by less than four times their
     // errors: else the motion had not settled, and a transient may have looked chaotic.
     bool settled = true;
     std::vector<std::string> warnings;
 
     bool grows_late() const { return settled && !lambda.empty() && lambda.front() * duration / 2 > kLateGrowth; }
-    // The largest exponent is positive beyond three times its error as well: neighbouring motions part exponentially.
-    bool chaotic() const { return grows_late() && lambda.front() > 3 * error.front(); }
+    // Shown: the largest exponent is positive beyond three times its error as well, and beyond the doubt: neighbouring
+    // motions part exponentially.
+    Chaos chaos() const {
+        if (!grows_late() || !(lambda.front() > 3 * error.front())) return Chaos::not_shown;
+        return lambda.front() > 3 * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
+    }
+    bool chaotic() const { return chaos() == Chaos::shown; }
 };
 
 // Nothing where the tangent flow of this problem is known; else why not, with the remedy: models beyond first order.

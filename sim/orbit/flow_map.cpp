@@ -1,6 +1,7 @@
 #include "sim/orbit/flow_map.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "sim/run/run.hpp"
 
@@ -28,11 +29,11 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     request.turning_points = false;
     TangentIntegrator* tangents = nullptr;
     RunOptions options{.start = &start};
-    options.integrator = [&](System& system) {
+    options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
         const Eigen::Index n = 2 * system.coordinates();
-        auto made = std::make_unique<TangentIntegrator>(system, problem.solver.rtol, problem.solver.atol,
+        auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), problem.solver.rtol,
                                                         Eigen::MatrixXd::Identity(n, derivative ? n : 0));
-        made->pause_at(duration, {});
+        made->end_at(duration);
         if (on_cam == StartOnCam::kept) made->start_on_cam();
         tangents = made.get();
         return made;
@@ -40,11 +41,13 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     Run run(problem, {&request, 1}, progress, options);
     FlowMap map;
     run.integrate();
+    tangents->finish(duration);
     map.end.y = run.state().y;
     map.end.phase = run.state().phase;
     map.touches = tangents->touches();
     map.inertia_share = tangents->inertia_share();
     map.holds = tangents->holds();
+    map.lifts = tangents->lifts();
     map.steps = run.counters().steps;
     map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
     if (derivative) {

@@ -16,15 +16,15 @@ struct FlowMap {
     double inertia_share = 1;    // at the end (S73)
     Eigen::VectorXd units;       // of ξ and ξ̇: rows of one size in energy (tangent_integrator.hpp)
     std::vector<TangentTouch> touches;
-    long holds = 0;  // strikes that sustained contact followed
+    long holds = 0, lifts = 0;  // strikes that sustained contact followed; ends of sustained contact
     long steps = 0;
 };
 
 // What differences a derivative allows at a start in sustained contact.
 enum class StartOnCam { free, kept };
 
-// From `start` at t = 0, by rk8 at the problem's tolerances, for what `require_tangents` lets pass. Throws SolverError,
-// Interrupted.
+// From `start` at t = 0, by the problem's method and tolerances, for what `require_tangents` lets pass. Throws
+// SolverError, Interrupted.
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
                  const Progress& progress = {}, StartOnCam on_cam = StartOnCam::free);
 

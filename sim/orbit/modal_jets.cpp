@@ -303,6 +303,11 @@ ModalJets::Gap ModalJets::gap(const JetState& s, const ContactState& near) {
     return {c_.distance - (problem_.cam->radius + offset_), c_.gap_rate};
 }
 
+double ModalJets::foot(const ContactState& near) const {
+    if (!near.at_end) return near.x;
+    return near.x - c_.distance.v * dot(c_.r1, c_.normal).v / dot(c_.r1, c_.r1).v;
+}
+
 // ξ̇ ← ξ̇ + M⁻¹(J_nᵀP_n + J_tᵀP_t)                                                                               (S43)
 void ModalJets::strike(JetState& s, const ContactState& near, double restitution) {
     set(s);

@@ -39,6 +39,9 @@ class ModalJets {
         Jet gap, rate;
     };
     Gap gap(const JetState& s, const ContactState& near);
+    // Of the contact evaluated last: where its foot is along the beam; beyond an end, where the straight continuation
+    // has it [m].
+    double foot(const ContactState& near) const;
     // Of a contact that lasts.
     struct Forces {
         Jet normal, friction, slip;

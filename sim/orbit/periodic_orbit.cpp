@@ -38,14 +38,11 @@ Place longest_flight(const Problem& problem, const Place& from, double duration,
     const Problem here = at_section(problem, from.section);
     const FlowMap seen = flow_map(here, from.state, duration, false, progress);
     double longest = 0, middle = 0;
-    for (std::size_t i = 0; i + 1 < seen.touches.size(); ++i) {
-        const double flight = seen.touches[i + 1].t - seen.touches[i].t;
-        if (flight > longest) {
-            longest = flight;
-            middle = 0.5 * (seen.touches[i + 1].t + seen.touches[i].t);
+    for (const TangentTouch& touch : seen.touches)
+        if (touch.flight > longest) {
+            longest = touch.flight;
+            middle = touch.t - 0.5 * touch.flight;
         }
-    }
-    if (longest == 0 && !seen.touches.empty()) middle = seen.touches.front().t + 0.5 * cam_period(problem);
     if (middle == 0) return from;
     const FlowMap there = flow_map(here, from.state, middle, false, progress);
     return {section_after(problem, from.section, middle), there.end};
@@ -158,7 +155,7 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
         try {
             const auto place = thrown(problem, section, period, size, progress);
             auto orbit = place ? orbit_through(problem, *place, one, progress) : std::nullopt;
-            if (!orbit || orbit->impacts.empty() || orbit->chatters) continue;
+            if (!orbit || orbit->impacts.empty() || orbit->chatters()) continue;
             if (request.impacts && static_cast<int>(orbit->impacts.size()) != *request.impacts) continue;
             if (std::none_of(found.begin(), found.end(), [&](const auto& o) { return same_orbit(o, *orbit); }))
                 found.push_back(std::move(*orbit));
@@ -205,10 +202,17 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
             found.push_back(std::move(*orbit));
     } catch (const SolverError&) {  // the motion leaves the machine; orbits may exist all the same
     }
-    if (!found.empty() && !found.front().chatters) return found;
+    if (!found.empty() && !found.front().chatters()) return found;
     for (PeriodicOrbit& orbit : orbits_by_throws(problem, begin.y.size(), request, progress))
         found.push_back(std::move(orbit));
     return found;
+}
+
+PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit) {
+    const Place place = longest_flight(for_orbits(problem), {orbit.section, orbit.start}, 2 * orbit.period, {});
+    orbit.section = place.section;
+    orbit.start = place.state;
+    return orbit;
 }
 
 std::optional<Problem> begun_on(const Problem& problem, const PeriodicOrbit& orbit) {

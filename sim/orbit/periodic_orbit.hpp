@@ -15,6 +15,8 @@ namespace beamcam::sim {
 struct OrbitImpact {
     double cam_angle = 0;  // ψ at the touch, of the turn it lies in: counted from the section [rad]
     double approach = 0;   // −ġ before it [m/s]
+    double x = 0;          // of the contact along the beam [m]
+    double overhang = 0;   // of the foot over the tip: negative between root and tip [m]
 };
 
 struct PeriodicOrbit {
@@ -28,8 +30,9 @@ struct PeriodicOrbit {
     std::vector<OrbitImpact> impacts;
     std::vector<std::complex<double>> multipliers;  // of the section map, the largest first
 
-    bool chatters = false;  // rests on the cam for a while after impacts
+    long holds = 0, lifts = 0;  // of impulsive contact: how often chatter ends in rest on the cam, and rest in flight
 
+    bool chatters() const { return holds > 0; }  // rests on the cam for a while after impacts
     bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1; }
     bool always_touching() const { return impacts.empty() && start.phase.touching; }
     double slowest_impact() const;  // [m/s]; 0 without impacts
@@ -50,6 +53,9 @@ struct OrbitRequest {
 // std::invalid_argument for what `orbit_refusal` refuses.
 std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitRequest& request,
                                        const Progress& progress = {});
+
+// The same orbit with its section in the middle of its longest flight.
+PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit);
 
 // The same machine, begun on the orbit in the middle of a flight. Nothing where the beam never leaves the cam. Throws
 // SolverError, Interrupted.

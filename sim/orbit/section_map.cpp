@@ -8,7 +8,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;
-constexpr int kMostMapSteps = 3'000'000;  // of one section map: more is stiff contact, which this method is not for
+constexpr int kMostMapSteps = 3'000'000;  // of one section map: no orbit that is worth it needs more
 
 }  // namespace
 
@@ -24,7 +24,7 @@ double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd
 }
 
 Problem for_orbits(Problem problem) {
-    problem.solver.method = Method::rk8;
+    problem.solver.method = Method::automatic;
     problem.solver.rtol = std::min(problem.solver.rtol, kTightRtol);
     problem.solver.atol = std::min(problem.solver.atol, kTightAtol);
     problem.solver.max_steps = std::min(problem.solver.max_steps, kMostMapSteps);
@@ -73,10 +73,11 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     orbit.cam_phase = cam_phase_;
     orbit.turns = turns_;
     orbit.period = period_;
-    orbit.chatters = value.map.holds > 0;
+    orbit.holds = value.map.holds;
+    orbit.lifts = value.map.lifts;
     orbit.residual = (value.image - y).norm();
     for (const TangentTouch& touch : value.map.touches)
-        orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach});
+        orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
     Eigen::MatrixXd derivative = value.derivative;
     if (like_.phase.held)  // neighbours on the cam only: leaving it is no freedom of the motion
         derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;

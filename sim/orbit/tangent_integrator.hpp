@@ -1,37 +1,36 @@
-// The Runge–Kutta method of rk8.cpp for the state and, beside it, for tangents of the flow: small differences of
-// neighbouring motions, to first order. A Run that is given this integrator carries them through its events, because it
-// starts the integrator anew after each: that is where the saltation (S71) is applied. MODEL.md §16a.
+// An integrator that carries, beside the motion, tangents of the flow: small differences of neighbouring motions, to
+// first order. The motion is that of the integrator it is given, bit by bit; tangents follow each of its steps once
+// that is final (tangent_step.hpp). A Run starts its integrator anew after each event: that is where the saltation is
+// applied (saltation.hpp). MODEL.md §16a.
 //
-// Tangents have 2n + 2 rows: ξ, ξ̇, z, δ̇₋, each in units (`unit`) in which a row of one stands for about the same
+// Tangents have 2n + 2 rows: ξ, ξ̇, z, δ̇₋, each in units (`units`) in which a row of one stands for about the same
 // energy.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "sim/integrate/integrator.hpp"
-#include "sim/orbit/modal_jets.hpp"
+#include "sim/orbit/saltation.hpp"
+#include "sim/orbit/tangent_step.hpp"
 
 namespace beamcam::sim {
 
-struct TangentTouch {
-    double t = 0;         // [s]
-    double approach = 0;  // −ġ before it [m/s]
-};
-
-class TangentIntegrator final : public Integrator, private Segment {
+class TangentIntegrator final : public Integrator {
   public:
-    // `system` is what the run integrates. `tangents` has 2n rows, in units, and any number of columns.
-    TangentIntegrator(System& system, double rtol, double atol, const Eigen::MatrixXd& tangents);
-    ~TangentIntegrator() override;
+    // `system` is what the run integrates, by `motion`. `tangents` has 2n rows, in units, and any number of columns.
+    TangentIntegrator(System& system, std::unique_ptr<Integrator> motion, double rtol, const Eigen::MatrixXd& tangents);
 
     void start(double t, const double* y) override;
     const Segment& step() override;
     const Segment& shorten(double t1) override;
 
-    // Steps end at this instant; then `pause` is called, which may change the tangents and gives the next instant. It
+    // The motion's steps end at this instant, too.
+    void end_at(double t) { end_ = t; }
+    // When the tangents have come to this instant, `pause` is called, which may change them and gives the next one. It
     // is called after each touch, too: an impact may shrink a tangent by any factor.
     void pause_at(double t, std::function<double(double t)> pause) {
         next_pause_ = t;
@@ -39,50 +38,43 @@ class TangentIntegrator final : public Integrator, private Segment {
     }
     // A start on the cam lets the tangents keep what remains on it; else gap and gap rate are free there, and decay
     // as (S45) has it.
-    void start_on_cam() { starts_free_ = false; }
-    // At the end of the last step; ξ̇ in units of its canonical momentum (S73) where `canonical`.
+    void start_on_cam() { starts_kept_ = true; }
+    // After the run: the tangents come to its end.
+    void finish(double t) {
+        if (segment_) advance(t);
+    }
+    // Where they are; ξ̇ in units of its canonical momentum (S73) where `canonical`.
     Eigen::MatrixXd tangents(bool canonical = false) const;
     void set_tangents(const Eigen::MatrixXd& tangents, bool canonical = false);
-    // The state there.
-    const double* state() const { return end_.data(); }
 
     double inertia_share() const;  // there (S73)
 
     // Of the rows [1/s-like magnitudes: √J Ω, √m ω_i; √J, √m; …].
     const Eigen::VectorXd& units() const { return units_; }
-    const std::vector<TangentTouch>& touches() const { return touches_; }
-    long holds() const { return holds_; }  // strikes that sustained contact followed
+    const std::vector<TangentTouch>& touches() const { return saltation_.touches(); }
+    long holds() const { return saltation_.holds(); }  // strikes that sustained contact followed
+    long lifts() const { return saltation_.lifts(); }  // ends of sustained contact
 
   private:
-    class Flow;
-    void value(double t, double* y) const override;
-    void saltation(double t, const double* after, const Phase& was, const Phase& is);
-    void strike(double t, const double* after, const Phase& was, const Phase& is);
-    void begin_touch(double t, const Phase& was, const Phase& is);
-    JetState event_jets(double t, const Phase& was, Eigen::Index first);
-    void change_grip(double t, const double* after, const Phase& was, const Phase& is);
-    void release();
-    void keep_on_cam(double t, const double* y);
-    const Segment& arrive(const Segment& inner);
+    const Segment& took(const Segment& segment);
+    void advance(double t);
 
     System& system_;
-    System probe_;       // evaluates at events, so that the motion does not depend on it
-    ContactState near_;  // at the last event
+    System probe_;  // evaluates along the motion, so that it does not depend on it
     ModalJets jets_;
-    std::unique_ptr<Flow> flow_;
-    std::unique_ptr<Integrator> inner_;
-    int n_, rows_, columns_;
+    std::unique_ptr<Integrator> motion_;
+    int n_;
     Eigen::VectorXd units_;
-    Eigen::MatrixXd tangents_;  // at the end of the last step, in units
-    std::vector<double> end_;   // all of the inner state there
-    mutable std::vector<double> scratch_;
-    const Segment* segment_ = nullptr;  // of the inner integrator
+    Eigen::MatrixXd tangents_;  // at t_, in units
+    double t_ = 0;
+    std::vector<double> y_;  // the state there
+    TangentStep tangent_step_;
+    Saltation saltation_;
+    const Segment* segment_ = nullptr;  // the last of the motion
     Phase phase_;                       // of the last start
-    double next_pause_;
+    double next_pause_ = std::numeric_limits<double>::infinity(), end_ = next_pause_;
     std::function<double(double)> pause_;
-    std::vector<TangentTouch> touches_;
-    long holds_ = 0;
-    bool starts_free_ = true;
+    bool starts_kept_ = false;
 };
 
 }  // namespace beamcam::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/base/assert.hpp"
 #include "sim/integrate/exponential.hpp"
@@ -31,6 +32,11 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
     return make_sundials(solver.method, dynamics, rtol, atol);
 }
 
+std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynamics, const RunOptions& options) {
+    std::unique_ptr<Integrator> made = make_integrator(solver, dynamics);
+    return options.around ? options.around(dynamics, std::move(made)) : std::move(made);
+}
+
 }  // namespace
 
 Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options)
@@ -40,7 +46,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       dynamics_(problem),
       probe_(dynamics_),
       output_(dynamics_, requests, options.keep, options.observer, [this] { return statistics(); }),
-      integrator_(options.integrator ? options.integrator(dynamics_) : make_integrator(problem.solver, dynamics_)),
+      integrator_(make_integrator(problem.solver, dynamics_, options)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
       transitions_(dynamics_, probe_.system, *integrator_, state_, output_),

@@ -20,7 +20,8 @@ struct RunOptions {
     TrajectoryWriter* keep = nullptr;     // takes the trajectory down
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
     const InitialState* start = nullptr;  // the state to begin with; else that of the problem
-    std::function<std::unique_ptr<Integrator>(System&)> integrator = {};  // else that of the problem's solver
+    // Another integrator around that of the problem's solver.
+    std::function<std::unique_ptr<Integrator>(System&, std::unique_ptr<Integrator>)> around = {};
 };
 
 class Run {

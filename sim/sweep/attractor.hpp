@@ -14,7 +14,7 @@ enum class AttractorClass {
     periodic,        // (n, m): n turns of the cam, m impacts
     quasi_periodic,  // no period, and the largest exponent is zero within its error
     chaotic,         // the largest exponent is positive beyond its error
-    aperiodic,       // no period within the samples; the exponent is not known
+    aperiodic,       // no period within the samples; the exponent is not known, or doubtful
     over_the_top,    // the beam leaves the half plane of the cam
     unsettled        // the transient is not over, or the motion could not be followed
 };

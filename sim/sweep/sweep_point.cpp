@@ -26,7 +26,9 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
         const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
-        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
+        Attractor judged = with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
+        if (found.chaos() == Chaos::doubtful) judged.kind = AttractorClass::aperiodic;
+        return judged;
     } catch (const SolverError&) {
         return point.attractor;  // its exponent stays unknown
     }

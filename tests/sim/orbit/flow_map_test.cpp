@@ -19,7 +19,7 @@ Problem machine(ModelKind model, int modes, ContactModel contact) {
     p.contact.stiffness = 1e6;
     p.contact.restitution = 0.9;
     p.initial.angle = 0.6;
-    p.solver.method = Method::rk8;
+    p.solver.method = Method::automatic;
     p.solver.rtol = 1e-13;
     p.solver.atol = 1e-16;
     return p;

@@ -1,0 +1,86 @@
+#include "sim/orbit/branch_arc.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/ode.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kMostArcNewton = 8;
+constexpr double kArcDifference =
+    1e-6;  // of the range: the derivative by the parameter, which only steers the corrector
+
+bool same_events(const FlowMap& a, const FlowMap& b) {
+    return a.touches.size() == b.touches.size() && a.holds == b.holds && a.lifts == b.lifts;
+}
+
+}  // namespace
+
+// ∂P/∂p by differences, on the side where nothing grazes or is released before.
+Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const {
+    const Eigen::Index n = z.size() - 1;
+    const auto shifted = [&](double shift) { return map(z[n] + shift).at(z.head(n), false); };
+    const SectionMap::Value before = shifted(-kArcDifference), after = shifted(kArcDifference);
+    const bool back = same_events(before.map, here.map), forth = same_events(after.map, here.map);
+    if (back == forth) return (after.image - before.image) / (2 * kArcDifference);
+    return (back ? here.image - before.image : after.image - here.image) / kArcDifference;
+}
+
+SectionMap BranchArc::map(double share) const {
+    const double p = request_.from + share * (request_.to - request_.from);
+    return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_.units, scale_.size};
+}
+
+BranchArc BranchArc::recentred(const BranchPoint& point) const {
+    return {family_, request_, sim::recentred(family_(point.parameter), point.orbit), turns_, scale_};
+}
+
+Eigen::VectorXd BranchArc::place(const BranchPoint& point) const {
+    const double at = share(point.parameter);
+    Eigen::VectorXd z(scale_.units.size() + 1);
+    z << map(at).scaled(point.orbit.start), at;
+    return z;
+}
+
+Eigen::MatrixXd BranchArc::derivative_at(const BranchPoint& point) const {
+    const SectionMap here = map(share(point.parameter));
+    return here.at(here.scaled(point.orbit.start), true).derivative;
+}
+
+// Newton's method for P(y, p) = y on the plane through z across the tangent.                                   (S76)
+std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const try {
+    const Eigen::Index n = z.size() - 1;
+    const Eigen::VectorXd predicted = z;
+    Eigen::VectorXd by_parameter;
+    double last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kMostArcNewton; ++i) {
+        const Eigen::VectorXd y = z.head(n);
+        const SectionMap section = map(z[n]);
+        const SectionMap::Value value = section.at(y, true);
+        if (i == 0) by_parameter = slope(z, value);
+        Eigen::MatrixXd bordered(n + 1, n + 1);
+        bordered << value.derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
+        Eigen::VectorXd residual(n + 1);
+        residual << value.image - y, tangent.dot(z - predicted);
+        const double size = residual.norm();
+        if (!std::isfinite(size)) return std::nullopt;
+        const Eigen::PartialPivLU<Eigen::MatrixXd> lu(bordered);
+        if (size < kArcConverged || (size < kArcAcceptable && size > 0.5 * last)) {
+            return ArcPoint{z, lu.solve(Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
+                            section.orbit(y, value)};
+        }
+        if (size > 2 * last) return std::nullopt;
+        last = size;
+        z -= lu.solve(residual);
+    }
+    return std::nullopt;
+} catch (const SolverError&) {
+    return std::nullopt;
+} catch (const StepFailure&) {
+    return std::nullopt;
+}
+
+}  // namespace beamcam::sim

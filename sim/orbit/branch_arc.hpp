@@ -1,0 +1,58 @@
+// The curve of solutions of P(y, p) = y over a parameter p: points on it by Newton's method, and its direction there.
+// MODEL.md §16a.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "sim/orbit/continuation.hpp"
+#include "sim/orbit/section_map.hpp"
+
+namespace beamcam::sim {
+
+// A corrected point of the curve: the orbit's state and the parameter's share of the range; the curve's direction.
+struct ArcPoint {
+    Eigen::VectorXd z, tangent;
+    Eigen::MatrixXd derivative;  // of the section map
+    PeriodicOrbit orbit;
+};
+
+// Residual of the corrector, in sizes of the orbit: converged; still taken where rounding allows no better.
+inline constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
+
+class BranchArc {
+  public:
+    // Of orbits with the section and the phase of `like`.
+    BranchArc(const Family& family, const ContinuationRequest& request, const PeriodicOrbit& like, int turns,
+              const SectionScale& scale)
+        : family_(family), request_(request), like_(like), turns_(turns), scale_(scale) {}
+
+    double parameter(const Eigen::VectorXd& z) const {
+        return request_.from + z[z.size() - 1] * (request_.to - request_.from);
+    }
+    double share(double parameter) const { return (parameter - request_.from) / (request_.to - request_.from); }
+    // z of it; of `like` at this parameter.
+    Eigen::VectorXd place(const BranchPoint& point) const;
+    Eigen::VectorXd place(double parameter) const { return place(BranchPoint{parameter, like_}); }
+    double section() const { return like_.section; }
+    BranchPoint branch_point(const ArcPoint& point) const { return {parameter(point.z), point.orbit}; }
+    Eigen::MatrixXd derivative_at(const BranchPoint& point) const;
+
+    // The same curve with its section in the middle of this point's longest flight.
+    BranchArc recentred(const BranchPoint& point) const;
+
+    // On the plane through z across the tangent; nothing where Newton's method does not converge.
+    std::optional<ArcPoint> correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const;
+
+  private:
+    SectionMap map(double share) const;
+    Eigen::VectorXd slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const;
+
+    Family family_;
+    ContinuationRequest request_;
+    PeriodicOrbit like_;
+    int turns_;
+    SectionScale scale_;
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,201 @@
+#include "sim/orbit/saltation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/run/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kPlastic = 1e-9;       // of the approach speed: a slower rebound is none
+constexpr int kFlow = kDirections - 1;  // the direction of the motion itself at events
+// Touches with this share of difference in speed are one and the same: the gap's rounding was taken out between.
+constexpr double kSameSpeed = 1e-9;
+
+void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
+    const std::size_t n = s.xi.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        s.xi[i] = y[i];
+        s.rate[i] = y[n + i];
+    }
+    s.bristle = bristle ? y[2 * n] : 0;
+    s.approach = phase.approach;
+}
+
+void seed_column(JetState& s, int direction, const double* column, const double* units) {
+    const std::size_t n = s.xi.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        s.xi[i].d[direction] = column[i] / units[i];
+        s.rate[i].d[direction] = column[n + i] / units[n + i];
+    }
+    s.bristle.d[direction] = column[2 * n] / units[2 * n];
+    s.approach.d[direction] = column[2 * n + 1] / units[2 * n + 1];
+}
+
+}  // namespace
+
+Saltation::Saltation(const System& system, ModalJets& jets, const Eigen::VectorXd& units)
+    : probe_(system), jets_(jets), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
+
+void Saltation::pass(double t, const double* before, const Phase& was, const double* after, const Phase& is,
+                     Eigen::MatrixXd& tangents) {
+    const Instant at{t, before, after, was, is};
+    if (was.held && !is.touching) ++lifts_;
+    const bool jumps = !std::equal(after + n_, after + 2 * n_, before + n_);
+    if (jumps)
+        strike(at, tangents);
+    else if (!was.touching && is.touching)
+        begin_touch(at, tangents);
+    else if (was.touching && !is.touching)
+        release(tangents);
+    else if (was.grip != is.grip)
+        change_grip(at, tangents);
+    if (!is.touching && (jumps || was.touching)) left_ = t;
+}
+
+void Saltation::start_on_cam(double t, const double* y, const Phase& is, Eigen::MatrixXd& tangents) {
+    probe_.set_phase(is);
+    near_ = probe_.contact(t, y, true);
+    keep_on_cam(t, y, tangents);
+}
+
+std::vector<double> Saltation::flow_after(const Instant& at) {
+    std::vector<double> flow(static_cast<std::size_t>(probe_.size));
+    probe_.set_phase(at.is);
+    probe_.rhs(at.t, at.after, flow.data());
+    return flow;
+}
+
+// Of the contact near_, whose geometry `jets_` holds.
+void Saltation::note_touch(const Instant& at) {
+    if (-near_.gap_rate > kRestSpeed)
+        touches_.push_back(
+            {at.t, -near_.gap_rate, at.t - left_, near_.x, jets_.foot(near_) - probe_.problem().beam.length});
+}
+
+// The state before an event as jets: tangents from column `first` on, and in the last direction the motion itself.
+JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first) {
+    std::vector<double> flow(static_cast<std::size_t>(probe_.size));
+    probe_.set_phase(at.was);
+    probe_.rhs(at.t, at.before, flow.data());
+    near_ = probe_.contact(at.t, at.before, true);
+    JetState s(n_);
+    seed(s, at.before, at.was, probe_.has_bristle());
+    s.t = at.t;
+    s.t.d[kFlow] = 1;
+    for (std::size_t i = 0; i < s.xi.size(); ++i) {
+        s.xi[i].d[kFlow] = flow[i];
+        s.rate[i].d[kFlow] = flow[s.xi.size() + i];
+    }
+    if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * s.xi.size()];
+    for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k)
+        seed_column(s, k, tangents.col(first + k).data(), units_.data());
+    return s;
+}
+
+// Ξ v = D_xR v + (D_xR F⁻ + D_tR − F⁺) δt, δt = −D_x g v/ġ                                                       (S71)
+void Saltation::strike(const Instant& at, Eigen::MatrixXd& tangents) {
+    const std::vector<double> flow = flow_after(at);
+    const double rebound = probe_.contact(at.t, at.after, true).gap_rate;
+    for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
+        JetState s = jets_before(at, tangents, first);
+        const double pre_set = probe_.problem().contact.restitution;
+        const Jet gap = jets_.gap(s, near_).gap;
+        if (first == 0) note_touch(at);
+        jets_.strike(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
+        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
+            const double delay = -gap.d[k] / gap.d[kFlow];
+            for (int i = 0; i < n_; ++i) {
+                const auto j = static_cast<std::size_t>(i);
+                const Jet &xi = s.xi[j], &rate = s.rate[j];
+                tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[j]) * delay);
+                tangents(n_ + i, first + k) =
+                    units_[n_ + i] * (rate.d[k] + (rate.d[kFlow] - flow[s.xi.size() + j]) * delay);
+            }
+        }
+    }
+    tangents.bottomRows(kTangentMemories).setZero();
+    if (!at.is.held) return;
+    ++holds_;
+    keep_on_cam(at.t, at.after, tangents);
+}
+
+// Neighbours that rest on the cam have no gap and no gap rate either: rounding of (S71) at a vanishing speed is
+// removed.
+void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents) {
+    const int freedoms = 2 * n_;
+    Eigen::MatrixXd normals(freedoms, 2);  // gradients of gap and gap rate
+    const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(rows_, rows_);
+    for (int first = 0; first < freedoms; first += kDirections) {
+        JetState s(n_);
+        seed(s, y, Phase{}, false);
+        s.t = t;
+        const int count = std::min(kDirections, freedoms - first);
+        for (int k = 0; k < count; ++k) seed_column(s, k, basis.col(first + k).data(), units_.data());
+        const ModalJets::Gap gap = jets_.gap(s, near_);
+        for (int k = 0; k < count; ++k) normals.row(first + k) << gap.gap.d[k], gap.rate.d[k];
+    }
+    normals.col(0).normalize();
+    normals.col(1) -= normals.col(0) * normals.col(0).dot(normals.col(1));
+    normals.col(1).normalize();
+    for (int repeat = 0; repeat < 2; ++repeat)
+        tangents.topRows(freedoms) -= normals * (normals.transpose() * tangents.topRows(freedoms)).eval();
+}
+
+// State and force go on; what the touch keeps is its approach speed, unless that is the floor or an earlier one. (S72)
+void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
+    for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
+        const JetState s = jets_before(at, tangents, first);
+        const double floor = probe_.problem().contact.approach_floor.value;
+        const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
+                           std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
+        const ModalJets::Gap gap = jets_.gap(s, near_);
+        if (first == 0) note_touch(at);
+        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
+            tangents(2 * n_, first + k) = 0;  // the bristle is relaxed
+            double& row = tangents(rows_ - 1, first + k);
+            const double delay = -gap.gap.d[k] / gap.gap.d[kFlow];
+            if (keeps) row = -units_[rows_ - 1] * (gap.rate.d[k] + gap.rate.d[kFlow] * delay);
+            if (at.is.approach == floor) row = 0;
+        }
+    }
+}
+
+// Break-away drops the force if the static coefficient is larger; at the catch the bristle is put where it carries the
+// sliding force, and its rate goes on. A lagging bristle is a state throughout.                              (S36, S71)
+void Saltation::change_grip(const Instant& at, Eigen::MatrixXd& tangents) {
+    const FrictionLaw& friction = probe_.friction();
+    const std::vector<double> flow = flow_after(at);
+    for (Eigen::Index first = 0; first < tangents.cols(); first += kFlow) {
+        const JetState s = jets_before(at, tangents, first);
+        const ModalJets::Forces f = jets_.forces(s, at.was, near_);
+        std::vector<Jet> acceleration;
+        Jet bristle_rate;
+        jets_.flow(s, at.was, near_, acceleration, bristle_rate);
+        const Jet guard = friction.limit * f.normal - fabs(f.friction);
+        const Jet caught = jets_.sliding_bristle(at.was.grip, f) - (friction.damping / friction.stiffness) * f.slip;
+        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
+            double& bristle = tangents(2 * n_, first + k);
+            if (at.is.grip == Grip::stick) {
+                if (!friction.lags) bristle = units_[2 * n_] * caught.d[k];
+                continue;
+            }
+            const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
+            for (int i = 0; i < n_; ++i) {
+                const auto j = static_cast<std::size_t>(i);
+                tangents(n_ + i, first + k) += units_[n_ + i] * (acceleration[j].v - flow[s.xi.size() + j]) * delay;
+            }
+            bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * s.xi.size()]) * delay : 0;
+        }
+    }
+}
+
+// The force has faded: state and flow go on. What the touch kept is forgotten, unless the next one may keep it, too.
+void Saltation::release(Eigen::MatrixXd& tangents) {
+    tangents.row(2 * n_).setZero();
+    if (probe_.problem().contact.approach_floor.policy == ApproachFloorPolicy::value)
+        tangents.row(2 * n_ + 1).setZero();
+}
+
+}  // namespace beamcam::sim

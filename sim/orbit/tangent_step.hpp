@@ -1,0 +1,57 @@
+// Small differences of neighbouring motions along a motion that is known: within a phase they obey v̇ = D_xF v, a linear
+// equation of oscillators with a forcing that is linear in v. It is solved by the exponential collocation of
+// MODEL.md §12, whose nodal equations are linear here and solved directly, however strong the coupling. MODEL.md §16a.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <vector>
+
+#include "sim/integrate/integrator.hpp"
+#include "sim/integrate/oscillator.hpp"
+#include "sim/orbit/modal_jets.hpp"
+
+namespace beamcam::sim {
+
+class TangentStep {
+  public:
+    // `probe` evaluates the contact along the motion; it, `jets` and `units` (of the rows of tangents) must outlive
+    // this. Errors are kept below rtol of each tangent.
+    TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol);
+
+    // A phase begins, or goes on after an event.
+    void begin(const Phase& phase);
+    // From t0 to t1 inside the segment, in the phase that began. Tangents are columns, their rows in units.
+    void advance(const Segment& motion, double t0, double t1, Eigen::MatrixXd& tangents);
+
+  private:
+    // What the forcing of a component answers to at the nodes: a row for each, columns as the rows of tangents.
+    using NodalDerivative = Eigen::MatrixXd;
+
+    const StepTable& table(int level, double rest);
+    void differentiate(const Segment& motion, double t0, double h);
+    void couple(const StepTable& table);
+    double solve(const StepTable& table, const Eigen::MatrixXd& before, Eigen::MatrixXd& after);
+    double error(double h, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after) const;
+
+    System& probe_;
+    ModalJets& jets_;
+    const Eigen::VectorXd& units_;
+    double rtol_;
+    Phase phase_;
+    int n_, forced_;                       // coordinates; components with a forcing, the bristle among them
+    std::vector<Oscillator> oscillators_;  // of the modes
+    std::vector<OscillatorLanes> groups_;
+    std::vector<StepTable> ladder_;
+    StepTable other_;
+    int flight_level_, touch_level_;
+
+    JetState state_;
+    std::vector<Jet> acceleration_;
+    std::vector<double> y_;
+    NodalDerivative derivative_[kNodes];
+    Eigen::MatrixXd unforced_, matrix_, forcing_, next_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+};
+
+}  // namespace beamcam::sim
