@@ -92,11 +92,13 @@ std::string exponents_json(const sim::Exponents& e) {
                            {"history", "1/s"},
                            {"sum", "1/s"},
                            {"impacts_per_second", "1/s"},
+                           {"slowest_impact", "m/s"},
+                           {"doubt", "1/s"},
                            {"time", "s"},
                            {"history_time", "s"}}},
                          {"exponents", std::move(all)},
                          {"sum", std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0)},
-                         {"chaotic", e.chaotic()},
+                         {"chaotic", e.chaos() == sim::Chaos::doubtful ? OrbitJson(nullptr) : OrbitJson(e.chaotic())},
                          {"settled", e.settled},
                          {"transient", e.transient},
                          {"time", e.duration},
@@ -104,6 +106,7 @@ std::string exponents_json(const sim::Exponents& e) {
                          {"impacts_per_second", static_cast<double>(e.impacts) / e.duration},
                          {"near_grazing", e.near_grazing},
                          {"slowest_impact", e.slowest_impact},
+                         {"doubt", e.doubt},
                          {"history_time", e.time},
                          {"warnings", e.warnings}});
 }

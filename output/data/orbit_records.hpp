@@ -10,7 +10,7 @@
 
 namespace beamcam::output {
 
-// Exponents with their errors, and their convergence; null where one is −∞.
+// Exponents with their errors, and their convergence; null where one is −∞, and "chaotic" where that is doubtful.
 std::string exponents_json(const sim::Exponents& exponents);
 
 // Periodic orbits of a scene, and the branches that were followed from one of them.

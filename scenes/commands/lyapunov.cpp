@@ -21,6 +21,21 @@ struct LyapunovArguments {
     int count = 0, blocks = 20;
 };
 
+const char* verdict(sim::Chaos chaos) {
+    switch (chaos) {
+        case sim::Chaos::shown:
+            return "the largest exponent is positive beyond its error: the motion is chaotic\n";
+        case sim::Chaos::doubtful:
+            return "whether the motion is chaotic is doubtful: the largest exponent is positive beyond its error only "
+                   "by "
+                   "what near-grazing impacts add to it\n";
+        case sim::Chaos::not_shown:
+            return "no chaos is shown: the largest exponent is not positive beyond its error, differences grow by less "
+                   "than e³ in the later half, or the motion had not settled\n";
+    }
+    return "";
+}
+
 std::string report(const sim::Exponents& e) {
     std::string text = fmt::format("Lyapunov exponents over {:g} s after {:g} s; {} impacts, {} near grazing\n",
                                    e.duration, e.transient, e.impacts, e.near_grazing);
@@ -32,11 +47,7 @@ std::string report(const sim::Exponents& e) {
                     : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
     }
     text += fmt::format("  sum  {:16.12g}\n", sum);
-    text += e.chaotic()
-                ? "the largest exponent is positive beyond its error: the motion is chaotic\n"
-                : "no chaos is shown: the largest exponent is not positive beyond its error, differences grow by "
-                  "less than e³ in the later half, or the motion had not settled\n";
-    return text;
+    return text + verdict(e.chaos());
 }
 
 int act(const LyapunovArguments& args) {

@@ -30,7 +30,7 @@ struct OrbitsArguments {
     AnswerFiles files;
     std::optional<std::string> transient, over, scene_file, sweep_file;
     std::optional<double> at;
-    int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000;
+    int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000, row = 0;
     double step = 0.01;
 };
 
@@ -92,7 +92,7 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     std::string text = fmt::format(
         "period {} {} of the cam, {} {}: {}{}\n", orbit.turns, orbit.turns == 1 ? "turn" : "turns",
         orbit.impacts.size(), orbit.impacts.size() == 1 ? "impact" : "impacts", orbit.stable() ? "stable" : "unstable",
-        orbit.chatters()            ? ", rests on the cam for a while"
+        orbit.chatters()          ? ", rests on the cam for a while"
         : orbit.always_touching() ? ", always touching"
                                   : "");
     text += fmt::format("  period {:.12g} s, section at cam angle {:.9g} rad, residual {:.1e}\n", orbit.period,
@@ -159,6 +159,30 @@ SweptImpacts swept_impacts(const std::string& file, const KeyRange& range) {
     return out;
 }
 
+// The scene in the state of a row of a sweep's table: the values of its keys, the cam's angle, θ and θ̇. What else the
+// beam has, its vibration, the transient brings.
+sim::Problem at_row(sim::Problem problem, const std::string& file, int row) {
+    const output::NamedTable table = output::read_table(file);
+    const auto index = static_cast<std::size_t>(row - 1);
+    if (index >= table.rows()) throw UsageError(fmt::format("--row {}: {} has {} rows", row, file, table.rows()));
+    const auto value = [&](const char* name) {
+        const std::vector<double>* column = table.find(name);
+        if (!column || std::isnan((*column)[index]))
+            throw UsageError(fmt::format("--row {}: there is no {} in this row of {}", row, name, file));
+        return (*column)[index];
+    };
+    for (const sim::NumberKey& key : sim::number_keys(problem))
+        if (const std::vector<double>* column = table.find(key.path))
+            problem = ProblemFamily(problem, key.path).at((*column)[index]);
+    if (!problem.cam) throw UsageError("--row: the scene has no cam");
+    constexpr double kAbove = 1e-9;  // [rad] so that a row of impacts begins outside the cam
+    problem.cam->phase = value("cam_angle");
+    problem.initial = {};
+    problem.initial.angle = value("theta") + kAbove;
+    problem.initial.angular_velocity = value("theta_dot");
+    return problem;
+}
+
 bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || is_table(file); }
 
 std::string content(const output::BranchTable& table, const SweptImpacts& swept, const OrbitsArguments& args,
@@ -176,10 +200,10 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scen
             {"beamcam_program", program_identity()}};
 }
 
-// The first that can be continued.
-const sim::PeriodicOrbit* first_smooth(const std::vector<sim::PeriodicOrbit>& orbits) {
+// The first that rests on the cam for a while, or that does not.
+const sim::PeriodicOrbit* first_of(const std::vector<sim::PeriodicOrbit>& orbits, bool resting) {
     for (const sim::PeriodicOrbit& orbit : orbits)
-        if (!orbit.chatters()) return &orbit;
+        if (orbit.chatters() == resting) return &orbit;
     return nullptr;
 }
 
@@ -190,11 +214,28 @@ void begin_elsewhere(output::BranchTable& table, const ProblemFamily& family, co
     for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
         const double value = range.from + share * (range.to - range.from);
         std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family.at(value), request, progress);
-        if (!first_smooth(found)) continue;
+        if (!first_of(found, false)) continue;
         table.start = value;
         table.orbits = std::move(found);
         return;
     }
+}
+
+// Of the first orbit without rest on the cam, and of the first with it.
+void follow_branches(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
+                     const sim::OrbitRequest& request, const OrbitsArguments& args, const sim::Progress& progress) {
+    const sim::ContinuationRequest how{range.from, range.to, args.step, args.most_points, args.doublings};
+    const auto follow = [&](double value, const sim::PeriodicOrbit* orbit) {
+        if (!orbit) return;
+        for (sim::Branch& branch :
+             sim::continue_orbit([&](double v) { return family(v); }, {value, *orbit}, how, progress))
+            table.branches.push_back(std::move(branch));
+    };
+    const double start = table.start;
+    const std::vector<sim::PeriodicOrbit> found = table.orbits;
+    if (!first_of(found, false)) begin_elsewhere(table, family, range, request, progress);
+    follow(table.start, first_of(table.orbits, false));
+    follow(start, first_of(found, true));
 }
 
 std::string in_words(const output::BranchTable& table) {
@@ -242,6 +283,7 @@ void write_scene(const OrbitsArguments& args, const Scene& scene, const std::vec
 
 int act(const OrbitsArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
+    if (args.row > 0 && args.sweep_file) scene.problem = at_row(scene.problem, *args.sweep_file, args.row);
     std::optional<KeyRange> range;
     if (args.over) range = range_argument(*args.over, scene.problem);
     output::Manifest manifest(args.common.force);
@@ -252,9 +294,11 @@ int act(const OrbitsArguments& args) {
     }
     for (const std::string& file : args.files.names)
         if (!range && !is_data_file(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
-    if (args.sweep_file && !range)
-        throw UsageError("--sweep: the points of a sweep stand beneath branches; give --over");
-    const SweptImpacts swept = args.sweep_file ? swept_impacts(*args.sweep_file, *range) : SweptImpacts{};
+    if (args.row > 0 && !args.sweep_file) throw UsageError("--row: give the table by --sweep");
+    if (args.sweep_file && !range && args.row == 0)
+        throw UsageError(
+            "--sweep: the points of a sweep stand beneath branches (give --over), or begin a search (give --row)");
+    const SweptImpacts swept = args.sweep_file && range ? swept_impacts(*args.sweep_file, *range) : SweptImpacts{};
     std::optional<ProblemFamily> family;
     double start = 0;
     if (range) {
@@ -280,11 +324,7 @@ int act(const OrbitsArguments& args) {
         table.key = range->key.path;
         table.unit = si_unit(range->key.dimension);
         table.start = start;
-        if (!first_smooth(table.orbits)) begin_elsewhere(table, *family, *range, request, goes_on);
-        const sim::ContinuationRequest how{range->from, range->to, args.step, args.most_points, args.doublings};
-        if (const sim::PeriodicOrbit* orbit = first_smooth(table.orbits))
-            table.branches = sim::continue_orbit([&](double value) { return (*family)(value); }, {table.start, *orbit},
-                                                 how, goes_on);
+        follow_branches(table, *family, *range, request, args, goes_on);
     }
     progress.end();
 
@@ -296,7 +336,7 @@ int act(const OrbitsArguments& args) {
     if (table.orbits.empty())
         say(args.common, "no periodic orbit was found: try another initial state, --turns, --impacts or --transient");
     else if (range && table.branches.empty())
-        say(args.common, "only orbits that rest on the cam for a while were found; they are not continued");
+        say(args.common, "the orbits that were found could not be followed");
     return 0;
 }
 
@@ -309,7 +349,9 @@ void add_orbits(Grammar& grammar) {
     app.option("-o,--output", &args->files.names, "FILE",
                "Also as .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
     app.option("--over", &args->over, "KEY=FROM:TO",
-               "Continue the orbit over this key of the scene, through folds, for example cam.speed=40:60");
+               "Continue the orbit over this key of the scene, through folds, for example cam.speed=40:60, and one "
+               "beside it that "
+               "rests on the cam for a part of its period");
     app.option("--at", &args->at, "VALUE",
                "Where in that range to begin (default: the scene's own value, or the middle)");
     app.option("--turns", &args->turns, "N", "Only orbits of this period in turns of the cam (default: the fewest)")
@@ -325,6 +367,9 @@ void add_orbits(Grammar& grammar) {
         .range(1, 1000000);
     app.option("--sweep", &args->sweep_file, "FILE",
                "Impacts of a sweep over the same key, .csv or .npz, beneath the branches of the diagram");
+    app.option("--row", &args->row, "K",
+               "Begin in the state of row K of the table of --sweep, with the values of its swept keys")
+        .range(1, 1000000000);
     app.option("--scene", &args->scene_file, "FILE.json",
                "Also a scene that begins on the first orbit, with a film of one period that loops: render it next");
     add_answer_files(app, args->files, args->common);

@@ -16,15 +16,17 @@ constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 
 // The impacts of a branch, one after the other, as far as they are stable or not; pieces meet at the change.
 void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
-    const std::size_t impacts = branch.points.front().orbit.impacts.size();
+    std::size_t impacts = 0;  // before a rest on the cam their number changes along the branch
+    for (const sim::BranchPoint& point : branch.points) impacts = std::max(impacts, point.orbit.impacts.size());
     for (std::size_t k = 0; k < impacts; ++k)
         for (std::size_t i = 0; i < branch.points.size(); ++i) {
             const sim::BranchPoint& point = branch.points[i];
             const bool before = i > 0 && branch.points[i - 1].orbit.stable() == stable;
             const bool here = point.orbit.stable() == stable;
-            if ((!here && !before) || k >= point.orbit.impacts.size()) continue;
-            series.x.push_back(point.parameter);
-            series.y.push_back(point.orbit.impacts[k].approach);
+            if (!here && !before) continue;
+            const bool there = k < point.orbit.impacts.size();
+            series.x.push_back(there ? point.parameter : kGapInCurve);
+            series.y.push_back(there ? point.orbit.impacts[k].approach : kGapInCurve);
             if (here && i + 1 < branch.points.size()) continue;
             series.x.push_back(kGapInCurve);
             series.y.push_back(kGapInCurve);

@@ -22,8 +22,10 @@ constexpr double kRealMultiplier = 1e-9;  // of the imaginary part: rounding
 constexpr double kOnCircle = 1e-7;        // of |μ|² − 1: rounding, as of pairs that never leave the circle
 constexpr double kFirstArc = 0.1;         // of the longest
 constexpr double kAtTip = 1e-6;           // of the beam's length: so near to the tip a branch that stops is at a corner
-constexpr double kMovedSection = 0.01;    // [rad] a section that moves by less stays
-constexpr double kAtRangeEnd = 1e-5;      // of the range; what lies beyond it may be impossible
+// Of the parameter where a part of rest on the cam ends: its last impacts are too slow to be told apart.
+constexpr double kRestUncertainty = 3e-5;
+constexpr double kMovedSection = 0.01;  // [rad] a section that moves by less stays
+constexpr double kAtRangeEnd = 1e-5;    // of the range; what lies beyond it may be impossible
 
 Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
     return p.derivative + sign * Eigen::MatrixXd::Identity(p.derivative.rows(), p.derivative.cols());
@@ -147,7 +149,9 @@ bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& b
                                : std::ranges::any_of(orbit.impacts, at_tip) ? OrbitChange::corner
                                                                             : OrbitChange::grazing;
     const double range = std::fabs(request_.to - request_.from);
-    branch.special.push_back({change, arc_.branch_point(last), step * range});
+    const bool rests = orbit.chatters() || (beyond && beyond->orbit.chatters());
+    const double unsure = rests && !orbit.always_touching() ? kRestUncertainty * std::fabs(arc_.parameter(last.z)) : 0;
+    branch.special.push_back({change, arc_.branch_point(last), std::max(step * range, unsure)});
     end =
         beyond
             ? fmt::format("{}: {} impacts become {}", name(change), orbit.impacts.size(), beyond->orbit.impacts.size())

@@ -57,13 +57,14 @@ Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
 // Orthonormalizes the tangents and keeps the logarithms of how they stretched.                                (S74)
 class Stretching {
   public:
-    Stretching(Eigen::Index count, int blocks, double transient, double duration, double interval)
-        : sum_(Eigen::VectorXd::Zero(count)), block_start_(sum_), transient_(transient) {
+    // `first`: the tangents at the start.
+    Stretching(const Eigen::MatrixXd& first, int blocks, double transient, double duration, double interval)
+        : first_(first), sum_(Eigen::VectorXd::Zero(first.cols())), block_start_(sum_), transient_(transient) {
         const auto pieces = [&](double span) { return std::max(1.0, std::ceil(span / interval)); };
         per_block_ = static_cast<long>(pieces(duration / blocks));
         step_ = duration / static_cast<double>(per_block_ * blocks);
         settling_ = transient > 0 ? static_cast<long>(pieces(transient)) : 0;
-        block_ = Eigen::MatrixXd::Zero(count, blocks);
+        block_ = Eigen::MatrixXd::Zero(first.cols(), blocks);
         thinning_ = std::max<long>(1, per_block_ * blocks / static_cast<long>(kHistory));
     }
     double first_pause() const { return instant(1); }
@@ -71,9 +72,12 @@ class Stretching {
     double at(double t, TangentIntegrator& integrator) {
         Eigen::MatrixXd v = integrator.tangents(true);
         const Eigen::VectorXd left = orthonormalize(v, integrator.holds() > 0 ? kNoRank : 0);
-        integrator.set_tangents(v, true);
         if (done_ >= settling_) sum_.array() += left.array().log();
-        if (t >= instant(done_ + 1)) advance();
+        if (t >= instant(done_ + 1)) {
+            advance();
+            if (done_ == settling_) begin_anew(v, left, integrator);
+        }
+        integrator.set_tangents(v, true);
         return instant(done_ + 1);
     }
 
@@ -128,6 +132,19 @@ class Stretching {
         block_start_ = sum_;
     }
 
+    // Tangents that rest on the cam has annihilated during the transient are of no use to the average.
+    void begin_anew(Eigen::MatrixXd& v, const Eigen::VectorXd& left, TangentIntegrator& integrator) const {
+        if ((left.array() > 0).all()) return;
+        for (Eigen::Index i = 0; i < v.cols(); ++i)
+            if (left[i] == 0) v.col(i) = first_.col(i);
+        orthonormalize(v);
+        integrator.set_tangents(v, true);
+        integrator.keep_on_cam();
+        v = integrator.tangents(true);
+        orthonormalize(v, kNoRank);
+    }
+
+    Eigen::MatrixXd first_;
     Eigen::VectorXd sum_, block_start_;
     Eigen::MatrixXd block_;
     double transient_, step_;
@@ -202,7 +219,8 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
         const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
         auto made =
             std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol, v);
-        stretching.emplace(v.cols(), request.blocks, request.transient, request.duration, longest_interval(problem));
+        stretching.emplace(made->tangents(), request.blocks, request.transient, request.duration,
+                           longest_interval(problem));
         tangents = made.get();
         made->pause_at(stretching->first_pause(), [&](double t) { return stretching->at(t, *tangents); });
         return made;

@@ -17,7 +17,7 @@ constexpr double kOrbitConverged = 1e-11, kOrbitAcceptable = 1e-8;
 constexpr double kLongestStep = 0.5;  // of the size, in one iteration
 constexpr double kReturn = 0.2;       // of the size: a state so near after some turns is worth a Newton iteration
 
-constexpr int kThrows = 24;         // cam angles from which the beam is thrown
+constexpr int kThrows = 24;         // cam angles from which the beam is thrown; as many between them if that is no use
 constexpr double kRise = 0.4;       // of the period: the thrown beam is in flight there
 constexpr double kAboveCam = 1e-6;  // [rad] so that the throw does not begin with a touch
 constexpr double kSame = 1e-6;      // of the speed of an impact: orbits nearer than that are one
@@ -150,8 +150,8 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
     OrbitRequest one = request;
     one.turns = std::max(1, request.turns);
     const double period = cam_period(problem) * one.turns;
-    for (int i = 0; i < kThrows; ++i) {
-        const double section = 2 * std::numbers::pi * i / kThrows;
+    for (int i = 0; i < 2 * kThrows && (i < kThrows || found.empty()); ++i) {
+        const double section = 2 * std::numbers::pi * (i + (i < kThrows ? 0 : 0.5)) / kThrows;
         try {
             const auto place = thrown(problem, section, period, size, progress);
             auto orbit = place ? orbit_through(problem, *place, one, progress) : std::nullopt;

@@ -47,6 +47,11 @@ class TangentIntegrator final : public Integrator {
     Eigen::MatrixXd tangents(bool canonical = false) const;
     void set_tangents(const Eigen::MatrixXd& tangents, bool canonical = false);
 
+    // Takes out of them what would leave the cam, where the beam rests on it.
+    void keep_on_cam() {
+        if (phase_.held) saltation_.start_on_cam(t_, y_.data(), phase_, tangents_);
+    }
+
     double inertia_share() const;  // there (S73)
 
     // Of the rows [1/s-like magnitudes: √J Ω, √m ω_i; √J, √m; …].

@@ -98,6 +98,15 @@ TEST(Exponents_, SustainedContactForgetsAtOnce) {
     EXPECT_FALSE(e.warnings.empty());
 }
 
+// A rest on the cam during the transient makes all neighbours one; the orbit that follows has its own exponents.
+TEST(Exponents_, RestDuringTheTransientIsForgotten) {
+    const PressedBeam b{0.002, 0.85};
+    const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, 20, 100, 10});
+    EXPECT_TRUE(std::isfinite(e.lambda[0]));
+    const double expected = 2 * static_cast<double>(e.impacts) / e.duration * std::log(b.restitution);
+    EXPECT_NEAR(sum(e), expected, 0.01 * std::fabs(expected));
+}
+
 // The slowest of the impacts at the end of a chatter are no base for a linearization.
 TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
     const Exponents regular = lyapunov_exponents(PressedBeam().on_orbit(45), {1, 5, 20, 5});

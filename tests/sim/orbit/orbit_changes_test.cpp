@@ -161,7 +161,7 @@ TEST(OrbitChanges, RestOnTheCamEndsWhereTheBouncesNoLongerDieOutInTime) {
     const auto released = all_of(branches.front(), OrbitChange::release);
     ASSERT_EQ(released.size(), 1u);
     // Where the pull vanishes with the bounces, it is not steady enough to sum them up: the last ones are left out.
-    EXPECT_NEAR(released.front()->at.parameter, expected, 5e-5 * expected);
+    EXPECT_NEAR(released.front()->at.parameter, expected, released.front()->uncertainty);
 }
 
 // A bending mode that keeps in step with the bounces of a beam with a heavy hub takes energy from them and gives it
