@@ -67,12 +67,6 @@ bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
     return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&
            a.start.phase.touching == b.start.phase.touching;
 }
-bool same_side_of_tip(const PeriodicOrbit& a, const PeriodicOrbit& b) {
-    for (std::size_t i = 0; i < std::min(a.impacts.size(), b.impacts.size()); ++i)
-        if ((a.impacts[i].overhang > 0) != (b.impacts[i].overhang > 0)) return false;
-    return true;
-}
-
 class Continuation {
   public:
     Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
@@ -139,7 +133,8 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
 bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
                           std::string& end) const {
     const PeriodicOrbit& orbit = last.orbit;
-    if (beyond && same_pattern(orbit, beyond->orbit) && !same_side_of_tip(orbit, beyond->orbit)) {
+    // The direction alone jumps: at a corner, or by rounding where impacts die out.
+    if (beyond && same_pattern(orbit, beyond->orbit)) {
         find_changes(last, *beyond, branch);
         return true;
     }

@@ -98,6 +98,51 @@ TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --sweep r.csv").code, 2);
 }
 
+// From a height the motion comes to rest on the cam for a part of each turn.
+const std::string kFallsToRest = "--set initial.angle=45deg --set cam.phase=0 ";
+
+// The scene's own motion rests on the cam; a sweep of the orbit beside it begins the search there.
+TEST(OrbitsCommand, BeginsInTheStateOfARowOfASweep) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const std::string search = "$BEAMCAM orbits s.json -q --json " + kFallsToRest;
+    const auto first = [&](const std::string& options) {
+        const Finished done = shell(folder, search + options);
+        EXPECT_EQ(done.code, 0) << done.err;
+        return nlohmann::json::parse(done.out)["orbits"][0];
+    };
+    EXPECT_TRUE(first("--transient 10")["chatters"]);
+    EXPECT_FALSE(first("--impacts 1 --transient 0 --scene loop.json")["chatters"]);
+    ASSERT_EQ(
+        shell(folder, "$BEAMCAM sweep loop.json --over cam.speed=45:46:2 --transient 40 --keep 4 -q -o r.csv").code, 0);
+    const nlohmann::json found = first("--transient 10 --sweep r.csv --row 6");  // of 46 rad/s
+    EXPECT_FALSE(found["chatters"]);
+    EXPECT_EQ(found["impacts"], 1);
+    EXPECT_NEAR(found["duration"], 2 * std::numbers::pi / 46, 1e-12);
+    const output::NamedTable rows = output::read_table(folder / "r.csv");
+    EXPECT_NEAR(found["touches"][0]["approach"], -(*rows.find("v_n_before"))[5], 1e-6);
+    EXPECT_EQ(shell(folder, search + "--sweep r.csv --row 1000").code, 2);
+    EXPECT_EQ(shell(folder, search + "--row 1").code, 2);
+}
+
+TEST(OrbitsCommand, FollowsAMotionThatRestsOnTheCamBesideOneThatDoesNot) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:54 --transient 20 -q --json " + kFallsToRest);
+    ASSERT_EQ(done.code, 0) << done.err;
+    const nlohmann::json table = nlohmann::json::parse(done.out);
+    ASSERT_EQ(table["branches"].size(), 2u);
+    double released = 0, doubled = 0;
+    for (const auto& event : table["events"]) {
+        if (event["kind"] == "release") released = event["value"];
+        if (event["kind"] == "period-doubling") doubled = event["value"];
+        EXPECT_EQ(event["branch"], event["kind"] == "release" ? 1 : 0);
+    }
+    EXPECT_NEAR(released, 52.317, 2e-3);
+    EXPECT_NEAR(doubled, 50.86885, 1e-4);
+}
+
 // Below the fold there is no orbit to begin with.
 TEST(OrbitsCommand, BeginsElsewhereInTheRangeWhereTheSceneHasNoOrbit) {
     const Folder folder;
@@ -179,6 +224,8 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     EXPECT_NEAR(found["sum"],
                 found["exponents"][0]["value"].get<double>() + found["exponents"][1]["value"].get<double>(), 1e-12);
     EXPECT_EQ(found["time"], 5);
+    EXPECT_TRUE(found["chaotic"].is_boolean());
+    EXPECT_GE(found["doubt"], 0);
     EXPECT_THAT(testing::slurp((folder / "l.svg").string()), HasSubstr("<svg"));
     EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
 }
