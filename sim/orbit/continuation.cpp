@@ -67,6 +67,7 @@ bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
     return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&
            a.start.phase.touching == b.start.phase.touching;
 }
+
 class Continuation {
   public:
     Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
