@@ -148,8 +148,13 @@ std::string starts_words(const SweptPoints& points) {
 std::string caption_words(const SweptPoints& points) {
     const bool en = points.lang == Lang::en;
     std::map<AttractorClass, std::uint64_t> kinds;
-    for (std::uint64_t k = 0; k < points.data.points(); ++k)
-        if (points.data.has(k)) ++kinds[kind_of(points.data.read(k))];
+    int longest = 0;  // period
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+        if (!points.data.has(k)) continue;
+        const output::StoredPoint p = points.data.read(k);
+        ++kinds[kind_of(p)];
+        longest = std::max(longest, p.period);
+    }
     const sim::Sampling& s = points.scene.sweep->sampling;
     std::string text = axes_words(points);
     text += filled(en ? "samples: {}; transient {}, then {} kept; starts: {}. Points: "
@@ -167,6 +172,10 @@ std::string caption_words(const SweptPoints& points) {
     if (kinds.contains(AttractorClass::chaotic))
         text += en ? "Where the motion is chaotic a point is a statistic of its start, transient and periods. "
                    : "混沌处的点是其初值、过渡与周期数的统计。";
+    if (!s.keep.time && longest > s.keep.turns)
+        text += filled(en ? "Of periods longer than the kept turns, up to {}, only a part is sampled. "
+                          : "周期长于保留转数（最长 {} 转）时只取其一部分。",
+                       longest);
     Varied varied;
     varied.cam_speed =
         std::ranges::find(points.data.axes, "cam.speed", &output::SweepAxis::name) != points.data.axes.end();
@@ -175,9 +184,14 @@ std::string caption_words(const SweptPoints& points) {
 }
 
 std::string tolerance_words(const SweptPoints& points) {
-    return filled(points.lang == Lang::en ? "Relative tolerance {} (a rigid beam with impulsive contact: rounding)."
-                                          : "相对容差 {}（刚性梁冲量接触：舍入误差）。",
-                  one_digit(points.scene.problem.solver.rtol));
+    const bool en = points.lang == Lang::en;
+    const sim::Problem& problem = points.scene.problem;
+    const bool closed =
+        problem.beam.model == sim::ModelKind::rigid && problem.contact.model == sim::ContactModel::restitution;
+    return filled(en ? "Relative tolerance {}{}." : "相对容差 {}{}。", one_digit(problem.solver.rtol),
+                  !closed ? ""
+                  : en    ? ", or rounding where the rigid beam is followed in closed form"
+                          : "，刚性梁以闭式求解时为舍入误差");
 }
 
 // ---- panels -------------------------------------------------------------------------------------
@@ -242,7 +256,7 @@ bool all_empty(const std::vector<figure::Cloud>& clouds) {
 }
 
 const char* exponent_words(Lang lang) {
-    return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite. "
+    return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite."
                             : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
 }
 
@@ -330,13 +344,14 @@ std::string map_label(const SweptPoints& points, const std::string& value) {
 }
 
 void color_by_class(const SweptPoints& points, const std::vector<output::StoredPoint>& entries, figure::Panel& panel) {
-    std::map<std::string, Color> swatches;
+    std::map<std::pair<int, std::size_t>, figure::Swatch> swatches;  // in the order of classes, then of periods
     for (const output::StoredPoint& p : entries) {
         const figure::Swatch entry = map_entry(p, points.lang);
         panel.cells[0].colors[p.point] = entry.color;
-        swatches.emplace(entry.label, entry.color);
+        const auto period = static_cast<std::size_t>(std::max(p.period, 0));
+        swatches.emplace(std::pair(p.kind, std::min(period, std::size(kPeriodColors))), entry);
     }
-    for (const auto& [label, color] : swatches) panel.swatches.push_back({label, color});
+    for (const auto& [order, entry] : swatches) panel.swatches.push_back(entry);
     panel.legend = figure::Legend::box;
 }
 
@@ -366,9 +381,9 @@ std::string white_words(const SweptPoints& points, const std::string& value) {
     const bool en = points.lang == Lang::en;
     if (value == "class") return "";
     if (value == "exponent")
-        return en ? "White: the exponent is not known, or −∞ where lasting contact forgets every difference. "
+        return en ? "White: the exponent is not known, or −∞ where lasting contact forgets every difference."
                   : "白色：指数未知，或持续接触使一切差异消失（−∞）。";
-    return en ? "White: no sample. " : "白色：无样本。";
+    return en ? "White: no sample." : "白色：无样本。";
 }
 
 figure::Figure two_key_map(const SweptPoints& points, const std::string& value) {

@@ -295,6 +295,8 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
     for (const RandomKey& key : sweep.seeds.keys) need_key("seed.key", key.key);
     if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
         all.push_back({"seed.key", "only random starts have random keys"});
+    const sim::CamSpan& keep = sweep.sampling.keep;
+    if (!(keep.time.value_or(keep.turns) > 0)) all.push_back({"keep", "at least one turn of the cam must be kept"});
     if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section))
         all.push_back({"sample", "there is no cam"});
     return all;

@@ -61,7 +61,7 @@ std::string SweepRun::summary() const {
         ++count;
         if (!point.failure.empty() && failed++ == 0) why = point.failure;
     }
-    std::string text = fmt::format("{} points in {:.1f} s:", count, seconds_);
+    std::string text = fmt::format("{} points in {:.1f} s{}", count, seconds_, count > 0 ? ":" : "");
     for (const auto& [kind, n] : kinds)
         text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
                             name(static_cast<sim::AttractorClass>(kind)));

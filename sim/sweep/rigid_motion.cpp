@@ -20,6 +20,7 @@ constexpr double kShortestAdvance = 1e-15;  // [s]
 constexpr double kInstant = 1e-16;          // of the cam's turn: the touch is known no better
 constexpr long kWarmUp =
     20;  // turns before the samples in which the difference turns into the direction that grows most
+constexpr double kFarFromAway = 1.5;  // [rad] from the cam's axis; a little less than π/2
 constexpr long kStretchesPerReport = 4096;
 constexpr double kLargestDifference = 1e50;  // and the smallest is its inverse: far from overflow
 
@@ -78,6 +79,7 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       series_(mirrored_.k, mirrored_.alpha),
       reach_(problem.cam->radius),
       floor_(problem.contact.approach_floor.value),
+      centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
       section_phase_(section_phase(problem, sampling.level)) {
     motion_.accuracy = kAccuracy;
     begin(start_);
@@ -139,10 +141,22 @@ void RigidMotion::fly() {
 
 // The beam points away from the cam at an end of the stretch, or where it turns back.                       (S80)
 bool RigidMotion::leaves(double dt) const {
+    // Within a stretch θ moves by less than |θ̇|t + (|k| + |α|)t²/2: mostly the beam stays far from pointing away.
+    const double moves =
+        (std::fabs(swing_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
+    if (std::fabs(swing_.theta - centre_direction_) + moves < kFarFromAway) return false;
     const auto away = [&](double t) { return points_away(problem_, mirrored_.side * series_.theta(t)); };
     const auto rate = [&](double t) { return series_.rate(t); };
     const double first = rate(0), last = rate(dt);
     return away(0) || away(dt) || (first * last < 0 && away(find_root(rate, 0, dt, first, last)));
+}
+
+SurfaceAngle RigidMotion::surface_at(double s) {
+    if (s != seen_at_) {
+        seen_at_ = s;
+        seen_ = surface_.at(s);
+    }
+    return seen_;
 }
 
 // By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and
@@ -152,7 +166,7 @@ std::optional<double> RigidMotion::first_touch(double h) {
     const double least = std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration();
     double t = std::max(0.0, clear_until_ - s_);
     while (t < h) {
-        const SurfaceAngle c = surface_.at(s_ + t);
+        const SurfaceAngle c = surface_at(s_ + t);
         double g = series_.theta(t) - c.angle;
         const double v = series_.rate(t) - surface_.rate(c);
         if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpening)) g = std::max(g, 0.0);
@@ -174,7 +188,7 @@ std::optional<double> RigidMotion::first_touch(double h) {
 double RigidMotion::falling(double t, double latest, double h) {
     double low = t, high = std::min(latest, h);
     for (int i = 0; i < 60; ++i) {
-        const SurfaceAngle c = surface_.at(s_ + t);
+        const SurfaceAngle c = surface_at(s_ + t);
         const double g = series_.theta(t) - c.angle, v = series_.rate(t) - surface_.rate(c);
         if (std::fabs(g) <= kAngleRounding) return t;
         (g > 0 ? low : high) = t;
@@ -193,7 +207,7 @@ double RigidMotion::falling(double t, double latest, double h) {
 }
 
 void RigidMotion::strike() {
-    const SurfaceAngle c = surface_.at(s_);
+    const SurfaceAngle c = surface_at(s_);
     const double w = swing_.rate - surface_.rate(c), approach = -c.lever * w;
     const double rebound = problem_.contact.restitution * approach, pull = c.lever * surface_.push(c);
     swing_.theta = c.angle;

@@ -44,6 +44,7 @@ class RigidMotion {
     void begin(const InitialState& start);
     void fly();
     void lie();
+    SurfaceAngle surface_at(double s);  // asked for the same place twice in a row, it answers once
     std::optional<double> first_touch(double h);
     double falling(double t, double latest, double h);
     bool leaves(double dt) const;
@@ -72,6 +73,9 @@ class RigidMotion {
     CamSurface surface_;
     SwingSeries series_;
     double reach_, floor_;
+    double centre_direction_;  // from the hub to the cam's axis, on the side of `mirrored_` [rad]
+    double seen_at_ = kNan;
+    SurfaceAngle seen_;
 
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]

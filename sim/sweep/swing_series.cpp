@@ -58,12 +58,14 @@ void SwingSeries::expand(const Swing& from, bool difference) {
 }
 
 double SwingSeries::theta(double dt) const {
+    if (dt == 0) return a_[0];
     double sum = a_[kOrder];
     for (int j = kOrder - 1; j >= 0; --j) sum = sum * dt + a_[j];
     return sum;
 }
 
 double SwingSeries::rate(double dt) const {
+    if (dt == 0) return a_[1];
     double sum = kOrder * a_[kOrder];
     for (int j = kOrder - 1; j >= 1; --j) sum = sum * dt + j * a_[j];
     return sum;

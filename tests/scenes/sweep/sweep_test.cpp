@@ -202,6 +202,8 @@ TEST(SweepCommand, RefusesInWords) {
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},
           {"--transient -1", 2, "turns of the cam"},
+          {"--keep 0", 2, "at least one turn"},
+          {"--keep '0 s'", 2, "at least one turn"},
           {"--transient 1e19", 2, "up to 1e+09"},
           {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
