@@ -136,7 +136,7 @@ bool needs_contact(ChannelKind kind) {
 
 ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
     : evaluator_(system),
-      probe_(evaluator_.system()),
+      probe_(evaluator_.system(), true),
       modal_channels_(evaluator_.system()),
       channels_(std::move(channels)),
       y_(static_cast<std::size_t>(system.size)),
