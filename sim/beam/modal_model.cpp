@@ -157,24 +157,26 @@ void ModalModel::state_changed() {
         turn_ += hub_row_[i] * xi_[i];
         turn_rate_ += hub_row_[i] * rate_[i];
     }
-    local_.shortened = false;
+    local_.shortened = root_.shortened = tip_.shortened = false;
 }
 
 const ModalModel::Local& ModalModel::at(double x) const {
-    if (local_.x != x) {
-        tables_->shapes.evaluate(x, local_.y, local_.y1, local_.y2, local_.y3);
-        local_.x = x;
-        local_.shortened = false;
+    Local& here = x == 0 ? root_ : x == length_ ? tip_ : local_;
+    if (here.x != x) {
+        tables_->shapes.evaluate(x, here.y, here.y1, here.y2, here.y3);
+        here.x = x;
+        here.shortened = false;
     }
-    if (tables_->foreshortening && !local_.shortened) shorten(local_);
-    return local_;
+    if (tables_->foreshortening && !here.shortened) shorten(here);
+    return here;
 }
 
 void ModalModel::shorten(Local& here) const {
+    here.shortened = true;
+    if (here.x == 0) return;  // by nothing
     antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, xi_ + 1, here.shortening);
     for (int j = 0; j < modes_; ++j)
         for (int i = 0; i < modes_; ++i) here.shortening[i] -= tables_->root(i, j) * xi_[1 + j];
-    here.shortened = true;
 }
 
 // first-order (S14), zeroth-order: D = G = 0, paper (S15):

@@ -56,8 +56,8 @@ class ModalModel final : public Model {
     struct Local {
         double x = -1;
         double y[kMaxModes], y1[kMaxModes], y2[kMaxModes], y3[kMaxModes];
-        bool shortened = false;        // `shortening` belongs to the set state
-        double shortening[kMaxModes];  // H(x) q, H = ∫₀ˣφ′φ′ᵀ
+        bool shortened = false;             // `shortening` belongs to the set state
+        double shortening[kMaxModes] = {};  // H(x) q, H = ∫₀ˣφ′φ′ᵀ
     };
     void state_changed() override;
     const Local& at(double x) const;
@@ -67,10 +67,10 @@ class ModalModel final : public Model {
     std::shared_ptr<const Tables> tables_;
     bool coupled_;  // U ≠ 0
     double sin_ = 0, cos_ = 1;
-    double inertia_ = 1;               // J + qᵀ(M − D)q
-    double turn_ = 0, turn_rate_ = 0;  // α, α̇ of the hub inside the frame
-    mutable Eigen::VectorXd bq_, gq_;  // scratch
-    mutable Local local_;
+    double inertia_ = 1;                // J + qᵀ(M − D)q
+    double turn_ = 0, turn_rate_ = 0;   // α, α̇ of the hub inside the frame
+    mutable Eigen::VectorXd bq_, gq_;   // scratch
+    mutable Local local_, root_, tip_;  // where it was asked for last, and the ends
 };
 
 }  // namespace beamcam::sim

@@ -266,6 +266,17 @@ void System::acceleration(double t, const double* y, double* acc) {
     std::copy_n(dy + n_, n_, acc);
 }
 
+void System::acceleration_placed(double t, const ContactState& c, double* acc) {
+    require_inertia(acc);
+    add_torque(t, acc);
+    if (phase_.touching) {
+        double jn[kMaxSize], jt[kMaxSize];
+        contact_rows(c, jn, jt);
+        for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];
+    }
+    accelerate(t, acc);
+}
+
 System::EnergyBalance System::mechanical_balance(double t, const double* y) {
     place(t, y);
     const double* ledger = y + controlled;

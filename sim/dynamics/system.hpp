@@ -97,6 +97,8 @@ class System final : public Ode {
     EnergyBalance energy_balance(double t, const double* y, double gap);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
+    // The same after `place`, in flight or with the forces of the contact that is known.
+    void acceleration_placed(double t, const ContactState& c, double* acc);
 
     double highest_frequency() const { return highest_frequency_; }
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]

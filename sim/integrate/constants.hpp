@@ -26,8 +26,9 @@ inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficien
 inline constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay
 
 // ---- iterations ----
-inline constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
-inline constexpr int kMostNewton = 25;  // in contact, where the first sweeps find the nodes that touch
+inline constexpr int kMostSweeps = 12;         // in flight: at a contraction of a half a step half as long is cheaper
+inline constexpr int kMostNewton = 25;         // in contact, where the first sweeps find the nodes that touch
+inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a contraction by less is strong coupling
 // Changes that no longer fall are rounding once they are below this share of the largest; in contact the stiff force
 // amplifies it tenfold. Otherwise the iteration diverges: by growth, which in contact the first sweeps may show.
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
@@ -49,9 +50,9 @@ inline constexpr double kResolvedTurn = 2;  // [rad] of a mode between two insta
 // Above this damping ratio explicit steps are limited by stability; use BDF. Its errors add up: it is given a share of
 // the tolerance.
 inline constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
-// [rad] of the fastest vibration in a step of flight whose coupling only the right-hand side tells: it is evaluated
-// some fifty times, Runge and Kutta's a dozen times for one radian.
-inline constexpr double kLeastTurns = 0.1;
+// [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
+// ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.
+inline constexpr double kLeastTurns = 0.5;
 inline constexpr long kFirstRetry = 32;  // steps of the other method, before the next try: twice as many each time
 // [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
 // shorter than this share of the way to its deepest point, is handed over.

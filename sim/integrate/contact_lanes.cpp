@@ -71,6 +71,16 @@ ContactExpansion::ContactExpansion(System& system)
 void ContactExpansion::centre(double x) {
     BEAMCAM_ASSERT(x >= 0 && x <= length_);
     if (x_ >= 0 && std::fabs(x - x_) < kKept * range_) return;
+    expand(x);
+}
+
+void ContactExpansion::centre_near(double x) {
+    if (exact()) return expand(x);  // its range changes from place to place
+    const double pitch = 2 * kKept * range_, place = std::min(length_, pitch * std::round(x / pitch));
+    if (place != x_) expand(place);
+}
+
+void ContactExpansion::expand(double x) {
     x_ = x;
     if (n_ == 0) return;
     double* y = y_.data();

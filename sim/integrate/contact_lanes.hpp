@@ -61,6 +61,8 @@ class ContactExpansion {
 
     // Expands about x unless the present expansion serves there too.
     void centre(double x);
+    // The same about the nearest of places that are told by x alone: what was expanded before does not matter.
+    void centre_near(double x);
     // The next expansion is made anew, as the first was.
     void forget() { x_ = -1; }
     double at() const { return x_; }
@@ -95,6 +97,7 @@ class ContactExpansion {
     // `exact`: r at the centre, its rate, and ∂r/∂q.
     template <class T>
     void integrate(const T* q, const T* v, Point<T>& at, T* rows) const;
+    void expand(double x);
     void centre_exact(double x);
 
     std::shared_ptr<const ModalModel> model_;  // of the shapes; null for `exact`

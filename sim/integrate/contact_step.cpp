@@ -100,7 +100,8 @@ double ContactStep::solve(const StepTable& table) {
     guess(table);
     FixedPoint iteration(kContactRounding, kContactGrowth, kContactPatience);
     auto status = FixedPoint::Status::going;
-    for (int sweep = 0; sweep < kMostNewton && status == FixedPoint::Status::going; ++sweep) {
+    const int most = form_.by_arrays() ? kMostNewton : kMostNewtonCoupled;
+    for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
         status = iteration.add(step_.update_forcing(table, &load));
     }

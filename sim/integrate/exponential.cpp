@@ -258,6 +258,10 @@ class Exponential final : public Integrator {
                 }
                 if (std::isfinite(error)) length = segment().h;
             }
+            if (!std::isfinite(error) && too_short(table.h)) {
+                touch_level_ = kFirstTouchLevel;
+                return false;
+            }
             ++counters.rejected;
             while (touch_level_ > kLowestLevel && step_length(touch_level_) > length) --touch_level_;
             touch_level_ -= levels_down(error, kTouchOrder, 3);

@@ -71,6 +71,9 @@ class StoredExponential final : public StoredSegment {
         segment_.load(begin, end, numbers);
     }
     void value(double t, double* y) const override { segment_.value(t, y); }
+    double coordinate(double t, std::size_t index, double* y) const override {
+        return segment_.coordinate(t, index, y);
+    }
     const MotionBounds* bounds() const override { return segment_.bounds(); }
     const ModalBounds* modal_bounds() const override { return segment_.modal_bounds(); }
     double balance_error() const override { return segment_.balance_error(); }
@@ -112,10 +115,12 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
 
 double ExponentialSegment::spin_at(double p, const double* x) const {
     double quadratic = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-        double row = 0;
-        for (std::size_t j = 0; j < n_; ++j) row += form_->inertia[i * n_ + j] * x[j];
-        quadratic += row * x[i];
+    for (std::size_t g = 0; g < form_->inertia_rows.size(); g += n_) {
+        Lanes rows{};
+        for (std::size_t j = 0; j < n_; ++j) rows += x[j] * form_->inertia_rows[g + j];
+        const std::size_t first = g / n_ * kNodes;
+        for (std::size_t i = first; i < std::min(n_, first + kNodes); ++i)
+            quadratic += rows[static_cast<int>(i - first)] * x[i];
     }
     return p / (form_->J + quadratic);
 }
@@ -146,23 +151,41 @@ void ExponentialSegment::expand(int at) const {
     }
 }
 
+// About the nearest node before t0 + sh; returns how long it lies back.
+double ExponentialSegment::expand_before(double s) const {
+    const Collocation& gauss = Collocation::get();
+    int at = 0;
+    while (at < kNodes && gauss.point[static_cast<std::size_t>(at) + 1] <= s) ++at;
+    expand(at);
+    return (s - gauss.point[static_cast<std::size_t>(at)]) * h;
+}
+
+void ExponentialSegment::evolve(std::size_t g, double tau, Lanes& x, Lanes& rate) const {
+    Lanes r[kResponse];
+    const OscillatorLanes& group = form_->groups[g];
+    respond(group, tau, r);
+    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, rate);
+}
+
+double ExponentialSegment::coordinate(double t, std::size_t index, double* y) const {
+    if (!form_->by_arrays() || index == 0 || t == t1) return Segment::coordinate(t, index, y);
+    const std::size_t mode = index - 1;
+    Lanes x, rate;
+    evolve(mode / kNodes, expand_before((t - t0) / h), x, rate);
+    return x[static_cast<int>(mode % kNodes)];
+}
+
 void ExponentialSegment::value(double t, double* y) const {
     if (t == t1) {
         std::copy(end.begin(), end.end(), y);
         return;
     }
     const Collocation& gauss = Collocation::get();
-    const double s = (t - t0) / h;
-    int at = 0;
-    while (at < kNodes && gauss.point[static_cast<std::size_t>(at) + 1] <= s) ++at;
-    expand(at);
-    const double tau = (s - gauss.point[static_cast<std::size_t>(at)]) * h;
+    const double s = (t - t0) / h, tau = expand_before(s);
     double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < begin_q_.size(); ++g) {
-        Lanes r[kResponse], x, dx;
-        const OscillatorLanes& group = form_->groups[g];
-        respond(group, tau, r);
-        lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, dx);
+        Lanes x, dx;
+        evolve(g, tau, x, dx);
         for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
             y[1 + i] = x[static_cast<int>(i % kNodes)];
             rates[1 + i] = dx[static_cast<int>(i % kNodes)];

@@ -18,6 +18,7 @@ class ExponentialSegment final : public Segment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
+    double coordinate(double t, std::size_t index, double* y) const override;
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
     double balance_error() const override;
@@ -62,6 +63,8 @@ class ExponentialSegment final : public Segment {
     template <class Visit>
     void each_number(Visit&& visit);
     void expand(int point) const;
+    double expand_before(double s) const;
+    void evolve(std::size_t group, double tau, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;
     double work_on_vibration(std::size_t mode, const double* g, double s, const double* y) const;

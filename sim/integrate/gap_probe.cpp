@@ -12,7 +12,7 @@ constexpr double kSettled = 3e-3;  // of the length: corrections that move the f
 
 }  // namespace
 
-GapProbe::GapProbe(System& system) : system_(system) {
+GapProbe::GapProbe(System& system, bool apart) : system_(system), apart_(apart) {
     if (!system.has_cam()) return;
     expansion_ = std::make_unique<ContactExpansion>(system);
     hq_.resize(expansion_->scratch());
@@ -20,7 +20,7 @@ GapProbe::GapProbe(System& system) : system_(system) {
 
 void GapProbe::forget() {
     x_ = -1;
-    if (expansion_) expansion_->forget();
+    if (expansion_ && !apart_) expansion_->forget();
 }
 
 ContactState GapProbe::evaluate(double t, const double* y, bool search) {
@@ -53,7 +53,10 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
     ContactKinematics<double> touch;
     for (int i = 0; i < kMostCentres; ++i) {
         if (!(x_ > 0 && x_ < length)) break;
-        expansion_->centre(x_);
+        if (apart_)
+            expansion_->centre_near(x_);
+        else
+            expansion_->centre(x_);
         touch.dx = x_ - expansion_->at();
         const double guess = x_;
         expansion_->evaluate(y + 1, y + n + 1, frame, system_.phase().gap_offset, hq_.data(), touch, kFootCorrections);

@@ -12,7 +12,8 @@ namespace beamcam::sim {
 
 class GapProbe {
   public:
-    explicit GapProbe(System& system);  // the system outlives the probe
+    // The system outlives the probe. `apart`: looks follow each other by no order.
+    explicit GapProbe(System& system, bool apart = false);
 
     // Gap, its rate, x and the normal of the contact as System::contact has them, to rounding; nothing else is filled
     // in. `search`: where the foot is, is not known from the look before.
@@ -24,6 +25,7 @@ class GapProbe {
     bool expanded(double t, const double* y, bool search, ContactState& c);
 
     System& system_;
+    bool apart_;
     std::unique_ptr<ContactExpansion> expansion_;  // null: all looks are the system's
     std::vector<double> hq_;
     double x_ = -1;

@@ -54,6 +54,11 @@ class Segment {
     virtual ~Segment() = default;
     // All components at t in [t0, t1].
     virtual void value(double t, double* y) const = 0;
+    // One of the first `coordinates` of them, `y` for scratch: the same bits.
+    virtual double coordinate(double t, std::size_t index, double* y) const {
+        value(t, y);
+        return y[index];
+    }
     // Appends the numbers that `value` goes by, besides t0 and t1, to `out`; `none`: they are not at hand.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Steps that may span many periods of vibration tell how far they can be trusted between looks; null for

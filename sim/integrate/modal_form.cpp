@@ -91,6 +91,11 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
             form->slope_norm.push_back(std::sqrt(h[static_cast<std::size_t>(i) * static_cast<std::size_t>(n + 1)]));
     }
     copy_rows(model->inertia_matrix(), 1, form->inertia);
+    form->inertia_rows.resize(static_cast<std::size_t>((n + kNodes - 1) / kNodes * n));
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            form->inertia_rows[static_cast<std::size_t>(i / kNodes * n + j)][i % kNodes] =
+                form->inertia[static_cast<std::size_t>(i * n + j)];
     form->inertia_root = bounding_vector(model->inertia_matrix(), m.M.diagonal() + m.D.diagonal().cwiseAbs());
     if (form->paper) {
         copy_rows(m.M + form->radius * m.P1 + 0.5 * m.P2, 1 / form->mass, form->spinning);
@@ -155,7 +160,6 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     form->weigh(*model);
     const auto count = static_cast<std::size_t>(n);
     form->U.assign(count, 0);
-    form->inertia.assign(count * count, 0);
     form->inertia_root.assign(count, 0);
     return form;
 }

@@ -37,7 +37,8 @@ struct ModalForm {
     // Row-major n × n. f_i = Θ̇² (inertia q)_i + Y (second q)_i + …, Y = g sin Θ, or −Θ̇²(al + ½l²) for `paper`;
     // per unit of mass.
     std::vector<double> spinning, second;
-    std::vector<double> inertia;       // B of J + qᵀBq [kg]
+    std::vector<double> inertia;       // B of J + qᵀBq [kg]; empty where the modes are not the coordinates
+    std::vector<Lanes> inertia_rows;   // the same, eight rows side by side: of each eight, column by column
     std::vector<double> weight;        // W/m
     std::vector<double> U;             // [kg m], zero for a free hub
     std::vector<double> h;             // θ = Θ + h·q

@@ -13,7 +13,7 @@ ChannelEvaluator::ChannelEvaluator(const System& system)
 void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
-    balance_known_ = contact_known_ = acceleration_known_ = false;
+    balance_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
     system_.place(t, y_.data());
 }
 
@@ -36,6 +36,7 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
 void ChannelEvaluator::set_contact(const ContactState& contact) {
     contact_ = contact;
     contact_known_ = true;
+    forces_known_ = !system_.phase().touching || system_.friction().kinetic == 0;
 }
 
 void ChannelEvaluator::set_gap(double gap) {
@@ -108,8 +109,12 @@ double ChannelEvaluator::value(Channel channel) {
             const ContactState c = contact();
             if (!acceleration_known_) {
                 double acc[kMaxSize];
-                system_.begin_contact_at(c.x);
-                system_.acceleration(t_, y_.data(), acc);
+                if (forces_known_) {
+                    system_.acceleration_placed(t_, c, acc);
+                } else {
+                    system_.begin_contact_at(c.x);
+                    system_.acceleration(t_, y_.data(), acc);
+                }
                 hub_acceleration_ = 0;
                 for (int i = 0; i < n; ++i) hub_acceleration_ += model.hub_row()[i] * acc[i];
                 acceleration_known_ = true;

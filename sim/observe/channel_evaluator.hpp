@@ -30,6 +30,7 @@ class ChannelEvaluator {
     double t_ = 0, start_total_ = 0;
     std::vector<double> y_;
     bool balance_known_ = false, contact_known_ = false, acceleration_known_ = false;
+    bool forces_known_ = false;  // of the contact, which was given
     System::EnergyBalance balance_;
     ContactState contact_;
     double hub_acceleration_ = 0;

@@ -136,7 +136,7 @@ bool needs_contact(ChannelKind kind) {
 
 ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
     : evaluator_(system),
-      probe_(evaluator_.system()),
+      probe_(evaluator_.system(), true),
       modal_channels_(evaluator_.system()),
       channels_(std::move(channels)),
       y_(static_cast<std::size_t>(system.size)),
@@ -169,8 +169,9 @@ void ExtremaFinder::look_for_contact(double t) {
 }
 
 double ExtremaFinder::evaluate(const SegmentInterval& s, Channel channel, double t) {
+    if (channel.kind == ChannelKind::q)
+        return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
     s.segment->value(t, y_.data());
-    if (channel.kind == ChannelKind::q) return y_[static_cast<std::size_t>(channel.index)];
     evaluator_.set(t, y_.data());
     if (probing_ && evaluator_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
     if (probing_ && evaluator_.system().phase().touching && needs_gap(channel.kind))
@@ -265,7 +266,7 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
             set_bounds(s);
         }
         const Channel channel = channels_[candidate.channel];
-        search(s, channel, candidate.sign, sample(s, channel), e);
+        search(s, channel, candidate.sign, sample_kept(step, s, channel), e);
     }
     candidates_.clear();
     kept_numbers_ = 0;
@@ -306,6 +307,18 @@ ExtremaFinder::Values ExtremaFinder::sample(const SegmentInterval& s, Channel ch
     Values values;
     for (std::size_t k = 0; k < kSamples; ++k) values[k] = evaluate(s, channel, sample_time(s, k));
     return values;
+}
+
+ExtremaFinder::Values ExtremaFinder::sample_kept(const KeptStep& step, const SegmentInterval& s, Channel channel) {
+    if (!is_separation(channel.kind)) return sample(s, channel);
+    if (!step.separations) {
+        step.separations.emplace();
+        for (std::size_t k = 0; k < kSamples; ++k) {
+            (*step.separations)[0][k] = evaluate(s, {ChannelKind::separation}, sample_time(s, k));
+            (*step.separations)[1][k] = evaluator_.value({ChannelKind::separation_paper});
+        }
+    }
+    return (*step.separations)[channel.kind == ChannelKind::separation ? 0 : 1];
 }
 
 // The polynomial through the inner samples, what it misses at the ends, and vibrations that it does not resolve.

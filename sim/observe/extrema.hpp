@@ -49,6 +49,8 @@ class ExtremaFinder {
         Phase phase;
         double from, to, t0, t1;
         std::vector<double> numbers;
+        // Both separations at the samples: what is dear to know is the same.
+        mutable std::optional<std::array<Values, 2>> separations;
     };
     struct Candidate {
         std::size_t channel;
@@ -65,6 +67,7 @@ class ExtremaFinder {
     void search_now(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search(const SegmentInterval& s, Channel channel, double sign, const Values& values, Extremum& e);
     Values sample(const SegmentInterval& s, Channel channel);
+    Values sample_kept(const KeptStep& step, const SegmentInterval& s, Channel channel);
     Variation variation(const SegmentInterval& s, Channel channel, const Values& values);
     bool set_bounds(const SegmentInterval& s);
     std::vector<SegmentInterval> parts(const SegmentInterval& s);

@@ -29,7 +29,7 @@ Problem at_tolerance(const Problem& problem) {
     return out;
 }
 
-// `auto` is Runge–Kutta's method in the contact of models that are not modal.
+// `auto` is Runge–Kutta's method where the equations are no oscillators.
 Method other_method(const Problem& problem, System& system) {
     switch (problem.solver.method) {
         case Method::automatic:
