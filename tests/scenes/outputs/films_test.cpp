@@ -569,7 +569,7 @@ TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
         "view": {"style": "flat", "camera": {"keyframes": [{"at": "impact:2", "zoom": 2}, {"at": "impact:1"}]}}}]})");
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 3);
-    EXPECT_THAT(run.err, HasSubstr("s.json:1:33: f.mkv: the camera's keyframe at impact:1, 0.277"));
+    EXPECT_THAT(run.err, HasSubstr("s.json:1:34: f.mkv: the camera's keyframe at impact 1, 0.277"));
     EXPECT_THAT(run.err, HasSubstr("is not after the one before it"));
 }
 
