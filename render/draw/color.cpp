@@ -78,6 +78,25 @@ const Palette& palette(Theme theme) {
     return kLight;
 }
 
+Palette recolored(Palette p, const OwnColors& own) {
+    const auto on_paper = [&](Color c, double share) { return mix(p.paper, c, share); };
+    if (own.ink) {
+        p.ink = rgb(*own.ink);
+        p.muted = on_paper(p.ink, 0.7), p.faint = on_paper(p.ink, 0.32), p.grid = on_paper(p.ink, 0.12);
+    }
+    if (own.motion) {
+        p.motion = rgb(*own.motion), p.motion_faint = on_paper(p.motion, 0.25);
+        p.moment[0] = p.motion, p.moment[1] = mix(p.moment[2], p.motion, 0.55);
+    }
+    if (own.contact) {
+        p.contact = rgb(*own.contact), p.contact_faint = on_paper(p.contact, 0.25);
+        p.moment[4] = p.contact, p.moment[3] = mix(p.moment[2], p.contact, 0.55);
+        p.force = {on_paper(p.contact, 0.4), p.contact, mix(p.contact, p.ink, 0.35)};
+    }
+    if (own.steel) p.steel = rgb(*own.steel), p.steel_edge = mix(p.steel, p.ink, 0.85);
+    return p;
+}
+
 namespace {
 // Relative luminance and contrast of sRGB colours (WCAG 2.1).
 double luminance(const Color& c) {

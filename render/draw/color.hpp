@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace beamcam::render {
 
@@ -43,6 +44,13 @@ struct Palette {
     Palette without_paper() const;
 };
 const Palette& palette(Theme theme);
+
+// Colours in place of a theme's, 0xrrggbb; what is pale, and the scales, follow them.
+struct OwnColors {
+    std::optional<std::uint32_t> ink = {}, motion = {}, contact = {}, steel = {};
+    bool operator==(const OwnColors&) const = default;
+};
+Palette recolored(Palette palette, const OwnColors& own);
 
 // Colours of curves and motions that stand beside each other; the first is `motion`, none is `contact`.
 Color series_color(const Palette& palette, std::size_t index);

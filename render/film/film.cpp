@@ -122,6 +122,7 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
     const double u = facts.unit;
     const FilmSetup& setup = *facts.setup;
     const Layout& places = facts.places;
+    if (places.logo) canvas.image_fitted(*setup.logo, *places.logo);
     if (const auto& b = places.title; b && !setup.title.empty()) {
         const FittedTitle title = fitted_title(canvas, setup.title, *b, u, facts.palette->ink);
         for (const FittedTitle::Line& line : title.lines) canvas.text(line.baseline, line.markup, title.style);

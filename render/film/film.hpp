@@ -51,6 +51,7 @@ struct View {
     bool tip_path = false;                    // all of the tip's path so far, not only its last second
     bool transparent = false;                 // no paper: the pictures have an alpha channel
     std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
+    OwnColors colors = {};
     Shown show = {};
     LayerOf layer = LayerOf::all;
     bool strobe = false;   // other exposures are shown faintly under the beam; else all are blended into one
@@ -145,7 +146,8 @@ struct FilmSetup : Motion {
     bool slow_motion = false;       // the standard arrangement shows collisions one by one
     std::vector<Callout> callouts;
     std::vector<FilmData> data;
-    std::string accuracy_note;  // plain text in the corner; may be empty
+    std::string accuracy_note;          // plain text in the corner; may be empty
+    std::shared_ptr<const Image> logo;  // at the right end of the clock's line; null: none
 };
 
 // The panels of the standard arrangement beside the mechanism, and what their charts need.

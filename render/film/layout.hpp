@@ -41,6 +41,7 @@ struct Shown {
     bool legend = true;    // colour scales; what the picture exaggerates, how fast it runs
     bool accuracy = true;  // the line in the corner
     bool labels = true;    // angle, speed, force, scale bar
+    bool logo = false;     // a picture in the clock's line
     double size = 1;       // of words, lines and marks, against those that suit the picture
     bool operator==(const Shown&) const = default;
 };
@@ -57,6 +58,7 @@ struct Layout {
     std::optional<Box> clock;   // with the pills; with these alone where the time is not shown
     std::optional<Box> scales;  // colour bars
     std::optional<Box> note;    // accuracy
+    std::optional<Box> logo;    // beside the clock
     std::vector<PanelSlot> panels;
 
     const PanelSlot* first(PanelKind kind) const;

@@ -75,10 +75,12 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
     colors = render::palette(setup->view.theme);
     if (setup->view.paper) colors.paper = rgb(*setup->view.paper);
+    colors = recolored(colors, setup->view.colors);
     if (setup->view.transparent) colors = colors.without_paper();
     palette = &colors;
     Shown shown = setup->view.show;
     shown.title = shown.title && !setup->title.empty();
+    shown.logo = setup->logo != nullptr;
     cjk = setup->view.lang == Lang::zh || needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
     for (const Callout& c : setup->callouts) cjk = cjk || needs_cjk(c.text);
     for (int m = 0; m < members(); ++m) {
@@ -97,6 +99,7 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight, shown);
     unit = places.unit;
+    if (setup->logo) place_logo();
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
     time = time_format(times);
@@ -106,6 +109,16 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
         span.high = std::max(span.high, *std::ranges::max_element(*t));
     }
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
+}
+
+// As high as the clock's line, and at most a third as wide.
+void FilmFacts::place_logo() {
+    if (!places.clock) return;
+    Box& line = *places.clock;
+    double wide = line.h * setup->logo->width / setup->logo->height, high = line.h;
+    if (wide > line.w / 3) high *= line.w / 3 / wide, wide = line.w / 3;
+    places.logo = Box{line.right() - wide, line.y + (line.h - high) / 2, wide, high};
+    line.w -= wide + 24 * unit;
 }
 
 double FilmFacts::shown_factor(Channel channel) const {

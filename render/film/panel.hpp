@@ -64,6 +64,7 @@ struct FilmFacts {
   private:
     void check() const;
     void choose_scales();
+    void place_logo();
 };
 
 using sim::kNan;

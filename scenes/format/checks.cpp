@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
+#include "output/image/png_reader.hpp"
 #include "render/plot/text.hpp"
 #include "render/plot/words.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -107,13 +109,28 @@ void judge_view(ObjectReader& r, const View& view) {
             fmt::format("{} needs a \"shutter\" or \"strobe\" to be exposed for", r.path("exposures")));
 }
 
+static void read_logo(ObjectReader& r, Picture& picture) {
+    if (picture.logo.empty() || r.findings().failed(r.path("logo"))) return;
+    const auto path = std::filesystem::path(r.context().source.name).parent_path() / picture.logo;
+    try {
+        const output::Raster raster = output::read_png(path);
+        picture.logo_digest = output::digest(raster);
+        picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
+    } catch (const output::IoError& error) {
+        r.fail(r.place("logo"), "logo",
+               fmt::format("{} = {}: {}", r.path("logo"), shown(r.place("logo")), error.what()));
+    }
+}
+
 void judge_picture(ObjectReader& r, Picture& picture) {
+    read_logo(r, picture);
     if (const double memory = memory_of(picture); memory >= kMuchMemory)  // told before it is drawn
         r.findings().warning(r.node()->place,
                              fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
                                          r.what(), picture.size.width, picture.size.height, memory / 1e9));
     if (const auto paper = picture.view.paper) {
-        const render::Color ink = render::palette(picture.view.theme).ink;
+        const render::Color ink =
+            picture.view.colors.ink ? render::rgb(*picture.view.colors.ink) : render::palette(picture.view.theme).ink;
         if (render::contrast(ink, render::rgb(*paper)) < 3)
             r.findings().warning(
                 r.place("background").place,

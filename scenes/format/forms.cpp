@@ -312,16 +312,34 @@ Form anchor_form(std::optional<render::Anchor>& anchor) {
 
 // ---- plates ------------------------------------------------------------------------------------
 
+static std::optional<std::uint32_t> color_of(std::string_view text) {
+    if (text.size() != 7 || text.front() != '#') return std::nullopt;
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+Form color_form(std::optional<std::uint32_t>& color) {
+    const auto read = [&color](ObjectReader& r, const Node& node, const std::string& key) {
+        color = node.kind == Node::Kind::string ? color_of(node.text) : std::nullopt;
+        if (!color)
+            r.fail(node, key,
+                   fmt::format("{} = {} is no colour; write one such as \"#0072b2\"", r.path(key), shown(node)));
+    };
+    const auto write = [&color]() -> std::optional<Node> {
+        if (!color) return std::nullopt;
+        return text_node(fmt::format("#{:06x}", *color));
+    };
+    return {"\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read, write};
+}
+
 bool take_background(std::string_view text, render::View& view) {
     view.transparent = text == "transparent";
     view.paper.reset();
     if (view.transparent || text == "paper") return true;
-    if (text.size() != 7 || text.front() != '#') return false;
-    std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
-    if (error != std::errc() || end != text.data() + text.size()) return false;
-    view.paper = value;
-    return true;
+    view.paper = color_of(text);
+    return view.paper.has_value();
 }
 
 Form background_form(render::View& view) {

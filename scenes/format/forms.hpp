@@ -25,6 +25,7 @@ Form speed_form(Speed& speed);
 Form anchor_form(render::Anchor& anchor);
 Form anchor_form(std::optional<render::Anchor>& anchor);
 Form background_form(render::View& view);
+Form color_form(std::optional<std::uint32_t>& color);
 Form show_form(render::Shown& show);
 bool take_background(std::string_view text, render::View& view);  // false: it is none
 std::optional<render::Shown> shown_preset(std::string_view name);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <set>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "output/files/sha256.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -93,6 +95,11 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
                             std::holds_alternative<SummaryOutput>(wanted);
     if (!shows_data) alone.data.clear();
     for (const Measurement& each : alone.data) other += "\n" + each.digest;
+    std::visit(
+        [&other](const auto& o) {
+            if constexpr (std::is_base_of_v<Picture, std::decay_t<decltype(o)>>) other += o.logo_digest;
+        },
+        wanted);
     if (figure) {  // what the scene does not say
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");

@@ -111,6 +111,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.width = p.picture.size.width;
     setup.height = p.picture.size.height;
     setup.view = p.picture.view;
+    setup.logo = p.picture.logo_image;
     setup.units = scene.units;
     setup.layout = p.picture.layout;
     setup.comparison = p.picture.comparison;

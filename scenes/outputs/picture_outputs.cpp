@@ -95,6 +95,13 @@ static void visit(SceneVisitor& v, render::Shown& show) {
     v.truth("labels", show.labels, "Names, numbers and scale bar within the mechanism.");
 }
 
+static void visit(SceneVisitor& v, render::OwnColors& colors) {
+    v.form("ink", color_form(colors.ink), "Of words and axes.");
+    v.form("motion", color_form(colors.motion), "Of the beam's bending, of curves of motion.");
+    v.form("contact", color_form(colors.contact), "Of forces and impacts.");
+    v.form("steel", color_form(colors.steel), "Of the bodies.");
+}
+
 static void visit_picture(SceneVisitor& v, Picture& picture) {
     using render::Theme, render::Comparison, render::LayerOf;
     v.object("view", picture.view, "How the mechanism is seen.");
@@ -108,6 +115,12 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
         "What stands around the panels: all, a preset (talk: no parameters, no accuracy; paper: labels, legend and "
         "clock, "
         "since the caption tells the rest; clean: nothing), or an object that leaves parts out.");
+    v.object(
+        written_if(picture.view.colors != render::OwnColors{}, "palette"),
+        [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.colors); },
+        "Colours in place of the theme's.", nullptr);
+    v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
+           "A PNG picture, from the scene's folder, that stands at the right end of the clock's line.");
     v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
              {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
              "What is drawn of the picture, at its place: the mechanism alone, or all but it; with a transparent "

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -135,6 +136,9 @@ struct Picture {
     std::vector<Compared> compare;
     render::Comparison comparison = render::Comparison::panels;
     bool horizon = false;  // strip charts are paler where θ is not reproducible
+    std::string logo;      // file of a picture, from the scene's folder; may be empty
+    std::string logo_digest;
+    std::shared_ptr<const render::Image> logo_image;
 };
 
 // Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers; with a speed other than real

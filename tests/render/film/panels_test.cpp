@@ -273,6 +273,52 @@ TEST(Captions, LinesToTheContactPassTheLabels) {
     EXPECT_GT(differ({contact.x - 4, contact.y - 4, 8, 8}), 0);  // the line is there
 }
 
+// ---- plates --------------------------------------------------------------------------------------
+
+TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
+    const Palette& theme = palette(Theme::light);
+    const Palette own = recolored(theme, {.motion = 0x123456, .contact = 0x654321});
+    EXPECT_EQ(own.motion, rgb(0x123456));
+    EXPECT_EQ(own.moment.front(), rgb(0x123456));
+    EXPECT_EQ(own.moment.back(), rgb(0x654321));
+    EXPECT_EQ(own.force[1], rgb(0x654321));
+    EXPECT_EQ(own.ink, theme.ink);
+    EXPECT_EQ(own.steel, theme.steel);
+    EXPECT_EQ(recolored(theme, {}).force, theme.force);
+    const auto pixels_of = [](const Image& image, std::uint32_t color) {
+        return std::ranges::count(image.pixels, 0xFF000000U | color);
+    };
+    FilmSetup setup = everything();
+    setup.layout = leaf(strip(ChannelKind::theta));
+    Film as_it_is(setup);
+    setup.view.colors.motion = 0x8844AA;
+    Film film(setup);
+    EXPECT_EQ(pixels_of(drawn(as_it_is, 47), 0x8844AA), 0);
+    EXPECT_GT(pixels_of(drawn(film, 47), 0x8844AA), 50);
+}
+
+TEST(Plates, ALogoStandsBesideTheClockClearOfWords) {
+    Image picture(80, 40);
+    picture.pixels.assign(picture.pixels.size(), 0xFFFF00FFU);
+    for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {320, 180}})
+        for (const bool clean : {false, true}) {
+            FilmSetup setup = everything();
+            setup.width = width, setup.height = height;
+            setup.layout.reset();
+            if (clean) setup.view.show = {false, false, false, false, false, false};
+            setup.logo = std::make_shared<const Image>(picture);
+            Film film(setup);
+            const FrameGeometry g = film.geometry(20);
+            ASSERT_TRUE(g.layout.logo) << width;
+            EXPECT_NEAR(g.layout.logo->w, 2 * g.layout.logo->h, 1e-6);
+            for (const Box& text : g.texts) EXPECT_FALSE(text.overlaps(*g.layout.logo)) << width << ", " << text.x;
+            for (const PanelSlot& panel : g.layout.panels) EXPECT_FALSE(panel.box.overlaps(*g.layout.logo)) << width;
+            const Image image = drawn(film, 20);
+            const Vec2 middle = g.layout.logo->centre();
+            EXPECT_EQ(image.pixels[std::size_t(middle.y) * std::size_t(width) + std::size_t(middle.x)], 0xFFFF00FFU);
+        }
+}
+
 // ---- where the motion is not reproducible ------------------------------------------------------
 
 TEST(Unreliable, CurvesArePalerWithinTheIntervals) {

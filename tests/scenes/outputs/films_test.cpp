@@ -540,6 +540,28 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
                 HasSubstr("a second run finds until when it is reproducible"));
 }
 
+// A logo is an input: another picture in the file makes another film.
+TEST(Films, BearALogoAndColoursOfTheirOwn) {
+    const Folder folder;
+    folder.write("l.json", R"({"outputs": [{"type": "still", "at": 0, "file": "l.png", "size": [64, 32],
+        "view": {"style": "flat"}}]})");
+    folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [640, 360],
+        "view": {"style": "flat"}, "logo": "l.png", "palette": {"motion": "#8844aa"}}]})");
+    const Finished without = shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(without.code, 3);
+    EXPECT_THAT(without.err, HasSubstr("s.json:2:"));
+    EXPECT_THAT(without.err, HasSubstr("outputs.0.logo = \"l.png\""));
+    ASSERT_EQ(shell(folder, "$BEAMCAM run l.json && $BEAMCAM run s.json").code, 0);
+    const auto digest = [&] { return shell(folder, "$BEAMCAM hash s.png | cut -c1-64").out; };
+    const std::string first = digest();
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("as it is"));
+    ASSERT_EQ(shell(folder, "$BEAMCAM run l.json --force --set outputs.0.theme=dark && $BEAMCAM run s.json").code, 0);
+    EXPECT_NE(digest(), first);
+    folder.write("t.json", R"({"outputs": [{"type": "still", "at": 0, "palette": {"motion": "blue"}}]})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM check t.json").err,
+                HasSubstr("outputs.0.palette.motion = \"blue\" is no colour"));
+}
+
 // Events out of order are known only when the motion is.
 TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
     const Folder folder;
@@ -547,7 +569,7 @@ TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
         "view": {"style": "flat", "camera": {"keyframes": [{"at": "impact:2", "zoom": 2}, {"at": "impact:1"}]}}}]})");
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 3);
-    EXPECT_THAT(run.err, HasSubstr("s.json:1:33: f.mkv: the camera's keyframe at impact:1, 0.277"));
+    EXPECT_THAT(run.err, HasSubstr("s.json:1:34: f.mkv: the camera's keyframe at impact 1, 0.277"));
     EXPECT_THAT(run.err, HasSubstr("is not after the one before it"));
 }
 
