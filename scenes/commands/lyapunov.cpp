@@ -27,8 +27,7 @@ const char* verdict(sim::Chaos chaos) {
             return "the largest exponent is positive beyond its error: the motion is chaotic\n";
         case sim::Chaos::doubtful:
             return "whether the motion is chaotic is doubtful: the largest exponent is positive beyond its error only "
-                   "by "
-                   "what near-grazing impacts add to it\n";
+                   "by what near-grazing impacts add to it\n";
         case sim::Chaos::not_shown:
             return "no chaos is shown: the largest exponent is not positive beyond its error, differences grow by less "
                    "than e³ in the later half, or the motion had not settled\n";
@@ -62,12 +61,18 @@ int act(const LyapunovArguments& args) {
     output::Manifest manifest(args.common.force);
     need_room("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
-    progress.begin("exponents", request.transient + request.duration, "s");
-    const sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, [&](double t) {
+    const auto reached = [&](double t) {
         progress.reach(t);
         return !output::interrupted();
-    });
+    };
+    progress.begin("exponents", request.transient + request.duration, "s");
+    sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, reached);
     progress.end();
+    if (found.chaos() != sim::Chaos::not_shown) {
+        progress.begin("does it last", request.transient + 2 * request.duration, "s");
+        sim::confirm_chaos(scene.problem, request, found, reached);
+        progress.end();
+    }
     const auto content = [&](const std::string& file) {
         if (file == "-" || file.ends_with(".json")) return output::exponents_json(found);
         return args.files.drawn(exponents_figure(found, scene.problem, args.files.lang()), scene, file);

@@ -243,4 +243,19 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     return e;
 }
 
+void confirm_chaos(const Problem& problem, const ExponentsRequest& request, Exponents& exponents,
+                   const Progress& progress) {
+    if (exponents.chaos() == Chaos::not_shown) return;
+    ExponentsRequest rest = request;
+    rest.count = 1;
+    rest.transient = request.transient + request.duration;
+    const Exponents later = lyapunov_exponents(problem, rest, progress);
+    if (later.chaos() != Chaos::not_shown) return;
+    exponents.settled = false;
+    exponents.warnings.push_back(fmt::format(
+        "in the {:g} s after that the largest exponent is {:.3g} ± {:.2g} 1/s: the sensitivity was that of a "
+        "transient; use a longer one",
+        later.duration, later.lambda.front(), later.error.front()));
+}
+
 }  // namespace beamcam::sim

@@ -65,4 +65,9 @@ std::optional<std::string> exponents_refusal(const Problem& problem);
 // for what `exponents_refusal` refuses.
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
 
+// Chaos lasts. Where `exponents` of this request show it, the motion goes on for as long again, and if neighbours no
+// longer part then, it had not settled: a sensitive transient. Progress and exceptions as above. (S89a)
+void confirm_chaos(const Problem& problem, const ExponentsRequest& request, Exponents& exponents,
+                   const Progress& progress = {});
+
 }  // namespace beamcam::sim

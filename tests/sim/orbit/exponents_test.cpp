@@ -74,12 +74,25 @@ TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
 TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     SKIP_UNDER_SANITIZERS();
     const Problem p = PressedBeam().on_orbit(54);
-    const Exponents e = lyapunov_exponents(p, {1, 20, 800, 20});
+    const ExponentsRequest request{1, 20, 800, 20};
+    Exponents e = lyapunov_exponents(p, request);
     EXPECT_TRUE(e.chaotic()) << e.lambda[0] << " ± " << e.error[0];
+    confirm_chaos(p, request, e);
+    EXPECT_TRUE(e.chaotic());
     const Exponents longer = lyapunov_exponents(p, {1, 20, 8000, 20});
     EXPECT_NEAR(e.lambda[0], longer.lambda[0], 0.02 * longer.lambda[0]) << "± " << e.error[0];
     EXPECT_LT(longer.error[0], 0.5 * e.error[0]);
     EXPECT_NEAR(e.lambda[0], longer.lambda[0], 3 * e.error[0]);
+}
+
+TEST(Exponents_, ASensitiveTransientIsNoChaos) {
+    const Problem p;  // its differences grow until about 4 s and are gone at 9 s
+    const ExponentsRequest request{.count = 1, .transient = 2, .duration = 4};
+    Exponents e = lyapunov_exponents(p, request);
+    ASSERT_TRUE(e.chaotic());  // as far as these seconds alone can say
+    confirm_chaos(p, request, e);
+    EXPECT_FALSE(e.chaotic());
+    EXPECT_THAT(e.warnings.back(), ::testing::HasSubstr("transient"));
 }
 
 TEST(Exponents_, AnAverageThatBeginsBeforeTheMotionHasSettledIsTold) {
