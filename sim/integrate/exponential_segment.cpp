@@ -160,18 +160,18 @@ double ExponentialSegment::expand_before(double s) const {
     return (s - gauss.point[static_cast<std::size_t>(at)]) * h;
 }
 
-void ExponentialSegment::evolve(std::size_t g, double tau, Lanes& x, Lanes& rate) const {
+void ExponentialSegment::evolve(std::size_t g, double tau, Lanes& x, Lanes& dx) const {
     Lanes r[kResponse];
     const OscillatorLanes& group = form_->groups[g];
     respond(group, tau, r);
-    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, rate);
+    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, dx);
 }
 
 double ExponentialSegment::coordinate(double t, std::size_t index, double* y) const {
     if (!form_->by_arrays() || index == 0 || t == t1) return Segment::coordinate(t, index, y);
     const std::size_t mode = index - 1;
-    Lanes x, rate;
-    evolve(mode / kNodes, expand_before((t - t0) / h), x, rate);
+    Lanes x, dx;
+    evolve(mode / kNodes, expand_before((t - t0) / h), x, dx);
     return x[static_cast<int>(mode % kNodes)];
 }
 

@@ -238,7 +238,7 @@ void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrem
 }
 
 std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const SegmentInterval& s) {
-    KeptStep step{evaluator_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}};
+    KeptStep step{evaluator_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}, {}};
     s.segment->numbers(step.numbers);
     kept_numbers_ += step.numbers.size();
     return std::make_shared<const KeptStep>(std::move(step));

@@ -49,7 +49,7 @@ class ExtremaFinder {
         Phase phase;
         double from, to, t0, t1;
         std::vector<double> numbers;
-        // Both separations at the samples: what is dear to know is the same.
+        // Both separations at the samples: their costly part is the same.
         mutable std::optional<std::array<Values, 2>> separations;
     };
     struct Candidate {
