@@ -94,7 +94,10 @@ TEST(Page, ForcesBeginAndEndWithTheirContacts) {
     for (const sim::Impact& impact : setup.impacts)
         for (const double t : {impact.t_start, impact.t_end.value_or(impact.t_start)})
             for (std::size_t i = 0; i < times.size(); ++i)
-                if (std::abs(times[i] * tick - t) < 1e-9) EXPECT_EQ(values[3 * i + 2], 0) << t, ++found;
+                if (std::abs(times[i] * tick - t) < 1e-9) {
+                    EXPECT_EQ(values[3 * i + 2], 0) << t;
+                    ++found;
+                }
     EXPECT_EQ(found, 2 * static_cast<int>(setup.impacts.size()));
 }
 
