@@ -81,13 +81,14 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     alone.outputs = {wanted};
     const auto* figure = std::get_if<FigureOutput>(&wanted);
     const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
-    const bool of_sweep = std::holds_alternative<SweepOutput>(wanted) || (recipe && recipe->of_sweep);
+    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(wanted);
+    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(wanted) || (recipe && recipe->of_sweep);
     if (of_sweep)
         write_out_tables(*alone.sweep);
     else
         alone.sweep.reset();
     if (is_data(wanted)) alone.title.clear();
-    if (!is_picture(wanted)) alone.units = {};
+    if (!is_picture(wanted) && !sweep_film) alone.units = {};
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
     if (extent != Extent::scene || of_sweep) alone.end_time = extent == Extent::run ? until : 0;
     std::string other = part;

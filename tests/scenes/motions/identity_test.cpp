@@ -232,14 +232,16 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
                       std::holds_alternative<SummaryOutput>(any) || std::holds_alternative<ShapesOutput>(any) ||
                       std::holds_alternative<SweepOutput>(any);
     const auto* diagram = std::get_if<FigureOutput>(&any);
-    const bool of_sweep = std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
+    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(any);
+    const bool of_sweep =
+        sweep_film || std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
     if (place.starts_with("/data/"))
         return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
                is_picture(any);
     if (place == "/$schema") return false;
     if (place.starts_with("/sweep/")) return of_sweep;
     if (place == "/title") return !data;
-    if (place.starts_with("/units/")) return is_picture(any);
+    if (place.starts_with("/units/")) return is_picture(any) || sweep_film;
     if (place != "/time/end") return true;
     if (of_sweep) return false;
     if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;
