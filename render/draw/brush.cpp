@@ -22,7 +22,10 @@ void Brush::end() {
     if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
-void Brush::use(Color c) { cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a); }
+void Brush::use(Color color) {
+    const Color c = recolor_ ? recolor_(color) : color;
+    cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a);
+}
 
 // ---- where the ink goes ------------------------------------------------------------------------
 

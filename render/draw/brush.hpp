@@ -70,7 +70,8 @@ class Brush {
     void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
     bool keeps_stencils() const { return stencils && touched && !limit_; }
     cairo_t* cr_ = nullptr;
-    const Box* limit_ = nullptr;  // nothing is painted beyond
+    Color (*recolor_)(Color) = nullptr;  // what is painted in place of a colour, while it is set
+    const Box* limit_ = nullptr;         // nothing is painted beyond
 
   private:
     int exceptions_ = 0;  // in flight when drawing began

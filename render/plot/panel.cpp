@@ -390,6 +390,13 @@ void PanelDrawing::draw_insets() {
                 sheet_.stroke(thin);
             }
         }
+        // Its numbers and labels, left and below, interrupt the connectors.
+        const Box& plot = inner.plot_;
+        for (const Box& beside : {Box{outer.x, outer.y, plot.x - outer.x, outer.h},
+                                  Box{outer.x, plot.bottom(), outer.w, outer.bottom() - plot.bottom()}}) {
+            sheet_.rectangle(beside);
+            sheet_.fill(kWhite);
+        }
         inner.draw();
     }
 }

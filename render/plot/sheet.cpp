@@ -15,6 +15,7 @@
 #include "render/draw/cairo_status.hpp"
 #include "render/draw/font_handles.hpp"
 #include "render/draw/surface.hpp"
+#include "render/plot/style.hpp"
 #include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
@@ -101,41 +102,42 @@ void describe(cairo_surface_t* pdf, const Document& d) {
 
 }  // namespace
 
-Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document)
-    : medium_(medium), size_(size), document_(document), fonts_(fonts), handles_(std::make_unique<Handles>()) {
+Sheet::Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
+    : medium_(medium), paper_(paper), document_(document), fonts_(fonts), handles_(std::make_unique<Handles>()) {
     Handles& h = *handles_;
-    const double scale = size.dpi / kPointsPerInch;
+    if (paper.dark) recolor_ = on_dark;
+    const double scale = paper.dpi / kPointsPerInch;
     double unit = 1;  // device units of a point
-    if (!(size.width > 0 && size.height > 0 && std::max(size.width, size.height) * scale <= kLargestSide))
+    if (!(paper.width > 0 && paper.height > 0 && std::max(paper.width, paper.height) * scale <= kLargestSide))
         throw PictureError(
             fmt::format("a figure of {:.4g} × {:.4g} mm at {:g} dpi cannot be drawn; its sides must be "
                         "positive and at most {:g} pixels",
-                        size.width / points(1), size.height / points(1), size.dpi, kLargestSide));
+                        paper.width / points(1), paper.height / points(1), paper.dpi, kLargestSide));
     if (medium == Medium::png) {
         // At least a pixel, and never less than the page.
-        h.image = Image(static_cast<int>(std::ceil(size.width * scale - 1e-6)),
-                        static_cast<int>(std::ceil(size.height * scale - 1e-6)));
+        h.image = Image(static_cast<int>(std::ceil(paper.width * scale - 1e-6)),
+                        static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
         h.surface =
             cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
                                                 CAIRO_FORMAT_ARGB32, h.image.width, h.image.height, 4 * h.image.width);
         unit = scale;
     } else if (medium == Medium::eps) {
-        h.surface = cairo_ps_surface_create_for_stream(collect, &h.stream, size.width, size.height);
+        h.surface = cairo_ps_surface_create_for_stream(collect, &h.stream, paper.width, paper.height);
         cairo_ps_surface_set_eps(h.surface, 1);
         describe_eps(h.surface, document);
     } else if (medium == Medium::pdf) {
-        h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, size.width, size.height);
+        h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, paper.width, paper.height);
         describe(h.surface, document);
     } else {
         unit = kMillimetresPerInch / kPointsPerInch;
-        h.surface = cairo_svg_surface_create_for_stream(collect, &h.stream, size.width * unit, size.height * unit);
+        h.surface = cairo_svg_surface_create_for_stream(collect, &h.stream, paper.width * unit, paper.height * unit);
         cairo_svg_surface_set_document_unit(h.surface, CAIRO_SVG_UNIT_MM);
     }
     begin(cairo_create(h.surface));
     if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
-        throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm cannot be drawn: {}", size.width / points(1),
-                                       size.height / points(1), cairo_status_to_string(cairo_status(cr_))));
+        throw PictureError(fmt::format("a figure of {:.4g} × {:.4g} mm cannot be drawn: {}", paper.width / points(1),
+                                       paper.height / points(1), cairo_status_to_string(cairo_status(cr_))));
     cairo_scale(cr_, unit, unit);
     cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
     use(rgb(0xFFFFFF));
@@ -144,7 +146,7 @@ Sheet::Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Doc
 Sheet::~Sheet() noexcept(false) { end(); }
 
 // A quarter of a pixel, or of the 1/600 inch of a good printer.
-double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? size_.dpi : 600)); }
+double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? paper_.dpi : 600)); }
 
 void Sheet::arc(Vec2 c, double radius, double from, double to) {
     cairo_new_sub_path(cr_);
@@ -169,9 +171,11 @@ void Sheet::curve(std::span<const Vec2> points, const Pen& pen) {
 
 void Sheet::gradient(const Box& box, std::span<const Color> colors) {
     cairo_pattern_t* pattern = cairo_pattern_create_linear(0, box.bottom(), 0, box.y);
-    for (std::size_t i = 0; i < colors.size(); ++i)
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const Color color = shown(colors[i]);
         cairo_pattern_add_color_stop_rgb(pattern, static_cast<double>(i) / static_cast<double>(colors.size() - 1),
-                                         colors[i].r, colors[i].g, colors[i].b);
+                                         color.r, color.g, color.b);
+    }
     cairo_set_source(cr_, pattern);
     rectangle(box);
     cairo_fill(cr_);
@@ -340,7 +344,7 @@ void Sheet::add_text(const Set::Piece& piece, Vec2 at) {
     const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
     const bool symbol = piece.run.symbol;
     const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
-    const Color& ink = handles_->ink;
+    const Color ink = shown(handles_->ink);
     handles_->texts += fmt::format(
         R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="#{:02x}{:02x}{:02x}" xml:space="preserve">{}</text>)svg"
         "\n",

@@ -34,9 +34,10 @@ struct Document {
     bool editable = false;     // SVG: text as text, in fonts that the reader has, instead of outlines
 };
 
-struct SheetSize {
+struct Paper {
     double width = 255, height = 170;  // [pt]
     double dpi = 300;                  // of PNG
+    bool dark = false;                 // a slide; everything is drawn in the colours of white paper all the same
 };
 
 enum class VAlign {
@@ -60,10 +61,10 @@ inline constexpr double kSmallestLetter = 6;  // [pt]
 class Sheet : public Brush {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
-    Sheet(Medium medium, const SheetSize& size, const Fonts& fonts, const Document& document = {});
+    Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
     ~Sheet() noexcept(false);
 
-    const SheetSize& size() const { return size_; }
+    Color shown(Color color) const { return recolor_ ? recolor_(color) : color; }  // on this paper
     double grain() const;  // the smallest distance that shows [pt]
 
     void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
@@ -112,7 +113,7 @@ class Sheet : public Brush {
     void add_text(const Set::Piece& piece, Vec2 at);
 
     Medium medium_;
-    SheetSize size_;
+    Paper paper_;
     Document document_;
     const Fonts& fonts_;
     std::unique_ptr<Handles> handles_;

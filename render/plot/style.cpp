@@ -35,6 +35,34 @@ constexpr std::array kMap{rgb(0xfde725), rgb(0xbddf26), rgb(0x7ad151), rgb(0x44b
                           rgb(0x2a788e), rgb(0x355f8d), rgb(0x414487), rgb(0x482475), rgb(0x440154)};
 constexpr double kPalest = 0.12;  // of the map, left out
 
+// Oklab (Ottosson 2020, "A perceptual color space for image processing"): lightness 0…1, green to red, blue to yellow.
+struct Lab {
+    double lightness = 0, a = 0, b = 0;
+};
+double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+double encoded(double c) {
+    const double part = std::clamp(c, 0.0, 1.0);
+    return part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
+}
+Lab lab_of(Color c) {
+    const double red = linear(c.r), green = linear(c.g), blue = linear(c.b);
+    const double l = std::cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue),
+                 m = std::cbrt(0.2119034982 * red + 0.6806995451 * green + 0.1073969566 * blue),
+                 s = std::cbrt(0.0883024619 * red + 0.2817188376 * green + 0.6299787005 * blue);
+    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+Color color_of(const Lab& lab, double alpha) {
+    const auto cubed = [](double v) { return v * v * v; };
+    const double l = cubed(lab.lightness + 0.3963377774 * lab.a + 0.2158037573 * lab.b),
+                 m = cubed(lab.lightness - 0.1055613458 * lab.a - 0.0638541728 * lab.b),
+                 s = cubed(lab.lightness - 0.0894841775 * lab.a - 1.2914855480 * lab.b);
+    return {encoded(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+            encoded(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+            encoded(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s), alpha};
+}
+
 }  // namespace
 
 std::span<const Column> columns() { return kColumns; }
@@ -67,6 +95,20 @@ Style style_of(const Column& column) {
 const Look& look(int k) { return kLooks[static_cast<std::size_t>(k) % kLooks.size()]; }
 
 Color pale(Color color, double share) { return mix(color, rgb(0xFFFFFF), share); }
+
+Color on_dark(Color color) {
+    static const Lab kPaper = lab_of(palette(Theme::dark).paper), kInk = lab_of(palette(Theme::dark).ink);
+    constexpr double kBlack = 0.1, kLeast = 0.68;  // lightness; kLeast: contrast 6 : 1 on the dark paper
+    const Lab lab = lab_of(color);
+    const bool of_line = lab.lightness > kBlack && std::ranges::any_of(kLooks, [&](const Look& each) {
+                             return each.color.faded(color.a) == color;
+                         });
+    if (of_line) return color_of({std::max(lab.lightness, kLeast), lab.a, lab.b}, color.a);
+    const double paper = std::clamp(lab.lightness, 0.0, 1.0), ink = 1 - paper;
+    return color_of({ink * kInk.lightness + paper * kPaper.lightness, lab.a + ink * kInk.a + paper * kPaper.a,
+                     lab.b + ink * kInk.b + paper * kPaper.b},
+                    color.a);
+}
 
 Color map_color(double share) {
     const double whole = kPalest + (1 - kPalest) * std::clamp(share, 0.0, 1.0);

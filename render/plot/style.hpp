@@ -47,6 +47,10 @@ const Look& look(int k);  // repeats after eight
 
 Color pale(Color color, double share = 0.62);  // towards white, opaque: print knows no transparency
 
+// What a colour of white paper becomes on a dark slide: lightness is reversed, from the dark theme's paper to its ink,
+// and the hue stays. Colours of lines keep their lightness, or get as much as it takes to stand out.
+Color on_dark(Color color);
+
 // Perceptually uniform, dark at 1: viridis (Smith & van der Walt 2015, CC0) from its bright end, the palest left out,
 // which white paper would swallow. 0…1; beyond: the end's colour.
 Color map_color(double share);

@@ -21,12 +21,16 @@ namespace {
 
 struct FigureArguments {
     Common common;
-    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines", font = "sans";
+    std::string scene, figure, file, column = "elsevier", lang = "en", text = "outlines", font = "sans",
+                                     theme = "light";
     std::optional<std::string> width, data, caption;
     double dpi = 0;  // by the file
-    std::vector<std::string> channels, compare;
-    std::optional<std::string> against, from, to, height, window;
-    bool impacts = false, residuals = false, logarithmic = false;
+    std::vector<std::string> channels, right, compare, notes;
+    std::optional<std::string> against, x_low, x_high, low, high, title, from, to, height, window, collision;
+    bool impacts = false, residuals = false, logarithmic = false, apart = false;
+
+    // Of the only panel, which a list of channels does not name.
+    bool tells_panel() const { return !right.empty() || low || high || title; }
 };
 
 // Names that the scene has, and why it has not the others.
@@ -61,38 +65,79 @@ Node compared_node(const FigureArguments& args) {
     return compare;
 }
 
+Node list_node(const std::vector<std::string>& words) {
+    Node list = array_node();
+    for (const std::string& word : words) list.items.push_back(text_node(word));
+    return list;
+}
+
+Node panel_node(const FigureArguments& args) {
+    Node panel = object_node();
+    add(panel, "channels", list_node(args.channels));
+    if (!args.right.empty()) add(panel, "right", list_node(args.right));
+    if (args.low) add(panel, "low", value_node(*args.low));
+    if (args.high) add(panel, "high", value_node(*args.high));
+    if (args.title) add(panel, "title", text_node(*args.title));
+    return panel;
+}
+
+// "impact:1=first touch"
+Node note_node(const std::string& text) {
+    Node note = object_node();
+    const std::size_t sign = text.find('=');
+    add(note, "at", value_node(text.substr(0, sign)));
+    if (sign != std::string::npos) add(note, "text", text_node(text.substr(sign + 1)));
+    return note;
+}
+
 // The keys of the figure's own that options name, read as if the scene said so.
-SeriesKeys series_keys(const FigureArguments& args, Scene scene) {
+FigureOutput with_keys(const FigureArguments& args, Scene scene) {
     if (args.figure == "series" && args.channels.empty())
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
     Node output = object_node();
     add(output, "type", text_node(FigureOutput::kType));
     add(output, "figure", text_node(args.figure));
-    Node channels = array_node();
-    for (const std::string& channel : args.channels) channels.items.push_back(text_node(channel));
-    if (!args.channels.empty()) add(output, "channels", std::move(channels));
+    if (args.tells_panel()) {
+        Node panels = array_node();
+        panels.items.push_back(panel_node(args));
+        add(output, "panels", std::move(panels));
+    } else if (!args.channels.empty()) {
+        add(output, "channels", list_node(args.channels));
+    }
     const std::pair<const char*, const std::optional<std::string>&> options[] = {
-        {"x", args.against}, {"from", args.from}, {"to", args.to}, {"height", args.height}, {"window", args.window}};
+        {"x", args.against}, {"x_low", args.x_low},   {"x_high", args.x_high}, {"from", args.from},
+        {"to", args.to},     {"height", args.height}, {"window", args.window}, {"collision", args.collision}};
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
     if (!args.compare.empty()) add(output, "compare", compared_node(args));
     if (args.impacts) add(output, "impacts", truth_node(true));
     if (args.residuals) add(output, "residuals", truth_node(true));
+    if (args.apart) add(output, "comparison", text_node("panels"));
+    if (!args.notes.empty()) {
+        Node notes = array_node();
+        for (const std::string& note : args.notes) notes.items.push_back(note_node(note));
+        add(output, "notes", std::move(notes));
+    }
 
     SceneFiles files;
     std::vector<Message> messages;
     if (!read_only_output(output, args.scene, "--", files, scene, messages))
         throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
-    SeriesKeys keys = std::get<FigureOutput>(scene.outputs.front()).series;
+    FigureOutput figure = std::get<FigureOutput>(scene.outputs.front());
+    SeriesKeys& keys = figure.series;
     if (!keys.compare.empty()) keys.compare.front().problem = scene.problem;  // with what --set says of it
     if (args.logarithmic && args.figure != "series") throw UsageError("--log belongs to the figure series");
     for (SeriesPanel& panel : keys.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
-    return keys;
+    return figure;
 }
 
 bool asks_for_series(const FigureArguments& args) {
-    return !args.channels.empty() || !args.compare.empty() || args.against || args.from || args.to || args.height ||
-           args.window || args.impacts || args.residuals || args.logarithmic;
+    return !args.channels.empty() || !args.compare.empty() || !args.notes.empty() || args.tells_panel() ||
+           args.against || args.x_low || args.x_high || args.from || args.to || args.impacts || args.residuals ||
+           args.logarithmic || args.apart;
+}
+bool tells_keys(const FigureArguments& args) {
+    return args.figure == "series" || asks_for_series(args) || args.window || args.collision || args.height;
 }
 
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
@@ -100,14 +145,15 @@ FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Sce
         throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg, .eps, .png or .tif");
     need_ending("-o", args.file, kFigureEndings);
     FigureOutput figure;
+    if (tells_keys(args)) figure = with_keys(args, scene);
     figure.file = args.file;
     figure.figure = recipe.name;
-    if (figure.figure == "series" || asks_for_series(args)) figure.series = series_keys(args, scene);
     figure.column = args.column;
     figure.lang = args.lang == "zh" ? Lang::zh : Lang::en;
     if (args.dpi > 0) figure.dpi = args.dpi;
     figure.editable = args.text == "editable";
     figure.serif = args.font == "serif";
+    figure.dark = args.theme == "dark";
     if (args.width) {
         figure.width = quantity_argument("--width", *args.width, dimension::kLength);
         if (!(*figure.width >= 0.03 && *figure.width <= 1))
@@ -172,21 +218,33 @@ void add_figure(Grammar& grammar) {
         .one_of({"outlines", "editable"});
     app.option("--font", &args->font, "FONT", "Letters: sans, or serif as in text set by LaTeX")
         .one_of({"sans", "serif"});
+    app.option("--theme", &args->theme, "THEME", "Colours: light, of white paper, or dark, of a slide")
+        .one_of({"light", "dark"});
     app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
     app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
     app.option("--channels", &args->channels, "A,B,…",
                "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit; of "
                "spectrogram one")
         .separated_by(',');
+    app.option("--right", &args->right, "A,B,…", "Of series: channels of another unit, on an axis at the right")
+        .separated_by(',');
     app.option("--compare", &args->compare, "SCENE,…", "Of series: the same channels of these scenes too")
         .separated_by(',');
     app.option("--x", &args->against, "CHANNEL",
-               "Of series: against what; t, turns (of the cam), frequency or a channel");
+               "Of series: against what; t, turns or phase (of the cam), frequency or a channel");
+    app.option("--x-low", &args->x_low, "V", "Of series: lower end of that axis, in SI units");
+    app.option("--x-high", &args->x_high, "V", "Of series: its upper end");
+    app.option("--low", &args->low, "V", "Of series of one panel: lower end of the axis at the left, in SI units");
+    app.option("--high", &args->high, "V", "Of series of one panel: its upper end");
+    app.option("--title", &args->title, "WORDS", "Of series of one panel: above it; $θ$ is mathematics");
+    app.option("--note", &args->notes, "AT=WORDS", "Of series: a line at an instant, impact:1=touch (repeatable)");
     app.option("--from", &args->from, "T",
                "Of series and of figures of a stretch such as kymograph: from this instant");
     app.option("--to", &args->to, "T", "Of these: until this instant");
-    app.option("--height", &args->height, "H", "Of series: its height, for example 60mm");
+    app.option("--height", &args->height, "H", "Its height, for example 60mm");
     app.option("--window", &args->window, "T", "Of spectrogram: length of its windows");
+    app.option("--collision", &args->collision, "N", "Of collision: which one, counted from 1");
+    app.flag("--panels", args->apart, "Of series with --compare: each motion in panels of its own");
     app.flag("--log", args->logarithmic, "Of series: logarithmic axes of values");
     app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
     app.flag("--residuals", args->residuals, "Of series: panels with what measured data differ by");

@@ -152,6 +152,11 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
 Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
+    if (ending == ".pdf" || ending == ".svg" || ending == ".eps")
+        throw UsageError(
+            fmt::format("-o {}: a still of lines is the figure strobe at one instant: beamcam figure {} "
+                        "strobe --from {} --to {} -o {}",
+                        args.file, args.scene, args.at.value_or("0.3"), args.at.value_or("0.3"), args.file));
     need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".html", ".glb"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.poster && ending == ".png")

@@ -21,28 +21,50 @@ using sim::ChannelKind;
 // Rows over the scene: an impact lasts a few tenths of a millisecond.
 int fine(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 constexpr double kRounding = 1e-12;  // of the energy scale
-constexpr int kPlacesPoints = 8001;
+constexpr int kEnergyPoints = 8001;  // to begin with
 
-const sim::Collision* first_collision(const sim::Problem& problem, const sim::Result& result) {
-    const auto it = std::ranges::find_if(result.collisions, [&](const auto& c) { return strikes(problem, c); });
-    return it == result.collisions.end() ? nullptr : &*it;
+// Counted from 1; null: there are fewer.
+const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number) {
+    for (const sim::Collision& each : result.collisions)
+        if (strikes(problem, each) && --number == 0) return &each;
+    return nullptr;
+}
+std::string no_collision(const sim::Problem& problem, const sim::Result& result, int number, double end) {
+    const auto count = std::ranges::count_if(result.collisions, [&](const auto& c) { return strikes(problem, c); });
+    if (count == 0) return fmt::format("figure collision: nothing strikes the cam before {:g} s; raise time.end", end);
+    return fmt::format("figure collision: collision {} does not occur: there are {} before {:g} s", number, count, end);
 }
 
-// The first collision in numbers, in the digits that one mode fewer leaves.
-std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, const sim::Result* fewer,
+// "first", "second", "11th".
+std::string ordinal(int number) {
+    static constexpr const char* kFirst[] = {"first", "second", "third", "fourth", "fifth"};
+    if (number <= std::ssize(kFirst)) return kFirst[number - 1];
+    const int last = number % 10;
+    const bool teen = number / 10 % 10 == 1;
+    return std::to_string(number) + (teen || last > 3 || last == 0 ? "th" : last == 1 ? "st" : last == 2 ? "nd" : "rd");
+}
+
+// The collision in numbers, in the digits that one mode fewer leaves.
+std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, int which, const sim::Result* fewer,
                               Lang lang) {
     const bool en = lang == Lang::en;
-    const sim::Collision* other = fewer ? first_collision(problem, *fewer) : nullptr;
+    const sim::Collision* other = fewer ? collision_of(problem, *fewer, which) : nullptr;
     const auto told = [&](double value, std::optional<double> otherwise) {
         return supported(estimate(problem, value, otherwise));
     };
     std::string text = filled(
-        en ? "The first collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is "
+        en ? "The {} collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is "
              "negative where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision "
-             "has {} impact{} (shaded)"
-           : "首次碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s "
-             "起。该碰撞包含 {} 次{}冲击（阴影）",
-        told(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "");
+             "has {} impact{} (shaded{})"
+           : "{}碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s "
+             "起。该碰撞包含 {} 次{}冲击（阴影{}）",
+        en           ? ordinal(which)
+        : which == 1 ? "首次"
+                     : fmt::format("第 {} 次", which),
+        told(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "",
+        c.count == 1 ? ""
+                     : filled(en ? "; less than {} s apart they are one collision" : "；间隔小于 {} s 者归为同一次碰撞",
+                              number(problem.contact.collision_gap, 3)));
     if (c.force_peak)
         text += filled(en ? "; peak force {} N" : "；峰值力 {} N",
                        told(*c.force_peak, other ? other->force_peak : std::nullopt));
@@ -62,14 +84,12 @@ FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studi
         studies.may_fail(*check);
     }
     const std::size_t table =
-        studies.table(study, {0, end, fine(end)}, {ChannelKind::t, ChannelKind::contact_force, ChannelKind::gap});
-    return [=, problem = scene.problem](const Results& results) {
+        studies.curve(study, {0, end, fine(end)}, {}, {ChannelKind::contact_force, 0}, {ChannelKind::gap});
+    return [=, problem = scene.problem, number = how.collision](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
-        const sim::Collision* c = first_collision(problem, result);
-        if (!c)
-            throw render::PictureError(
-                fmt::format("figure collision: nothing strikes the cam before {:g} s; raise time.end", end));
+        const sim::Collision* c = collision_of(problem, result, number);
+        if (!c) throw render::PictureError(no_collision(problem, result, number, end));
         const auto which = static_cast<int>(c - result.collisions.data());
         const double last = c->t_end.value_or(end), length = std::max(last - c->t_start, 1e-6);
         const double from = std::max(0.0, c->t_start - 0.08 * length), to = std::min(end, last + 0.08 * length);
@@ -140,7 +160,8 @@ FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studi
         panel.series = {force, depth};
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.62;
-        figure.caption = collision_caption(problem, *c, check ? results[*check] : nullptr, lang) + facts(problem, lang);
+        figure.caption =
+            collision_caption(problem, *c, number, check ? results[*check] : nullptr, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
@@ -150,11 +171,12 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
     const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "energy");
-    const std::size_t table = studies.table(
-        study, {0, end, kPlacesPoints},
-        {ChannelKind::t, ChannelKind::energy_kinetic, ChannelKind::energy_potential, ChannelKind::energy_elastic,
-         ChannelKind::energy_contact, ChannelKind::loss_structural, ChannelKind::loss_contact,
-         ChannelKind::loss_friction, ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});
+    // The kinetic energy swings with whatever the beam does.
+    const std::size_t table =
+        studies.curve(study, {0, end, kEnergyPoints}, {}, {ChannelKind::energy_kinetic, 0},
+                      {ChannelKind::energy_potential, ChannelKind::energy_elastic, ChannelKind::energy_contact,
+                       ChannelKind::loss_structural, ChannelKind::loss_contact, ChannelKind::loss_friction,
+                       ChannelKind::work_cam, ChannelKind::work_drive, ChannelKind::energy_residual});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -377,7 +399,7 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
         }
         beam.series = {on_beam};
         cam.series = {on_cam};
-        if (const sim::Collision* first = first_collision(problem, result))
+        if (const sim::Collision* first = collision_of(problem, result, 1))
             if (auto inset = close_up(*first, end, time, n, x, beam, en)) beam.insets = {std::move(*inset)};
         figure.panels = {beam, cam};
         figure.stack = true;

@@ -55,8 +55,8 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f),
                               how.serif ? render::Typefaces::serif : render::Typefaces::print);
-    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution()}, fonts,
-                        document);
+    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark},
+                        fonts, document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }

@@ -25,11 +25,21 @@ std::ptrdiff_t impacts_until(const sim::Problem& problem, const sim::Result& res
                                  [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
 }
 
-// Rows in a period of the first bending mode; 0: the beam has none, or the rows are too far apart to average.
-int rows_of_first_period(const sim::Problem& problem, const std::vector<double>& time) {
+// Of the first bending mode [s]; 0: the beam has none.
+double first_period(const sim::Problem& problem) {
     const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
-    if (modes.empty() || !(modes.front().omega > 0) || time.size() < 2) return 0;
-    return static_cast<int>(std::lround(2 * M_PI / modes.front().omega / (time[1] - time[0])));
+    return modes.empty() || !(modes.front().omega > 0) ? 0 : 2 * M_PI / modes.front().omega;
+}
+
+// For a mean over a period, which takes many of them.
+int rows_until(double end, double period) {
+    constexpr double kOfAPeriod = 24, kFewest = 20'000, kMost = 400'000;
+    return static_cast<int>(std::clamp(period > 0 ? kOfAPeriod * end / period : 0, kFewest, kMost)) + 1;
+}
+
+// 0: the rows are too far apart to average.
+int rows_of(double period, const std::vector<double>& time) {
+    return time.size() < 2 ? 0 : static_cast<int>(std::lround(period / (time[1] - time[0])));
 }
 
 // Over `rows` values around each, fewer at the ends.
@@ -47,9 +57,12 @@ std::vector<double> mean(const std::vector<double>& values, int rows) {
 FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     const double end = scene.end_time;
+    const double first = first_period(scene.problem);
     const std::size_t study = studies.of(scene.problem, end, "phase");
-    const std::size_t table =
-        studies.table(study, {0, end, 20001}, {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
+    const std::size_t table = studies.table(study, {0, end, rows_until(end, first)},
+                                            {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
+    const std::size_t curve =
+        studies.curve(study, {0, end, 2001}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0});
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
@@ -67,10 +80,11 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
         s.x = column(result.tables[table], ChannelKind::theta);
         s.y = column(result.tables[table], ChannelKind::theta_dot);
         s.value = time;
-        const int period = rows_of_first_period(problem, time);
+        const int period = rows_of(first, time);
         if (period > 1) {
-            Series raw = s;
-            raw.value.clear();
+            Series raw;
+            raw.x = column(result.tables[curve], ChannelKind::theta);
+            raw.y = column(result.tables[curve], ChannelKind::theta_dot);
             raw.color = render::rgb(0xD2D2D2);
             raw.weight = 0.35;
             panel.series.push_back(std::move(raw));

@@ -9,6 +9,7 @@
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -21,6 +22,7 @@ using render::figure::Shape;
 using sim::Vec2;
 
 constexpr int kColumns = 600, kStations = 65;  // of a kymograph: a printed column resolves no more
+constexpr int kMostLooks = 16;                 // at a column
 constexpr int kShownPoses = 9;
 
 // The stretch of the scene that a figure shows, and its poses.
@@ -40,14 +42,34 @@ Stretch stretch(const Scene& scene, const FigureOutput& how, const char* name, i
 
 // ---- deflection along the beam in time --------------------------------------------------------------
 
+// How often a column is looked at, so that vibrations that are faster than columns are not mistaken for slow ones.
+std::size_t looks_at_column(const sim::Problem& problem, double column) {
+    const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
+    if (modes.empty() || !(modes.front().omega > 0)) return 1;
+    const double periods = column * modes.front().omega / (2 * std::numbers::pi);
+    return periods < 0.25 ? 1 : static_cast<std::size_t>(std::clamp(std::ceil(8 * periods), 2.0, double(kMostLooks)));
+}
+
+// Of each column and station the value that is farthest from none.
+std::vector<double> extremes(const std::vector<sim::Pose>& poses, std::size_t looks) {
+    std::vector<double> out(kColumns * kStations, 0);
+    for (std::size_t row = 0; row < poses.size(); ++row) {
+        const std::vector<double> v = sim::deflection(poses[row]);
+        for (std::size_t i = 0; i < kStations; ++i)
+            if (double& most = out[row / looks * kStations + i]; row % looks == 0 || std::abs(v[i]) > std::abs(most))
+                most = v[i];
+    }
+    return out;
+}
+
 FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Stretch shown = stretch(scene, how, "kymograph", kColumns, kStations, studies);
+    const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
+    const std::size_t looks = looks_at_column(scene.problem, column);
+    const Stretch shown = stretch(scene, how, "kymograph", kColumns * static_cast<int>(looks), kStations, studies);
     return [=, problem = scene.problem, lang = how.lang](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[shown.study];
-        std::vector<double> v;  // by instants
-        for (const sim::Pose& pose : result.poses[shown.poses])
-            for (const double each : sim::deflection(pose)) v.push_back(each);
+        const std::vector<double> v = extremes(result.poses[shown.poses], looks);
         const auto [least, most] = std::ranges::minmax(v);
         const render::Prefix prefix = render::prefix_for(std::max(-least, most));
         const double range = most > least ? most - least : 1;
@@ -79,6 +101,11 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
                                      "time, a column each {} s. "
                                    : "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
                                 number((shown.to - shown.from) / (kColumns - 1), 2));
+        if (looks > 1)
+            figure.caption += filled(en ? "The beam vibrates within a column, which has the largest deflection of {} "
+                                          "instants. "
+                                        : "一列之内梁多次振动，取 {} 个时刻中的最大挠度。",
+                                     looks);
         if (hits > 0) figure.caption += en ? "Marks: impacts. " : "标记：冲击。";
         figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);

@@ -34,12 +34,14 @@ std::array<Series, 2> split(const Series& whole, const std::vector<double>& time
     return parts;
 }
 
-std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double end,
-                          Lang lang) {
+std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
+                          double end, Lang lang) {
     const bool en = lang == Lang::en;
     std::vector<std::string> times;
     for (const auto& [name, result] : motions)
-        for (const Lost& v : unreliable(*result, end)) {
+        for (Lost v : unreliable(*result, end)) {
+            if (v.to <= from) continue;
+            v.from = std::max(v.from, from);
             const std::string of = name.empty() ? "" : name + " ";
             times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", of, number(v.from, 3),
                                                 number(v.to, 3))

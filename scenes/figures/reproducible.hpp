@@ -24,7 +24,7 @@ std::array<render::figure::Series, 2> split(const render::figure::Series& whole,
                                             const std::vector<Lost>& intervals);
 
 // Where θ is not reproducible, if anywhere: of motions by their names, of one by none.
-std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double end,
-                          Lang lang);
+std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
+                          double end, Lang lang);
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,5 @@
 // The system with its symbols, to the scene's own scale. Integrates nothing.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,13 +27,19 @@ double start_angle(const sim::Problem& p) {
     return reach < 1 ? std::atan2(b.y, b.x) + std::asin(reach) : p.initial.angle;
 }
 
+// At other angles the symbols of beam and frames would stand on each other.
+double drawn_angle(const sim::Problem& p) {
+    const double angle = std::clamp(start_angle(p), -1.4, 1.4);
+    return std::abs(angle) < 0.15 ? 0.15 : angle;
+}
+
 class Drawing {
   public:
-    explicit Drawing(const sim::Problem& problem) : p_(problem) {
+    // `letter`: size of letters, in radii of the magnified disc.
+    Drawing(const sim::Problem& problem, double letter) : p_(problem), letter_(letter) {
         size_ = p_.beam.length + p_.hub.radius;
         unit_ = size_;
-        theta_ = std::clamp(start_angle(p_), -1.4, 1.4);
-        if (std::abs(theta_) < 0.15) theta_ = 0.15;
+        theta_ = drawn_angle(p_);
     }
 
     std::vector<Shape> shapes() {
@@ -75,7 +82,8 @@ class Drawing {
         const Vec2 c = cam.centre, b = disc_centre(cam, 0);
         disc(b, cam.radius);
         dot(c);
-        label(c, "$C$", {-0.75, c.y > 0 ? 0.8 : -0.8});  // clear of the axis X
+        const double near = c.x < 0 ? 0.7 : 1;  // the drawing is wider then, and the disc smaller on paper
+        label(c, "$C$", near * Vec2{-0.75, c.y > 0 ? 0.8 : -0.8});  // clear of the axis X
         const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
@@ -101,49 +109,80 @@ class Drawing {
         add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
     }
 
-    // For the radius: away from C and its label, and from the dimension of e.
-    static double free_direction(double phase) {
-        constexpr double kPi = std::numbers::pi, kDirections[] = {-0.72 * kPi, -0.25 * kPi, 0.72 * kPi, 0.3 * kPi};
-        for (const double way : kDirections) {
-            const auto from = [&](double other) { return std::abs(std::remainder(way - phase - other, 2 * kPi)); };
-            if (std::min(from(kPi), from(0.5 * kPi)) > 0.24 * kPi) return way;
+    // Where the labels of the disc stand about its centre, in its radius.
+    struct Symbols {
+        Vec2 radius;         // direction of the arrow R
+        Vec2 radius_label;   // from the middle of the arrow, in letters
+        double turning = 0;  // of the arrow ω, its middle
+    };
+
+    // How near the nearest two of the labels R, ω, e, B and C come to each other, or one to the arrow of another.
+    double room(const sim::Cam& cam, const Symbols& s) const {
+        const Vec2 along = sim::unit(cam.phase), across = sim::perp(along);
+        const Vec2 c = -cam.eccentricity / cam.radius * along;
+        const Vec2 labels[] = {0.5 * s.radius + letter_ * s.radius_label,
+                               (0.8 - 0.85 * letter_) * sim::unit(s.turning + 0.05),
+                               0.3 * across + 0.2 * along + letter_ * (0.6 * along + 0.1 * across),
+                               letter_ * (0.85 * along - 0.35 * across), c - letter_ * (0.85 * along - 0.2 * across)};
+        double least = 1;
+        for (std::size_t a = 0; a < std::size(labels); ++a) {
+            for (std::size_t b = 0; b < a; ++b) least = std::min(least, norm(labels[a] - labels[b]));
+            for (double share = 0.2; a > 0 && share < 1; share += 0.1)
+                least = std::min(least, norm(labels[a] - share * s.radius) + 0.3 * letter_);
         }
-        return kDirections[0];
+        return least;
+    }
+
+    // The usual places where they have room, else the best of others.
+    Symbols symbols(const sim::Cam& cam) const {
+        constexpr double kPi = std::numbers::pi;
+        const double enough = 1.4 * letter_;
+        Symbols best{sim::unit(-0.72 * kPi), {0.75, -0.35}, 0};
+        double most = room(cam, best);
+        if (most >= enough || cam.eccentricity == 0) return best;
+        constexpr int kDirections = 24;
+        for (int r = 0; r < kDirections; ++r)
+            for (const double side : {0.85, -0.85})
+                for (int turn = 0; turn < kDirections; ++turn) {
+                    const Vec2 out = sim::unit(2 * kPi * r / kDirections);
+                    const Symbols other{out, side * sim::perp(out), 2 * kPi * turn / kDirections};
+                    if (const double each = room(cam, other); each > most) most = each, best = other;
+                }
+        return best;
     }
 
     void detail(const sim::Cam& cam, Vec2 b, double zoom) {
         const double radius = zoom * cam.radius;
         const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
-        const Vec2 rim = b + radius * sim::unit(free_direction(cam.phase));
+        const Symbols at = symbols(cam);
+        const Vec2 along = sim::unit(cam.phase), rim = b + radius * at.radius;
         arrow(b, rim);
-        label(0.5 * (b + rim), "$R$", {0.75, -0.35});
+        label(0.5 * (b + rim), "$R$", at.radius_label);
         if (cam.eccentricity > 0) {
-            const Vec2 along = sim::unit(cam.phase), across = sim::perp(along) * (0.30 * radius);
+            const Vec2 across = sim::perp(along) * (0.30 * radius);
             line(c, c + 1.15 * across, kGrey);
             line(b, b + 1.15 * across, kGrey);
             arrow(c + across - along * (0.2 * radius), c + across, kGrey);
             arrow(b + across + along * (0.2 * radius), b + across, kGrey);
-            label(b + across + along * (0.2 * radius), "$e$", {0.6, 0.1});
+            label(b + across + along * (0.2 * radius), "$e$", 0.6 * along + 0.1 * sim::perp(along));
             label(b, "$B$", 0.85 * along - 0.35 * sim::perp(along));
         }
         dot(c);
         dot(b, kInk, 1.2);
         if (cam.eccentricity > 0)
-            label(c, "$C$", -0.85 * sim::unit(cam.phase) + 0.2 * sim::perp(sim::unit(cam.phase)));
+            label(c, "$C$", -0.85 * along + 0.2 * sim::perp(along));
         else
             label(c, "$B$ = $C$", {-0.85, 0.9});
         if (cam.speed == 0) return;
         const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
-        // At the right, unless C is there.
-        const double middle = cam.eccentricity > 0 && std::cos(cam.phase) < -0.3 ? 0.55 * std::numbers::pi : 0;
         add({.kind = Kind::turn,
              .centre = b,
              .radius = r,
-             .from = middle - 0.9 * way + 0.2,
-             .to = middle + 0.5 * way + 0.2,
+             .from = at.turning - 0.9 * way + 0.2,
+             .to = at.turning + 0.5 * way + 0.2,
              .color = kInk,
              .width = 0.8});
-        label(b + r * sim::unit(middle + 0.1), "$ω$", -0.85 * sim::unit(middle));
+        label(b + r * sim::unit(at.turning + 0.1), "$ω$", -0.85 * sim::unit(at.turning));
     }
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
@@ -153,7 +192,7 @@ class Drawing {
         arrow({-0.06 * unit_, 0}, {reach, 0});
         label({reach, 0}, "$X$", {0.2, -0.9});
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
-        label({0, 0.42 * unit_}, "$Y$", {-0.9, -0.2});
+        label({0, 0.42 * unit_}, "$Y$", theta_ > 1.1 ? Vec2{0, 0.75} : Vec2{-0.9, -0.2});
         label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
@@ -227,7 +266,7 @@ class Drawing {
     }
 
     const sim::Problem& p_;
-    double size_ = 1, unit_ = 1, theta_ = 0.78;
+    double letter_, size_ = 1, unit_ = 1, theta_ = 0.78;
     std::vector<Shape> out_;
 };
 
@@ -237,28 +276,50 @@ std::string schematic_caption(const sim::Problem& p, Lang lang) {
     std::string text = en ? "The system with its symbols, to scale" : "系统示意图，按比例绘制";
     if (flexible)
         text += en ? " except for the deflection $v$($x$, $t$), which is exaggerated" : "（挠度 $v$($x$, $t$) 放大）";
+    if (const double drawn = drawn_angle(p); drawn != start_angle(p))
+        text += filled(en ? "{} the angle of the beam, which is drawn as {}°" : "{}梁的角度（绘为 {}°）",
+                       !flexible && en ? " except for"
+                       : en            ? ", and for"
+                                       : "",
+                       number(drawn * 180 / std::numbers::pi, 2));
     text += en ? ". The beam of length $L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; "
                  "the frame $x$′$y$′ turns with it, $XY$ is fixed. "
                : "。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 $θ$；坐标系 $x$′$y$′ "
                  "随之转动，$XY$ 固定。";
     if (p.cam)
-        text += en ? "The disc of radius $R$ and centre $B$ turns about $C$, at the distance $D$ from $O$, with the "
-                     "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
-                   : "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 为 $D$，偏心距 "
-                     "$e$ = |$CB$|。";
+        text += filled(
+            en ? "The disc of radius $R$ and centre $B$ turns about $C$, at the {}distance $D$ from $O$, with the "
+                 "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
+               : "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 的{}距离为 "
+                 "$D$，偏心距 "
+                 "$e$ = |$CB$|。",
+            p.cam->centre.y == 0 ? "" : (en ? "horizontal " : "水平"));
     return text + facts(p, lang);
+}
+
+constexpr double kAspect = 0.98;
+
+// Of the page's shorter side the magnified disc's radius is about an eighth.
+double letter_of(const FigureOutput& how) {
+    const render::figure::Column& column = *render::figure::column_named(how.column);
+    Figure figure;
+    figure.aspect = kAspect;
+    if (how.series.height) figure.height = *how.series.height * 1e3;
+    const auto page =
+        render::figure::page_of(figure, column, how.width ? std::optional(*how.width * 1e3) : std::nullopt);
+    return page.style.letters / (0.124 * render::figure::points(std::min(page.width, page.height)));
 }
 
 FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studies&) {
     const Lang lang = how.lang;
-    return [problem = scene.problem, lang](const Results&) {
+    return [problem = scene.problem, lang, letter = letter_of(how)](const Results&) {
         Figure figure;
         figure.name = "schematic";
         figure.title = lang == Lang::en ? "The system and its symbols" : "系统与符号";
         Panel panel;
-        panel.shapes = Drawing(problem).shapes();
+        panel.shapes = Drawing(problem, letter).shapes();
         figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.98;
+        figure.aspect = kAspect;
         figure.caption = schematic_caption(problem, lang);
         figure.accuracy = accuracy({}, lang);
         return figure;

@@ -63,6 +63,26 @@ double largest(const std::vector<double>& values) {
     return out;
 }
 
+// Angles along x become phases of a turn, 0…1; the curve begins anew with each turn.
+void fold_turns(Series& curve) {
+    const Series whole = std::exchange(curve, {});
+    curve = whole;
+    curve.x.clear(), curve.y.clear();
+    const auto add = [&](double x, double y) { curve.x.push_back(x), curve.y.push_back(y); };
+    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
+    for (std::size_t i = 0; i < whole.x.size(); ++i) {
+        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
+        if (std::floor(now) != std::floor(before)) {
+            const double edge =
+                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
+            const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
+            const bool forward = now > before;
+            add(forward, y), add(std::nan(""), std::nan("")), add(!forward, y);
+        }
+        add(now - std::floor(now), whole.y[i]);
+    }
+}
+
 std::string letter(std::size_t k) { return {static_cast<char>('a' + k)}; }
 
 // Of measured data from the curves of a channel; its unit has a prefix of its own.
@@ -104,6 +124,7 @@ class SeriesFigure {
         for (const Compared& each : keys_.compare) motions_.push_back({each.label, each.problem, 0});
         if (const auto channel = sim::channel_named(keys_.against); channel && channel->kind != ChannelKind::t)
             abscissa_ = *channel;
+        if (is_phase()) abscissa_ = Channel{ChannelKind::cam_angle, 0};
         for (SeriesMotion& motion : motions_) {
             motion.study = studies.of(motion.problem, end_, words_.name);
             studies.horizon(motion.study);
@@ -142,7 +163,6 @@ class SeriesFigure {
         if (keys_.apart) share_ordinates(figure);
         figure.stack = figure.share_x = true;
         figure.aspect = words_.aspect > 0 ? words_.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
-        if (keys_.height) figure.height = *keys_.height * 1e3;
         const render::ChannelLabel& first = render::label_of(keys_.panels.front().channels.front().kind);
         figure.title = !words_.title.empty() ? words_.title : en() ? first.words : first.chinese;
         write_caption(figure, results);
@@ -166,6 +186,7 @@ class SeriesFigure {
     std::vector<Lost> lost(const sim::Result& result) const {
         return keys_.against == "frequency" ? std::vector<Lost>{} : unreliable(result, end_);
     }
+    bool is_phase() const { return keys_.against == "phase"; }
     bool over_time() const { return keys_.against == "t" || keys_.against == "turns"; }
 
     std::size_t table_of(Channel channel, std::size_t motion, Studies& studies) const {
@@ -241,6 +262,7 @@ class SeriesFigure {
             auto [sure, unsure] = split(whole, all[i].values[0], lost(*results[motion.study]));
             unsure.faded = true;
             if (!sure.x.empty()) unsure.label.clear();
+            if (is_phase()) fold_turns(sure), fold_turns(unsure);
             if (!unsure.x.empty()) out.series.push_back(std::move(unsure));
             if (!sure.x.empty()) out.series.push_back(std::move(sure));
         }
@@ -327,16 +349,18 @@ class SeriesFigure {
                     if (std::isfinite(x))
                         most = std::max(most, std::abs(x)), low = std::min(low, x), high = std::max(high, x);
         // A logarithmic panel leaves out what is not positive; its axis stays that of the others.
-        const double air = abscissa_ ? 0.03 * (high - low) : 0;
+        const double air = abscissa_ && !is_phase() ? 0.03 * (high - low) : 0;
         const Channel channel = abscissa_.value_or(Channel{});
         // Seconds, as in print, unless a stretch is short.
         constexpr double kShort = 0.05;  // [s]
         if (!abscissa_ && high - low >= kShort) most = 1;
+        if (is_phase()) low = 0, high = 1;
         if (keys_.x_low) low = *keys_.x_low + air;
         if (keys_.x_high) high = *keys_.x_high - air;
         Measure measure = measure_of(unit(channel, motions_.front().problem), most);
         std::string symbol = render::print_symbol(channel);
         if (keys_.against == "frequency") measure = {1, "Hz"}, symbol = "$f$";
+        if (is_phase()) measure = {1, "(2π)"}, symbol = en() ? "phase of the cam" : "凸轮相位";
         if (keys_.against == "turns") measure = {1, ""}, symbol = en() ? "turns of the cam" : "凸轮转数";
         for (Panel& each : figure.panels) {
             each.x.label = axis_label(symbol, measure.unit);
@@ -377,7 +401,7 @@ class SeriesFigure {
         if (keys_.against == "frequency")
             figure.caption += spectrum_words(motions_.front().problem, keys_.from, end_, lang_);
         else
-            figure.caption += horizon_words(runs, end_, lang_);
+            figure.caption += horizon_words(runs, keys_.from, end_, lang_);
         const SeriesMotion& motion = motions_[measured_motion_];
         figure.caption += keys_.against == "frequency"
                               ? measured_spectrum_words(measured_, lang_)

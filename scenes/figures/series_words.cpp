@@ -28,6 +28,7 @@ std::string series_subject(const SeriesKeys& keys, Lang lang) {
             for (const sim::Channel& channel : *side) words.push_back(words_of(channel, lang));
     std::string all = fmt::format("{}", fmt::join(words, en ? ", " : "，"));
     if (en) all.front() = static_cast<char>(std::toupper(all.front()));
+    if (keys.against == "phase") return all + (en ? " against the phase of the cam" : "随凸轮相位的变化");
     const auto against = sim::channel_named(keys.against);
     if (!against || against->kind == sim::ChannelKind::t) return all;
     return all + filled(en ? " against {}" : "随{}的变化", words_of(*against, lang));

@@ -54,12 +54,14 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
     return known->second;
 }
 
-std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y) {
+std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
+                           const std::vector<sim::ChannelKind>& also) {
     const sim::Channel time{};
     constexpr double kStray = 0.002;  // a quarter of a line's width in a column
     sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray};
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
+    for (const sim::ChannelKind kind : also) table.channels.push_back({kind, 0});
     request(study).tables.push_back(std::move(table));
     return request(study).tables.size() - 1;
 }

@@ -39,8 +39,10 @@ class Studies {
     std::size_t of(const sim::Problem& problem, double end_time, const std::string& because);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
-    // A table of its own for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where it bends.
-    std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y);
+    // A table of its own for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where it bends, and
+    // what `also` names at the same rows.
+    std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
+                      const std::vector<sim::ChannelKind>& also = {});
     std::size_t point(std::size_t study, double x, const Instants& at);
     void turning_points(std::size_t study) { request(study).turning_points = true; }
     void may_fail(std::size_t study) { all_[study].may_fail = true; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,21 +26,48 @@ constexpr int kRefined = 8;       // intervals between two trial points in the s
 constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Where the rigid beam would touch, x₁, and the trial points about it at the paper's spacing of L/100.
-std::vector<double> trial_points(const sim::Problem& p) {
+// Places on the beam at the paper's spacing of L/100, as far as the touch may be from where the rigid beam at the
+// cam's first phase would touch, x₁: the cam turns meanwhile, and the face that it meets may be off the centre line.
+struct Stations {
+    std::vector<double> x;
+    std::size_t middle = 0;  // nearest to x₁
+};
+Stations stations(const sim::Problem& p) {
+    constexpr int kAround = 16, kLast = 100;
     const double x1 = sim::tangent_distance(*p.cam, p.cam->phase, sim::Printing::corrected) - p.hub.radius;
-    const double spacing = p.beam.length / 100;
-    const double middle = std::clamp(std::round(x1 / spacing), 2.0, 98.0) * spacing;
-    std::vector<double> points;
-    constexpr int kMiddle = kTrial / 2;
-    for (int k = 0; k < kTrial; ++k) points.push_back(middle + (k - kMiddle) * spacing);
-    return points;
+    const double spacing = p.beam.length / kLast;
+    const int middle = std::clamp(static_cast<int>(std::round(x1 / spacing)), 2, kLast - 2);
+    const int first = std::max(0, middle - kAround), last = std::min(kLast, middle + kAround);
+    Stations out;
+    for (int k = first; k <= last; ++k) out.x.push_back(k * spacing);
+    out.middle = static_cast<std::size_t>(middle - first);
+    return out;
 }
 
 struct DistanceHistory {
     std::vector<double> t, x;                   // instants, arc positions
     std::vector<std::vector<double>> distance;  // [m], by position, then instant
 };
+
+// Of a place that is counted in stations, over the instants `t`, from the cam's surface [m]. Between stations its
+// position is that of a cubic through the four around it.
+std::vector<double> distance(const sim::Result& fall, const std::vector<std::size_t>& stations, double place,
+                             const std::vector<double>& t, const sim::Problem& problem) {
+    const std::size_t first = std::clamp<std::size_t>(static_cast<std::size_t>(place), 1, stations.size() - 3) - 1;
+    std::array<double, 4> weights{1, 1, 1, 1};
+    for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b)
+            if (b != a)
+                weights[a] *=
+                    (place - static_cast<double>(first + b)) / (static_cast<double>(a) - static_cast<double>(b));
+    std::vector<double> out;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        sim::Vec2 at;
+        for (std::size_t a = 0; a < 4; ++a) at = at + weights[a] * fall.points[stations[first + a]][i];
+        out.push_back(norm(at - disc_centre(*problem.cam, t[i])) - problem.cam->radius - contact_offset(problem));
+    }
+    return out;
+}
 
 // First zero of a falling distance, by a cubic through the four samples around it.
 double arrival(const std::vector<double>& t, const std::vector<double>& d) {
@@ -67,6 +95,20 @@ double arrival(const std::vector<double>& t, const std::vector<double>& d) {
     return kNever;
 }
 
+// The first of the trial points among the stations: they are about x₁, unless the earliest zero is at their edge or
+// beyond it.
+template <class ArrivalAt>
+std::size_t trial_begin(const Stations& searched, const ArrivalAt& arrival_at) {
+    constexpr std::size_t kMiddle = kTrial / 2;
+    std::size_t middle = searched.middle;
+    double earliest = kNever;
+    for (std::size_t k = 0; k < searched.x.size(); ++k)
+        if (const double t = arrival_at(static_cast<double>(k)); t < earliest) earliest = t, middle = k;
+    const std::size_t away = std::max(middle, searched.middle) - std::min(middle, searched.middle);
+    if (away < kMiddle) middle = searched.middle;
+    return std::clamp<std::size_t>(middle, kMiddle, searched.x.size() - 1 - kMiddle) - kMiddle;
+}
+
 // The first touch of the simulation, in the digits that one mode fewer leaves.
 std::string located(const sim::Problem& problem, const sim::Result& result, const sim::Result* fewer, Lang lang) {
     const bool en = lang == Lang::en;
@@ -84,13 +126,9 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time, "distance");
-    const std::vector<double> trial = trial_points(scene.problem);
-    // The refined points lie between the trial points; asked for together, the fall is integrated once.
-    std::vector<double> fine;
-    for (int k = 0; k <= (kTrial - 1) * kRefined; ++k)
-        fine.push_back(trial.front() + (trial.back() - trial.front()) * k / ((kTrial - 1) * kRefined));
+    const Stations searched = stations(scene.problem);
     std::vector<std::size_t> where;
-    for (const double x : fine) where.push_back(studies.point(fall, x, all));
+    for (const double x : searched.x) where.push_back(studies.point(fall, x, all));
     const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
     std::optional<std::size_t> check;
     if (const auto fewer = with_one_mode_fewer(scene.problem)) {
@@ -101,21 +139,19 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
-        const sim::Cam& cam = *problem.cam;
-        const double offset = contact_offset(problem);
         DistanceHistory f;
         f.t = instants(all);
-        f.x = fine;
-        for (const std::size_t w : where) {
-            std::vector<double> d;
-            for (std::size_t i = 0; i < f.t.size(); ++i) {
-                const sim::Vec2 disc = disc_centre(cam, f.t[i]);
-                d.push_back(norm(falls.points[w][i] - disc) - cam.radius - offset);
-            }
-            f.distance.push_back(std::move(d));
-        }
+        const auto arrival_at = [&](double place) { return arrival(f.t, distance(falls, where, place, f.t, problem)); };
+        const std::size_t begin = trial_begin(searched, arrival_at);
+        const double spacing = searched.x[1] - searched.x[0];
         std::vector<double> when;
-        for (const std::vector<double>& d : f.distance) when.push_back(arrival(f.t, d));
+        for (int k = 0; k <= (kTrial - 1) * kRefined; ++k) {
+            const double place = static_cast<double>(begin) + static_cast<double>(k) / kRefined;
+            f.x.push_back(searched.x.front() + place * spacing);
+            f.distance.push_back(distance(falls, where, place, f.t, problem));
+            when.push_back(arrival(f.t, f.distance.back()));
+        }
+        const std::vector<double>& fine = f.x;
         const auto first = static_cast<std::size_t>(std::min_element(when.begin(), when.end()) - when.begin());
         std::size_t first_trial = 0;
         for (std::size_t k = 0; k < when.size(); k += kRefined)
@@ -124,7 +160,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
             throw render::PictureError(
                 fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
                             "cam before {:g} s; raise time.end",
-                            fine.front(), fine.back(), end));
+                            searched.x.front(), searched.x.back(), end));
         Figure figure;
         figure.name = "distance";
         figure.title = en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";

@@ -314,7 +314,7 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
                    fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
         const bool windows = recipe && recipe->takes_channel;
         for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts",
-                                           "height", "compare", "comparison", "residuals", "notes"})
+                                           "compare", "comparison", "residuals", "notes"})
             if (r.has(key) && !(stretch && (key == "from" || key == "to")) && !(windows && key == "channels"))
                 r.fail(r.place(key), std::string(key), fmt::format("{} belongs to the figure \"series\"", r.path(key)));
         if (windows && series.panels.front().channels.size() > 1)
@@ -328,6 +328,9 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
     if (const Recipe* recipe = recipe_named(figure.figure); r.has("value") && recipe && !recipe->takes_value)
         r.fail(r.place("value"), "value",
                fmt::format("{} belongs to the figures \"bifurcation\", \"map\" and \"basins\"", r.path("value")));
+    if (r.has("collision") && figure.figure != "collision")
+        r.fail(r.place("collision"), "collision",
+               fmt::format("{} belongs to the figure \"collision\"", r.path("collision")));
     for (const char* key : {"window", "highest"})
         if (r.has(key) && figure.figure != "spectrogram")
             r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"spectrogram\"", r.path(key)));
@@ -345,6 +348,9 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
                fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
     if (series.x_low && series.x_high && !(*series.x_low < *series.x_high))
         r.fail(r.place("x_high"), "x_high", fmt::format("{} must be above \"x_low\"", r.path("x_high")));
+    if ((series.against == "turns" || series.against == "phase") && !r.context().scene.problem.cam &&
+        series.compare.empty())
+        r.fail(r.place("x"), "x", fmt::format("{} = \"{}\": the scene has no cam", r.path("x"), series.against));
     if (series.impacts && series.against != "t" && series.against != "turns")
         r.fail(r.place("impacts"), "impacts",
                fmt::format("{}: impacts are lines over \"t\" or \"turns\" alone", r.path("impacts")));

@@ -458,16 +458,16 @@ Form grouped_channels_form(std::vector<SeriesPanel>& panels) {
 
 Form abscissa_form(std::string& against) {
     const auto read = [&against](ObjectReader& r, const Node& node, const std::string& key) {
-        std::vector<std::string> known{"turns", "frequency"};
+        std::vector<std::string> known{"turns", "phase", "frequency"};
         for (const sim::Channel& channel : all_channels(r.context().scene.problem)) known.push_back(name(channel));
         if (node.kind != Node::Kind::string || std::ranges::find(known, node.text) == known.end())
             return r.fail(node, key,
-                          fmt::format("{} = {} is neither \"turns\", \"frequency\" nor a channel{}", r.path(key),
-                                      shown(node), suggestion_or_list(node.text, known)));
+                          fmt::format("{} = {} is neither \"turns\", \"phase\", \"frequency\" nor a channel{}",
+                                      r.path(key), shown(node), suggestion_or_list(node.text, known)));
         against = node.text;
     };
-    return {"channel, \"turns\" or \"frequency\"",
-            R"({"anyOf": [{"enum": ["turns", "frequency"]}, {"$ref": "#/$defs/channel"}]})", read,
+    return {"channel, \"turns\", \"phase\" or \"frequency\"",
+            R"({"anyOf": [{"enum": ["turns", "phase", "frequency"]}, {"$ref": "#/$defs/channel"}]})", read,
             [&against] { return text_node(against); }};
 }
 

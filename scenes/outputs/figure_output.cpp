@@ -47,7 +47,7 @@ static const std::string& restriction() {
         "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}],
                   "properties": {{"window": false, "highest": false}}}},
         "else": {{"properties": {{"panels": false, "x": false, "x_low": false, "x_high": false,
-                                  "impacts": false, "height": false, "compare": false, "comparison": false,
+                                  "impacts": false, "compare": false, "comparison": false,
                                   "residuals": false, "notes": false}},
                   "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
                   "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}},
@@ -74,10 +74,10 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
     v.list(key("panels"), panels, "Of \"series\": its panels, above each other.");
     v.exclude("channels", "panels");
-    v.form(key("x"), abscissa_form(series.against),
-           "Of \"series\": what the curves are drawn against: \"t\", \"turns\" of the cam, \"frequency\" (amplitudes, "
-           "by Hann's "
-           "window), or a channel.");
+    v.form(
+        key("x"), abscissa_form(series.against),
+        "Of \"series\": what the curves are drawn against: \"t\", \"turns\" of the cam, its \"phase\" (turns less the "
+        "whole ones), \"frequency\" (amplitudes, by Hann's window), or a channel.");
     v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
              "Of \"series\": lower end of that axis, in SI units.");
     v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny, "Its upper end.");
@@ -88,9 +88,6 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     v.number(sim::written_if(stretch, "to"), series.to, dim::kTime, kFromStart,
              "When it ends; with the scene when left out. A \"strobe\" that begins there shows that instant alone.");
     v.truth(key("impacts"), series.impacts, "Of \"series\": lines where impacts begin.");
-    v.number(key("height"), series.height, dim::kLength,
-             between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
-             "Of \"series\": its height; what suits its panels when left out.");
     v.number(sim::written_if(windows, "window"), series.window, dim::kTime, sim::kPositive,
              "Of \"spectrogram\": length of its windows, which becomes a power of two of samples.");
     v.number(sim::written_if(windows, "highest"), series.highest, dim::kFrequency, sim::kPositive,
@@ -120,14 +117,20 @@ void FigureOutput::visit(SceneVisitor& v) {
              "Of an .svg: letters as outlines, the same everywhere, or as text in the reader's fonts.");
     v.choice("font", serif, {{false, "sans"}, {true, "serif"}},
              "Letters: Liberation Sans, as Arial, or Liberation Serif, as the Times of LaTeX.");
+    v.choice("theme", dark, {{false, "light"}, {true, "dark"}}, "Colours: of white paper, or of a dark slide.");
     v.choice("lang", lang, {{Lang::en, "en"}, {Lang::zh, "zh"}}, "Language of labels and caption.");
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Another width than the column's.");
+    v.number("height", series.height, dim::kLength,
+             between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
+             "Its height; what suits its panels when left out.");
     v.form("caption", file_form(caption_file, {".txt", ".md", ".tex"}),
            "A file for its caption: plain and as LaTeX, .tex as LaTeX alone; none when left out.");
     v.form("data", file_form(data_file, {".csv"}), "A file for the numbers that it shows; none when left out.");
     visit_series(v, series, figure);
+    v.whole(sim::written_if(figure == "collision", "collision"), collision, 1, 100'000,
+            "Of \"collision\": which one it shows, counted from 1.");
     const Recipe* recipe = recipe_named(figure);
     v.text(
         sim::written_if(recipe && recipe->takes_value, "value"), value,
@@ -140,9 +143,11 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     const Recipe* recipe = recipe_named(figure);
     if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure);
     Studies studies;
-    const auto make = [make = recipe->prepare(planner.scene(), *this, studies)](const Results& results) {
+    const auto make = [make = recipe->prepare(planner.scene(), *this, studies),
+                       height = series.height](const Results& results) {
         render::figure::Figure made = make(results);
         choose_prefixes(made);
+        if (height) made.height = *height * 1e3;
         return made;
     };
     FigureFile planned{output, file, figure, {}, make, {}};

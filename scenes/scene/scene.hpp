@@ -344,7 +344,9 @@ struct FigureOutput {
     std::optional<double> dpi;  // of pixels; absent: 300 of .png, 600 of .tif
     bool editable = false;      // text of .svg as text
     bool serif = false;         // letters as those of text set by LaTeX
+    bool dark = false;          // on the dark theme's paper, for slides
     SeriesKeys series;
+    int collision = 1;                    // which one the figure "collision" shows, counted from 1
     std::string value = {};               // of a diagram of a sweep: what it shows; empty: the usual
     std::string data_file, caption_file;  // beside it; empty: none
 

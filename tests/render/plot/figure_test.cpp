@@ -476,6 +476,36 @@ std::string bytes_of(const Figure& figure, Medium medium, const Document& docume
     return sheet.bytes();
 }
 
+// Everything is drawn in the colours of white paper; the sheet turns them.
+TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
+    const Palette& films = palette(Theme::dark);
+    const auto expect_near = [](Color a, Color b) {
+        EXPECT_NEAR(a.r, b.r, 2e-3);
+        EXPECT_NEAR(a.g, b.g, 2e-3);
+        EXPECT_NEAR(a.b, b.b, 2e-3);
+    };
+    expect_near(on_dark(rgb(0xFFFFFF)), films.paper);
+    expect_near(on_dark(rgb(0x000000)), films.ink);
+    EXPECT_EQ(on_dark(rgb(0x123456).faded(0.3)).a, 0.3);
+    // Graphics need 3 : 1 (WCAG 2.1), letters of this size 4.5 : 1; labels have the colours of their lines.
+    for (int k = 0; k < 8; ++k) EXPECT_GE(contrast(on_dark(look(k).color), films.paper), 4.5) << k;
+    // What is near the paper's colour in print is near it here, and the order stays.
+    double before = 0;
+    for (int k = 0; k <= 20; ++k) {
+        const double now = contrast(on_dark(map_color(k / 20.0)), films.paper);
+        EXPECT_GT(now, before) << k;
+        before = now;
+    }
+    const Figure figure = plot({0, 1}, {0, 1});
+    const Page page = page_of(figure, *column_named("slide"));
+    const Fonts fonts(false, Typefaces::print);
+    Sheet sheet(Medium::png, {points(page.width), points(page.height), 72, true}, fonts);
+    draw(figure, page, sheet);
+    const Color paper = on_dark(rgb(0xFFFFFF));
+    const auto byte = [](double channel) { return static_cast<std::uint32_t>(std::lround(255 * channel)); };
+    EXPECT_EQ(sheet.image().pixels.front(), 0xFF000000 | byte(paper.r) << 16 | byte(paper.g) << 8 | byte(paper.b));
+}
+
 TEST(Figure, EpsHasItsSizeAndNoClock) {
     Document document;
     document.title = "θ(t)\n%%EOF", document.creator = "test", document.created = 1000000000;

@@ -131,6 +131,50 @@ TEST(Figures, SchematicShowsARestingBeamOnTheCam) {
     EXPECT_FALSE(has(figure_of(scene_from(R"({"gravity": 0})"), "schematic"), "$g$"));
 }
 
+// Its angle has limits, its distance D is measured along X.
+TEST(Figures, ASchematicSaysWhereItIsNotToScale) {
+    const auto caption = [](const char* scene) { return figure_of(scene_from(scene), "schematic").caption; };
+    EXPECT_THAT(caption("{}"), Not(HasSubstr("drawn as")));
+    EXPECT_THAT(caption("{}"), HasSubstr("at the distance $D$ from $O$"));
+    EXPECT_THAT(caption(R"({"initial": {"angle": "120 deg"}, "cam": {"centre": [0.25, 0.01]}})"),
+                ::testing::AllOf(HasSubstr("exaggerated, and for the angle of the beam, which is drawn as 80°"),
+                                 HasSubstr("at the horizontal distance $D$ from $O$")));
+    EXPECT_THAT(caption(R"({"initial": {"angle": "120 deg"}, "beam": {"model": "rigid"}})"),
+                HasSubstr("to scale except for the angle of the beam"));
+}
+
+// The cam turns while the beam falls, so that the touch is far from where its first phase puts it.
+TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
+    const auto figure = figure_of(scene_from(R"({"hub": {"drive": {"type": "torque", "value": "1.5 N m"}},
+        "cam": {"speed": 4}, "initial": {"angle": "30 deg"}, "time": {"end": 1}})"),
+                                  "distance");
+    const auto& inset = figure.panels[0].insets[0].panel[0];
+    ASSERT_EQ(inset.marks.size(), 1u);
+    const auto& trial = inset.series[1];
+    EXPECT_LT(*std::ranges::min_element(trial.x), inset.marks[0].x);
+    EXPECT_GT(*std::ranges::max_element(trial.x), inset.marks[0].x);
+    EXPECT_LE(*std::ranges::min_element(inset.series[0].y), inset.marks[0].y + 0.05);  // [ms]
+}
+
+TEST(Figures, AnyCollisionIsShownInCloseUp) {
+    const Folder folder;
+    folder.write("s.json", R"({"beam": {"model": "rigid"}, "time": {"end": 1.2}})");
+    const auto start = [&](int number) {
+        const Finished made = shell(folder, fmt::format("$BEAMCAM figure s.json collision --collision {} -o c{}.svg "
+                                                        "--caption c{}.txt",
+                                                        number, number, number));
+        EXPECT_EQ(made.code, 0) << made.err;
+        const std::string caption = testing::slurp(folder / fmt::format("c{}.txt", number));
+        EXPECT_THAT(caption, HasSubstr(number == 1 ? "The first collision" : "The second collision"));
+        const std::string key = "t_1 = ";
+        return std::stod(caption.substr(caption.find(key) + key.size()));
+    };
+    EXPECT_LT(start(1), start(2));
+    const Finished none = shell(folder, "$BEAMCAM figure s.json collision --collision 99 -o n.svg");
+    EXPECT_EQ(none.code, 3);
+    EXPECT_THAT(none.err, HasSubstr("collision 99 does not occur: there are "));
+}
+
 TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
     render::figure::Panel panel;
     panel.x.label = "$t$ / s", panel.y.label = "$w$ / mm";

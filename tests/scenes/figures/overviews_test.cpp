@@ -45,6 +45,35 @@ TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
 }
 
 // What `--data` writes: a row for each cell with its deflection, and for each mark.
+// Films are pixels; the words name the figure that is lines.
+TEST(Overviews, AStillOfLinesIsAFigureWhichRenderNames) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    const Finished refused = shell(folder, "$BEAMCAM render s.json --at 0.3 -o a.pdf");
+    EXPECT_EQ(refused.code, 2);
+    const std::string key = "beamcam figure ";
+    const std::size_t at = refused.err.find(key);
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    const std::string arguments = refused.err.substr(at + key.size(), refused.err.find('\n', at) - at - key.size());
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure " + arguments).code, 0) << refused.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.pdf"));
+}
+
+// A column of 5 ms holds most of a period of the first mode: an instant of it would show a vibration that is not there.
+TEST(Overviews, ColumnsOfAKymographHaveTheExtremesOfWhatIsFaster) {
+    const auto figure = overview_of("kymograph", R"(, "to": 3)");
+    EXPECT_THAT(figure.caption, HasSubstr("The beam vibrates within a column, which has the largest deflection of "));
+    double most = 0;
+    for (const double v : figure.panels[0].cells[0].values) most = std::max(most, std::abs(v));
+    sim::Request request;
+    request.end_time = 3;
+    request.extrema = {{sim::ChannelKind::tip_deflection, 0}};
+    const sim::Extremum tip = sim::simulate(testing::read("{}").scene->problem, request).extrema.front();
+    EXPECT_NEAR(most * 1e-3, std::max(tip.max, -tip.min), 0.05 * std::max(tip.max, -tip.min));
+    EXPECT_THAT(overview_of("kymograph", R"(, "from": 0.2, "to": 0.3)").caption,
+                ::testing::Not(HasSubstr("within a column")));
+}
+
 TEST(Overviews, DataOfAKymographAreItsDeflections) {
     const auto figure = overview_of("kymograph", R"(, "from": 0.2, "to": 0.3)");
     const auto& cells = figure.panels[0].cells.at(0);

@@ -258,6 +258,74 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_EQ(shell(folder, command + "series -o c.png").code, 2);
 }
 
+// The same bytes, the scene within them too.
+TEST(Series, AllOfAPanelIsToldByOptionsToo) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    folder.write("k.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "series", "file": "k.svg",
+        "theme": "dark", "x_low": 0.1, "x_high": 0.35, "notes": [{"at": "impact:1", "text": "touch"}],
+        "panels": [{"channels": ["theta"], "right": ["gap"], "low": 0.3, "high": 1, "title": "Hub $θ$"}]}]})");
+    const Finished made = shell(folder,
+                                "$BEAMCAM run k.json -q && $BEAMCAM figure s.json -q --channels theta --right gap "
+                                "--low 0.3 --high 1 --title 'Hub $θ$' --x-low 0.1 --x-high 0.35 "
+                                "--note impact:1=touch --theme dark -o s.svg");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(testing::slurp(folder / "k.svg"), testing::slurp(folder / "s.svg"));
+    const std::string command = "$BEAMCAM figure s.json -q -o a.svg ";
+    EXPECT_EQ(shell(folder, command + "--channels theta --low 2 --high 1").code, 2);
+    EXPECT_EQ(shell(folder, command + "--channels theta --right theta,gap").code, 2);
+    EXPECT_EQ(shell(folder, command + "--channels theta --note impact:x=a").code, 2);
+    EXPECT_EQ(shell(folder, command + "phase --title A").code, 2);
+    EXPECT_EQ(shell(folder, command + "--channels theta --panels").code, 2);
+    EXPECT_EQ(shell(folder, command + "phase --collision 2").code, 2);
+}
+
+// 0.4 s at 40 rad/s are 2.55 turns: from the middle of one on they pass its ends three times, either way.
+TEST(Series, RunsOverThePhaseOfTheCam) {
+    for (const double speed : {40.0, -40.0}) {
+        const Figure figure =
+            figure_of(R"("channels": ["theta"], "x": "phase")",
+                      fmt::format(R"("cam": {{"speed": {}, "phase": "180 deg", "centre": [-0.5, 0]}},)", speed));
+        const auto& curve = figure.panels[0].series[0];
+        EXPECT_EQ(figure.panels[0].x.label, "phase of the cam / (2π)");
+        EXPECT_EQ(figure.panels[0].x.from, 0);
+        EXPECT_EQ(figure.panels[0].x.to, 1);
+        EXPECT_THAT(figure.caption, HasSubstr("against the phase of the cam"));
+        std::size_t edges = 0;
+        double turns = 0;
+        for (std::size_t i = 0; i < curve.x.size(); ++i) {
+            if (std::isnan(curve.x[i])) {
+                ++edges;
+                EXPECT_EQ(curve.x[i - 1] + curve.x[i + 1], 1);  // from one end of the axis to the other
+                EXPECT_EQ(curve.y[i - 1], curve.y[i + 1]);
+            } else {
+                EXPECT_GE(curve.x[i], 0);
+                EXPECT_LE(curve.x[i], 1);
+                if (i > 0 && !std::isnan(curve.x[i - 1])) turns += curve.x[i] - curve.x[i - 1];
+            }
+        }
+        EXPECT_NEAR(std::abs(turns), 0.4 * 40 / (2 * M_PI), 1e-9);
+        EXPECT_EQ(edges, 3u);
+    }
+    EXPECT_THAT(testing::read(R"({"cam": null, "outputs": [{"type": "figure", "figure": "series",
+                                  "channels": ["theta"], "x": "phase"}]})")
+                    .report(),
+                HasSubstr("the scene has no cam"));
+}
+
+// Of a stretch alone, whatever was lost before.
+TEST(Series, TellsOnlyWhatItShowsOfTheReproducible) {
+    const std::string run = R"("cam": {"speed": 5}, "initial": {"angle": "45 deg"}, )";
+    const std::string whole = figure_of(R"("channels": ["theta"], "to": 6)", run).caption;
+    ASSERT_THAT(whole, HasSubstr("Drawn lighter, from "));
+    const double lost = std::stod(whole.substr(whole.find(", from ") + 7));
+    ASSERT_LT(lost, 5);
+    EXPECT_THAT(figure_of(R"("channels": ["theta"], "from": 5, "to": 6)", run).caption,
+                HasSubstr("Drawn lighter, from 5 s on"));
+    EXPECT_THAT(figure_of(fmt::format(R"("channels": ["theta"], "to": {})", 0.9 * lost), run).caption,
+                Not(HasSubstr("lighter")));
+}
+
 TEST(Measured, DataOfTheContactNeedACam) {
     const Folder folder;
     folder.write("rig.csv", "t,gap\n0.1,0.05\n");
