@@ -97,7 +97,7 @@ const Look& look(int k) { return kLooks[static_cast<std::size_t>(k) % kLooks.siz
 Color pale(Color color, double share) { return mix(color, rgb(0xFFFFFF), share); }
 
 Color on_dark(Color color) {
-    static const Lab kPaper = lab_of(palette(Theme::dark).paper), kInk = lab_of(palette(Theme::dark).ink);
+    static const Lab kDarkPaper = lab_of(palette(Theme::dark).paper), kDarkInk = lab_of(palette(Theme::dark).ink);
     constexpr double kBlack = 0.1, kLeast = 0.68;  // lightness; kLeast: contrast 6 : 1 on the dark paper
     const Lab lab = lab_of(color);
     const bool of_line = lab.lightness > kBlack && std::ranges::any_of(kLooks, [&](const Look& each) {
@@ -105,8 +105,8 @@ Color on_dark(Color color) {
                          });
     if (of_line) return color_of({std::max(lab.lightness, kLeast), lab.a, lab.b}, color.a);
     const double paper = std::clamp(lab.lightness, 0.0, 1.0), ink = 1 - paper;
-    return color_of({ink * kInk.lightness + paper * kPaper.lightness, lab.a + ink * kInk.a + paper * kPaper.a,
-                     lab.b + ink * kInk.b + paper * kPaper.b},
+    return color_of({ink * kDarkInk.lightness + paper * kDarkPaper.lightness,
+                     lab.a + ink * kDarkInk.a + paper * kDarkPaper.a, lab.b + ink * kDarkInk.b + paper * kDarkPaper.b},
                     color.a);
 }
 
