@@ -357,7 +357,7 @@ TEST(Figures, ModelsAreComparedInTheSameShapes) {
 // Ten seconds of impacts in the models whose contact takes Runge–Kutta steps would be a minute of computing.
 TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
     SKIP_UNDER_SANITIZERS();
-    const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 3000}, "time": {"end": 10}})"), "models");
+    const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 2000}, "time": {"end": 10}})"), "models");
     EXPECT_GT(figure.panels[0].x.to, 0.3);
     EXPECT_LT(figure.panels[0].x.to, 2);
     EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("Curves end where the work"));
