@@ -13,6 +13,7 @@
 
 namespace beamcam::sim {
 
+// A step of the tangents of one phase.                                                                           (S70)
 class TangentStep {
   public:
     // `probe` evaluates the contact along the motion; it, `jets` and `units` (of the rows of tangents) must outlive
