@@ -12,7 +12,7 @@
 namespace beamcam::output {
 namespace {
 
-constexpr std::size_t kGathered = 1 << 16;  // [bytes] gathered before they are written
+constexpr std::size_t kGatheredBytes = 1 << 16;  // [bytes] gathered before they are written
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The columns that all rows of a point share, after the swept keys.
@@ -80,7 +80,7 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
             }
             text += '\n';
         }
-        if (text.size() < kGathered) return;
+        if (text.size() < kGatheredBytes) return;
         write(text);
         text.clear();
     });

@@ -33,11 +33,11 @@ struct Stations {
     std::size_t middle = 0;  // nearest to x₁
 };
 Stations stations(const sim::Problem& p) {
-    constexpr int kAround = 16, kLast = 100;
+    constexpr int kNeighbours = 16, kLast = 100;
     const double x1 = sim::tangent_distance(*p.cam, p.cam->phase, sim::Printing::corrected) - p.hub.radius;
     const double spacing = p.beam.length / kLast;
     const int middle = std::clamp(static_cast<int>(std::round(x1 / spacing)), 2, kLast - 2);
-    const int first = std::max(0, middle - kAround), last = std::min(kLast, middle + kAround);
+    const int first = std::max(0, middle - kNeighbours), last = std::min(kLast, middle + kNeighbours);
     Stations out;
     for (int k = first; k <= last; ++k) out.x.push_back(k * spacing);
     out.middle = static_cast<std::size_t>(middle - first);
