@@ -161,8 +161,7 @@ void Sheet::curve(std::span<const Vec2> points, const Pen& pen) {
         polyline(points);
         return stroke(pen);
     }
-    Pen part = pen;
-    part.cap = Cap::round;
+    const Pen part{pen.color, pen.width, {}, Cap::round};
     for (std::size_t from = 0; from + 1 < points.size(); from += kPiece - 1) {
         polyline(points.subspan(from, std::min(kPiece, points.size() - from)));
         stroke(part);

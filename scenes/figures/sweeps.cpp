@@ -286,8 +286,13 @@ figure::Figure bifurcation(const SweptPoints& points, const std::string& value, 
     }
     panel.name = value;
     panel.y = {.label = label_of(value, points.data.columns[column].unit, points.lang)};
-    if (all_empty(panel.clouds)) panel.y.from = 0, panel.y.to = 1;
     panel.legend = figure::Legend::box;
+    const bool empty = all_empty(panel.clouds);
+    if (empty) {  // numbers would be invented
+        panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};
+        panel.legend = figure::Legend::none;
+        panel.share = 0.15;
+    }
     exponents.name = "exponent";
     exponents.y = {.label = "$λ_1$ / s^{−1}"};
     exponents.rules = {{.at = 0}};
@@ -307,8 +312,9 @@ figure::Figure bifurcation(const SweptPoints& points, const std::string& value, 
                   .to = edges.back(),
                   .tight = true};
     out.stack = out.share_x = true;
-    out.aspect = known ? 1.05 : 0.8;
-    if (known) out.caption = exponent_words(points.lang);
+    out.aspect = empty ? 0.35 : known ? 1.05 : 0.8;
+    if (empty) out.caption = points.lang == Lang::en ? "No motion has a section to draw." : "没有可绘制的截面。";
+    if (known) out.caption += (empty ? " " : "") + std::string(exponent_words(points.lang));
     return out;
 }
 

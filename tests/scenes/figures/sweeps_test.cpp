@@ -95,6 +95,15 @@ TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
     EXPECT_THAT(figure.caption, HasSubstr("largest Lyapunov exponent"));
 }
 
+TEST(Diagram, WithoutSectionsInventsNoNumbers) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}]})");
+    using enum AttractorClass;
+    const auto figure = diagram("bifurcation", speeds, data(speeds, {following, over_the_top}), "v_n_before");
+    ASSERT_THAT(figure.panels, SizeIs(2));
+    EXPECT_FALSE(figure.panels[0].y.numbered);
+    EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
+}
+
 TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
     const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 3, 2]}],
                                       "seed": ["carry-up", "carry-down"]})");

@@ -85,6 +85,19 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     EXPECT_NEAR(e.lambda[0], longer.lambda[0], 3 * e.error[0]);
 }
 
+TEST(Exponents_, WhatNearGrazingImpactsAddIsNoProofOfChaos) {
+    Exponents e;
+    e.lambda = {1}, e.error = {0.1}, e.duration = 100;
+    EXPECT_EQ(e.chaos(), Chaos::shown);
+    e.doubt = 0.6;
+    EXPECT_EQ(e.chaos(), Chaos::shown);
+    e.doubt = 0.8;  // 1 < 3 × 0.1 + 0.8
+    EXPECT_EQ(e.chaos(), Chaos::doubtful);
+    EXPECT_FALSE(e.chaotic());
+    e.error = {0.4};
+    EXPECT_EQ(e.chaos(), Chaos::not_shown);
+}
+
 TEST(Exponents_, ASensitiveTransientIsNoChaos) {
     const Problem p;  // its differences grow until about 4 s and are gone at 9 s
     const ExponentsRequest request{.count = 1, .transient = 2, .duration = 4};
