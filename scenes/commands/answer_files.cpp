@@ -44,7 +44,7 @@ void need_room(const char* option, const std::vector<std::string>& files, std::i
 
 void write_answer(const Answer& answer, const AnswerFiles& files, const Common& common, output::Manifest& manifest) {
     const bool prints_data = std::ranges::find(files.names, "-") != files.names.end();
-    if (common.json)
+    if (common.json && !prints_data)
         print_json(answer.json());
     else if (!prints_data)
         print_text(answer.words());

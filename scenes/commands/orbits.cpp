@@ -42,7 +42,7 @@ struct KeyRange {
 
 KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
     const std::size_t equals = over.find('='), colon = over.find(':', equals);
-    if (equals == std::string::npos || colon == std::string::npos)
+    if (equals == std::string::npos || colon == std::string::npos || over.find(':', colon + 1) != std::string::npos)
         throw UsageError(fmt::format("--over {}: write KEY=FROM:TO, for example cam.speed=40:60", over));
     const std::string path = over.substr(0, equals), option = "--over " + over;
     const std::vector<sim::NumberKey> keys = sim::number_keys(problem);
@@ -294,6 +294,8 @@ int act(const OrbitsArguments& args) {
     }
     for (const std::string& file : args.files.names)
         if (!range && !is_data_file(file)) throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
+    if (!range && (args.at || args.doublings > 0))
+        throw UsageError("--at and --doublings belong to branches: give --over KEY=FROM:TO");
     if (args.row > 0 && !args.sweep_file) throw UsageError("--row: give the table by --sweep");
     if (args.sweep_file && !range && args.row == 0)
         throw UsageError(

@@ -124,18 +124,24 @@ Scene with_options(Scene scene, const SweepArguments& args) {
     return scene;
 }
 
+// As the scene describes its own film, if it has one.
+SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
+    if (const auto why = recipe_named("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
+    SweepFilmOutput film;
+    for (const Output& output : scene.outputs)
+        if (const auto* own = std::get_if<SweepFilmOutput>(&output)) film = *own;
+    film.file = *args.film;
+    if (args.value) film.value = *args.value;
+    if (args.lang == "zh") film.lang = Lang::zh;
+    return film;
+}
+
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
     if (!args.file.empty() || !(args.diagram || args.film))
         outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
-    if (args.film) {
-        SweepFilmOutput film;
-        film.file = *args.film;
-        film.value = args.value.value_or("");
-        film.lang = args.lang == "zh" ? Lang::zh : Lang::en;
-        outputs.emplace_back(std::move(film));
-    }
+    if (args.film) outputs.emplace_back(film_of(args, scene));
     if (!args.diagram) return outputs;
     FigureOutput diagram;
     diagram.file = *args.diagram;

@@ -30,6 +30,7 @@ using sim::between, sim::kPositive, sim::required, sim::written_if;
 namespace {
 
 constexpr double kShotLength = 1;       // of the film, at one value, about [s]
+constexpr double kGrowingShare = 0.35;  // of the time at one value
 constexpr double kGrowthRate = 10;      // pictures of the diagram in a second of the film
 constexpr double kDiagramShare = 0.56;  // of a wide picture's width; a tall one is halved
 constexpr double kMargin = 18;          // around the diagram, at the design size [px]
@@ -74,11 +75,14 @@ struct Shot {
     std::vector<sim::Pose> poses;
     std::vector<sim::Impact> impacts;
 
-    double value_at(int frame) const { return double(frame + 1 - first) / (end - first); }
+    // The diagram grows to the value whose beam is seen, and waits there.
+    double growth_at(int frame) const {
+        return std::min(1.0, double(frame + 1 - first) / (end - first) / kGrowingShare);
+    }
     // By whole steps of `hold` frames, so that few diagrams are drawn.
     std::size_t grown(int frame, int hold) const {
         const int seen = std::min(end - 1, first + (frame - first) / hold * hold + hold - 1);
-        return from + static_cast<std::size_t>(std::floor(value_at(seen) * double(last - from)));
+        return from + static_cast<std::size_t>(std::floor(growth_at(seen) * double(last - from)));
     }
 };
 

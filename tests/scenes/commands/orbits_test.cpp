@@ -230,5 +230,20 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
 }
 
+TEST(OrbitsCommand, RefusesOptionsThatWouldDoNothing) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    for (const char* options : {"--at 50", "--doublings 3", "--over cam.speed=40:60:3"})
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM orbits s.json ") + options).code, 2) << options;
+}
+
+TEST(OrbitsCommand, PrintsItsJsonOnce) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(folder, "$BEAMCAM orbits s.json --json -o - --impacts 1 --transient 0");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_TRUE(nlohmann::json::accept(done.out));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes

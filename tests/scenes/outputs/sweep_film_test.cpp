@@ -56,5 +56,23 @@ TEST(SweepFilm, RefusesWhatItCannotShow) {
     EXPECT_EQ(judged(kSwept, "").find("error"), std::string::npos);
 }
 
+TEST(SweepFilm, OfTheCommandIsThatOfTheSceneAndOfOneKey) {
+    const Folder folder;
+    folder.write("s.json", kSwept);
+    const std::string sweep = R"($BEAMCAM sweep s.json -q --film f.mp4 --set 'outputs=[{"type": "sweep-film",
+        "size": [640, 360], "fps": 5, "duration": 1, "style": "flat"}]' )";
+    const Finished done = shell(folder, sweep);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(shell(folder,
+                    "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 "
+                    "f.mp4")
+                  .out,
+              "640,360,5\n");
+    const Finished grid =
+        shell(folder, sweep + "--force --over cam.speed=38:60:3 --over contact.restitution=0.2:0.9:3");
+    EXPECT_EQ(grid.code, 2);
+    EXPECT_THAT(grid.err, HasSubstr("--film: the sweep varies two keys"));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes
