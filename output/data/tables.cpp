@@ -101,10 +101,4 @@ void write_table(const Target& file, const ColumnTable& table) {
     atomic.commit();
 }
 
-std::string csv_text(const ColumnTable& table) {
-    std::string all;
-    csv(columns_of(table), [&all](const std::string& text) { all += text; });
-    return all;
-}
-
 }  // namespace beamcam::output

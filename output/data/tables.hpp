@@ -26,6 +26,5 @@ void write_table(const Target& file, const NamedTable& table);
 
 // By the name's ending, .csv, .npz or .nc. Throws UnsupportedOption for another, IoError.
 void write_table(const Target& file, const ColumnTable& table);
-std::string csv_text(const ColumnTable& table);
 
 }  // namespace beamcam::output
