@@ -8,6 +8,7 @@
 
 #include "render/draw/canvas.hpp"
 #include "render/plot/ticks.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -87,8 +88,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm)
     if (problem.beam.model == sim::ModelKind::rigid)
         out.push_back("rigid beam");
     else
-        out.push_back(fmt::format("{}, {} mode{}", sim::name(problem.beam.model), problem.beam.modes,
-                                  problem.beam.modes == 1 ? "" : "s"));
+        out.push_back(fmt::format("{}, {}", sim::name(problem.beam.model), counted(problem.beam.modes, "mode")));
     if (std::string drive = std::visit(DrivePiece{rpm}, problem.hub.drive); !drive.empty())
         out.push_back(std::move(drive));
     if (problem.gravity == 0) out.emplace_back("no gravity");

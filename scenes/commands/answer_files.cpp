@@ -1,11 +1,13 @@
 #include "scenes/commands/answer_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/figures/make.hpp"
+#include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {
 
@@ -26,6 +28,13 @@ void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
     app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
     app.flag("--json", common.json, "As JSON on standard output");
     app.flag("--force", common.force, "Replace files that beamcam did not make");
+}
+
+double transient_argument(const std::string& text, const sim::Problem& problem) {
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity || !same(read.quantity->dimension, dimension::kAngle) || !problem.cam)
+        return seconds_argument("--transient", text);
+    return quantity_argument("--transient", text, dimension::kAngle) / std::abs(problem.cam->speed);
 }
 
 bool is_table(const std::string& file) {

@@ -24,6 +24,9 @@ struct AnswerFiles {
     std::string drawn(const render::figure::Figure& figure, Scene scene, const std::string& file) const;
 };
 
+// --transient of them: a time [s], or turns of the cam where it turns at a constant speed.
+double transient_argument(const std::string& text, const sim::Problem& problem);
+
 void add_answer_files(Command& app, AnswerFiles& files, Common& common);
 
 bool is_table(const std::string& file);  // by its ending

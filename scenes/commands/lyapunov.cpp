@@ -55,7 +55,7 @@ int act(const LyapunovArguments& args) {
     sim::ExponentsRequest request;
     request.count = args.count;
     request.blocks = args.blocks;
-    request.transient = args.transient ? seconds_argument("--transient", *args.transient) : 20;
+    request.transient = args.transient ? transient_argument(*args.transient, scene.problem) : 20;
     request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
     if (!(request.duration > 0)) throw UsageError("--duration must be positive");
     output::Manifest manifest(args.common.force);
@@ -94,7 +94,8 @@ void add_lyapunov(Grammar& grammar) {
     app.option("-o,--output", &args->files.names, "FILE",
                "Also as .json, or their convergence as .png, .svg or .pdf (repeatable)");
     app.option("--count", &args->count, "K", "Only the K largest (default: the whole spectrum)").range(1, 82);
-    app.option("--transient", &args->transient, "T", "Left out at the start (default: 20 s)");
+    app.option("--transient", &args->transient, "T",
+               "Left out at the start: \"30 s\", or \"200 turns\" of the cam (default: 20 s)");
     app.option("--duration", &args->duration, "T", "Averaged over (default: 100 s)");
     app.option("--blocks", &args->blocks, "N", "Blocks whose spread gives the error (default: 20)").range(2, 1000);
     add_answer_files(app, args->files, args->common);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "output/files/numbers.hpp"
 #include "render/plot/style.hpp"
@@ -101,6 +102,8 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
             fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\", up to {:g}", option, text, kMost));
     if (same(read.quantity->dimension, dimension::kNone))
         span.turns = read.quantity->value;
+    else if (same(read.quantity->dimension, dimension::kAngle))  // "200 turns"
+        span.turns = std::round(read.quantity->value / (2 * std::numbers::pi));
     else
         span.time = seconds_argument(option, text);
     return span;

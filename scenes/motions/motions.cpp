@@ -11,6 +11,7 @@
 #include "scenes/motions/identity.hpp"
 #include "scenes/motions/spooled.hpp"
 #include "sim/base/clock.hpp"
+#include "sim/base/counted.hpp"
 #include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -27,8 +28,7 @@ constexpr std::size_t kMostRemembered = std::size_t{1} << 25;  // numbers of a t
 
 std::string words_about(const sim::Problem& problem) {
     if (problem.beam.model == sim::ModelKind::rigid) return name(problem.beam.model);
-    return fmt::format("{}, {} mode{}", name(problem.beam.model), problem.beam.modes,
-                       problem.beam.modes == 1 ? "" : "s");
+    return fmt::format("{}, {}", name(problem.beam.model), counted(problem.beam.modes, "mode"));
 }
 
 double latest(std::span<const sim::Request> requests) {

@@ -77,9 +77,8 @@ void report_times_and_work(const RunContext& context) {
         "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
         "{:.2f} s, "
         "encoding {:.2f} s, other files {:.2f} s\n",
-        seconds_since(context.started), times.simulate, times.draw,
-        counted(static_cast<std::size_t>(times.threads), "thread"), times.read_back, times.convert, times.encode,
-        times.write);
+        seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.read_back,
+        times.convert, times.encode, times.write);
     std::string text;
     for_each_count(context.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
     output::tell("work:{}\n", text);

@@ -6,10 +6,6 @@
 
 namespace beamcam::scenes {
 
-std::string counted(std::size_t n, std::string_view thing) {
-    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
-}
-
 void stop_if_interrupted() {
     if (output::interrupted()) throw sim::Interrupted();
 }

@@ -12,11 +12,11 @@
 #include "scenes/motions/motions.hpp"
 #include "scenes/outputs/run.hpp"
 #include "sim/base/clock.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
-std::string counted(std::size_t n, std::string_view thing);  // "2 impacts"
-void stop_if_interrupted();                                  // throws sim::Interrupted
+void stop_if_interrupted();  // throws sim::Interrupted
 inline bool is_stdout(const std::string& file) { return file == "-"; }
 
 // Where the time went [s], for -v; drawing is summed over threads.

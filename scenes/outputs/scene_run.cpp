@@ -198,7 +198,7 @@ void SceneRun::write_pictures(std::size_t picture) {
         context_.say(
             "warning: {} shows nothing of the mechanism in {} of {}: the camera looks past it; change \"follow\" or "
             "\"zoom\"\n",
-            p.file, empty, counted(static_cast<std::size_t>(film.frames()), "frame"));
+            p.file, empty, counted(film.frames(), "frame"));
     const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
     files_.note_work(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()), start,

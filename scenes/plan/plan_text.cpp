@@ -7,6 +7,7 @@
 
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/film_times.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 const char* view_name(const render::View& view) {
@@ -53,8 +54,8 @@ std::string model_words(const sim::Problem& problem) {
     if (model == sim::ModelKind::exact)
         words += fmt::format(", {} shape functions", problem.beam.modes);
     else if (model != sim::ModelKind::rigid)
-        words += fmt::format(", {} {} mode{}", problem.beam.modes, name(resolved_basis(problem)),
-                             problem.beam.modes == 1 ? "" : "s");
+        words +=
+            fmt::format(", {}", counted(problem.beam.modes, fmt::format("{} mode", name(resolved_basis(problem)))));
     words += problem.cam ? fmt::format(", {} contact", name(problem.contact.model)) : ", no contact";
     return words;
 }

@@ -8,6 +8,7 @@
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/format/tree.hpp"
 #include "scenes/sweep/make_points.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -40,7 +41,7 @@ std::string sweep_plan(const SweepGrid& grid, int threads, bool json) {
         text += fmt::format("  {}: {} values, {:.10g} to {:.10g}{}\n", axis.name, axis.values.size(),
                             axis.values.front(), axis.values.back(), axis.unit == "1" ? "" : " " + axis.unit);
     text += fmt::format("  {} points, samples: {}\n", grid.points(), text_of_sample(grid.sampling()));
-    text += fmt::format("  about {:.2g} s on {} thread{}\n", seconds, used, used == 1 ? "" : "s");
+    text += fmt::format("  about {:.2g} s on {}\n", seconds, counted(used, "thread"));
     text += fmt::format("  about {:.2g} rows: {:.2g} MB of CSV, {:.2g} MB of NPZ\n", rows,
                         1e-6 * rows * columns * kTextOfNumber, 1e-6 * rows * columns * kNumber);
     return text;

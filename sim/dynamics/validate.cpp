@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/base/counted.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/problem/derived.hpp"
@@ -89,8 +90,8 @@ class RangeCheck final : public Visitor {
 void check_table(Findings& out, const char* t_path, const char* v_path, const std::vector<double>& t,
                  const std::vector<double>& v, std::size_t least) {
     if (t.size() < least)
-        return out.refuse(t_path,
-                          fmt::format("needs at least {} point{}, has {}", least, least == 1 ? "" : "s", t.size()));
+        return out.refuse(t_path, fmt::format("needs at least {}, has {}",
+                                              counted(static_cast<long long>(least), "point"), t.size()));
     if (t.size() != v.size())
         out.refuse(v_path, fmt::format("must have as many values as the times ({}), has {}", t.size(), v.size()));
     for (std::size_t i = 1; i < t.size(); ++i)

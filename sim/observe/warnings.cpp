@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/base/counted.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -14,10 +16,10 @@ constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal mo
 void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     if (statistics.chatters == 0) return;
     const double speed = kSummedShare * problem.contact.approach_floor.value;
-    out.push_back(fmt::format(
-        "chatter ended {} time{} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
-        "times {:g}) are summed up at its end instead of listed",
-        statistics.chatters, statistics.chatters == 1 ? "" : "s", speed, kSummedShare));
+    out.push_back(
+        fmt::format("chatter ended {} in sustained contact; bounces below {:g} m/s (contact.approach_floor.value "
+                    "times {:g}) are summed up at its end instead of listed",
+                    counted(statistics.chatters, "time"), speed, kSummedShare));
 }
 
 // Ten times what was asked for is the promise of `auto`; whatever misses it says so.
@@ -74,10 +76,9 @@ void tell_floor(const Problem& problem, const Result& result, const RunStatistic
 void tell_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
                     std::vector<std::string>& out) {
     const Fallbacks& f = statistics.fallbacks;
-    const auto times = [](long n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); };
     if (f.handed_over > 0)
         out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
-                                  times(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
+                                  counted(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
     if (f.left_behind > 0)
         out.push_back(
             "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
@@ -86,21 +87,21 @@ void tell_fallbacks(const Problem& problem, const Result& result, const RunStati
         out.push_back(
             fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "
                         "as it was: tighten solver.rtol, or give contact.friction a damping",
-                        times(f.grips, "step")));
+                        counted(f.grips, "step")));
     if (f.strikes > 0)
         out.push_back(
             fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "
                         "solver.rtol",
-                        times(f.strikes, "strike")));
+                        counted(f.strikes, "strike")));
     if (f.coarse > 0)
         out.push_back(
             fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
                         "fewer modes or tighten solver.rtol",
-                        times(f.coarse, "step")));
+                        counted(f.coarse, "step")));
     if (f.searches > 0)
         out.push_back(
             fmt::format("extrema were not searched to the end in {}: the true ones may lie beyond those given",
-                        times(f.searches, "step")));
+                        counted(f.searches, "step")));
     if (f.gap > kToldGap * problem.beam.length)
         out.push_back(
             fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "

@@ -82,6 +82,7 @@ class Continuation {
     void locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const;
     void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
     std::optional<ArcPoint> recentre(const ArcPoint& at);
+    void end_at_range(const ArcPoint& last, const ArcPoint& beyond, Branch& branch) const;
     bool passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
                 std::string& end) const;
 
@@ -170,6 +171,19 @@ std::optional<ArcPoint> Continuation::recentre(const ArcPoint& at) {
     return same;
 }
 
+// The branch's last point stands at the end of the range, where it has the pattern of the point before.
+void Continuation::end_at_range(const ArcPoint& last, const ArcPoint& beyond, Branch& branch) const {
+    const Eigen::Index n = last.z.size() - 1;
+    const double end = beyond.z[n] > 1 ? 1 : 0, way = (end - last.z[n]) / (beyond.z[n] - last.z[n]);
+    Eigen::VectorXd z = last.z + way * (beyond.z - last.z);
+    z[n] = end;
+    auto point = arc_.correct(z, Eigen::VectorXd::Unit(n + 1, n));
+    if (!point || !same_pattern(last.orbit, point->orbit)) return;
+    if (fold_test(*point) * fold_test(last) < 0) point->tangent *= -1;
+    find_changes(last, *point, branch);
+    branch.points.push_back({end == 1 ? request_.to : request_.from, point->orbit});
+}
+
 void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
     const Eigen::Index n = from.z.size() - 1;
     double step = kFirstArc * request_.step;
@@ -194,11 +208,12 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
             }
             if (!passes(from, next, step, branch, end)) return;
             step = kFirstArc * request_.step;
+        } else if (next->z[n] < 0 || next->z[n] > 1) {
+            end_at_range(from, *next, branch);
         } else {
             find_changes(from, *next, branch);
         }
-        const double share = next->z[n];
-        if (share < 0 || share > 1) {
+        if (next->z[n] < 0 || next->z[n] > 1) {
             end = "the range ends";
             return;
         }

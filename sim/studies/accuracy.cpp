@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/base/clock.hpp"
+#include "sim/base/counted.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
@@ -388,9 +389,7 @@ class Assessment {
             return;
         }
         r.error = error;
-        const std::string shapes = problem_.beam.model == ModelKind::rigid
-                                       ? ""
-                                       : fmt::format(" and {} mode{}", r.modes, r.modes == 1 ? "" : "s");
+        const std::string shapes = problem_.beam.model == ModelKind::rigid ? "" : " and " + counted(r.modes, "mode");
         r.text = fmt::format("rtol {:.0e}{} give {} to {:g} rad for the first {:.3g} s in {:.2g} ms", r.rtol, shapes,
                              out_.of_tip ? "the tip's δ/L" : "θ", request_.target, r.until, 1e3 * r.seconds);
         out_.recommendation = std::move(r);

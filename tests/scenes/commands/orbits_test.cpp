@@ -42,6 +42,12 @@ TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
         shell(folder, "$BEAMCAM orbits s.json --over contact.restitution=0.5:1 --impacts 1 --transient 0 -q");
     EXPECT_THAT(done.out, HasSubstr("the range ends"));
     EXPECT_THAT(done.out, ::testing::Not(HasSubstr("grazing")));
+    // A branch that can be followed to the ends of the range has its last points there.
+    const Finished whole = shell(
+        folder, "$BEAMCAM orbits s.json --over cam.speed=43:48 --at '430 rpm' --impacts 1 --transient 0 -q --json");
+    const nlohmann::json branch = nlohmann::json::parse(whole.out)["branches"][0];
+    for (const auto& [point, end] : {std::pair{branch["points"].front(), 43.0}, {branch["points"].back(), 48.0}})
+        EXPECT_EQ(point["value"], end);
 }
 
 TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
@@ -193,7 +199,7 @@ TEST(OrbitsCommand, TellsThatABeamThatNeverLeavesTheCamHasNoFlightToBeginIn) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished done = shell(folder, "$BEAMCAM orbits s.json --set cam.speed=5 --scene loop.json");
-    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(done.code, 4) << done.err;  // the scene that was asked for is not there
     EXPECT_THAT(done.err, HasSubstr("never leaves the cam"));
     EXPECT_FALSE(std::filesystem::exists(folder / "loop.json"));
 }
@@ -205,6 +211,9 @@ TEST(OrbitsCommand, TellsWhatItCannotDo) {
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.speed").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --scene -").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --over cam.sped=1:2").code, 3);
+    EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set beam.model=first-order --over beam.modes=1:3").err,
+                HasSubstr("whole numbers"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --over cam.speed=1e-9:1e9").err, HasSubstr("narrow it"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set cam.speed=0").err, HasSubstr("cam.speed"));
     EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json --set beam.model=exact").err, HasSubstr("first-order"));
     for (const char* command :
@@ -228,6 +237,8 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     EXPECT_GE(found["doubt"], 0);
     EXPECT_THAT(testing::slurp((folder / "l.svg").string()), HasSubstr("<svg"));
     EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json -q --transient '7.5 turns' --duration 1").out,
+                HasSubstr("after 1.0472 s"));  // at 45 rad/s
 }
 
 TEST(OrbitsCommand, RefusesOptionsThatWouldDoNothing) {

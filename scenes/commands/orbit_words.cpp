@@ -1,0 +1,63 @@
+#include "scenes/commands/orbit_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <complex>
+
+#include "sim/base/counted.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+std::string complex_text(std::complex<double> m) {
+    return m.imag() == 0 ? fmt::format("{:.9g}", m.real()) : fmt::format("{:.9g}{:+.9g}i", m.real(), m.imag());
+}
+
+std::string orbit_text(const sim::PeriodicOrbit& orbit) {
+    std::string text = fmt::format("period {} of the cam, {}: {}{}\n", counted(orbit.turns, "turn"),
+                                   counted(orbit.impacts.size(), "impact"), orbit.stable() ? "stable" : "unstable",
+                                   orbit.chatters()          ? ", rests on the cam for a while"
+                                   : orbit.always_touching() ? ", always touching"
+                                                             : "");
+    text += fmt::format("  period {:.12g} s, section at cam angle {:.9g} rad, residual {:.1e}\n", orbit.period,
+                        orbit.section, orbit.residual);
+    text += "  multipliers";
+    for (const auto& m : orbit.multipliers) text += " " + complex_text(m);
+    text += "\n";
+    constexpr std::size_t kShown = 12;
+    for (std::size_t i = 0; i < std::min(kShown, orbit.impacts.size()); ++i)
+        text += fmt::format("  impact at cam angle {:.9g} rad, approach {:.9g} m/s\n", orbit.impacts[i].cam_angle,
+                            orbit.impacts[i].approach);
+    if (orbit.impacts.size() > kShown) text += fmt::format("  and {} more\n", orbit.impacts.size() - kShown);
+    return text;
+}
+
+std::string branches_text(const output::BranchTable& table) {
+    std::string text;
+    for (const sim::Branch& branch : table.branches) {
+        const auto [low, high] =
+            std::minmax_element(branch.points.begin(), branch.points.end(),
+                                [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
+        const sim::PeriodicOrbit& orbit = branch.points.front().orbit;
+        text += fmt::format("branch of {}, {}: {}, {} from {:.9g} to {:.9g}\n", counted(orbit.turns, "turn"),
+                            counted(orbit.impacts.size(), "impact"), counted(branch.points.size(), "point"), table.key,
+                            low->parameter, high->parameter);
+        for (const sim::SpecialPoint& point : branch.special)
+            text += fmt::format("  {:16} {} = {:.13g} ± {:.0e}\n", name(point.change), table.key, point.at.parameter,
+                                point.uncertainty);
+        for (const std::string& end : {branch.first_end, branch.last_end})
+            if (!end.empty()) text += fmt::format("  ends: {}\n", end);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string orbits_in_words(const output::BranchTable& table) {
+    std::string text;
+    for (const sim::PeriodicOrbit& orbit : table.orbits) text += orbit_text(orbit);
+    return text + branches_text(table);
+}
+
+}  // namespace beamcam::scenes
