@@ -154,6 +154,11 @@ Form seed_form(SweepSeeds& seeds) {
         seeds.kinds.push_back(found->value);
     };
     const auto read = [&seeds, one](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind == Node::Kind::string) {  // as after --seed
+            if (const std::string problem = parse_seeds(node.text, seeds); !problem.empty())
+                r.fail(node, key, fmt::format("{}: {}, not {}", r.path(key), problem, shown(node)));
+            return;
+        }
         seeds.kinds.clear();
         if (node.kind != Node::Kind::array) return one(r, node, key);
         for (std::size_t i = 0; i < node.items.size(); ++i) one(r, node.items[i], fmt::format("{}.{}", key, i));
@@ -165,8 +170,9 @@ Form seed_form(SweepSeeds& seeds) {
         for (const SeedKind kind : seeds.kinds) all.items.push_back(text_node(name(kind)));
         return all;
     };
-    return {"\"same\", \"carry-up\", \"carry-down\", several of them, or object",
-            R"({"anyOf": [{"enum": ["same", "carry-up", "carry-down"]}, {"type": "array", "minItems": 1, )"
+    return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",
+            R"({"anyOf": [{"type": "string", "pattern": "^((same|carry-up|carry-down)(,(same|carry-up|carry-down))*))"
+            R"(|random:[0-9]+)$"}, {"type": "array", "minItems": 1, )"
             R"("uniqueItems": true, "items": {"enum": ["same", "carry-up", "carry-down"]}}]})",
             read, write};
 }
@@ -206,8 +212,7 @@ void visit(SceneVisitor& v, Sweep& sweep) {
         "seed", seed_form(sweep.seeds),
         [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); },
         "Where each motion starts: as the scene says, from where that of the value before ended (upwards, downwards), "
-        "or "
-        "at random.");
+        "or at random.");
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
             if (!r.findings().failed(r.path(problem.key)))  // told already

@@ -1,6 +1,7 @@
 // The key "sweep": what it means, what is wrong with it, that it comes back as it was written.
 #include "scenes/format/sweep_keys.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +50,15 @@ TEST(SweepKeys, MeanWhatTheySay) {
     EXPECT_THAT(sweep.seeds.kinds, ElementsAre(SeedKind::random));
     EXPECT_EQ(sweep.seeds.random, 4);
     EXPECT_FALSE(read("{}").scene->sweep);
+    // As after --seed.
+    const auto seeds = [](const char* text) {
+        const Reading reading = read(scene_with(fmt::format(R"({{"over": [{}], "seed": "{}"}})", kSpeed, text)));
+        return reading.scene ? reading.scene->sweep->seeds : SweepSeeds{};
+    };
+    EXPECT_EQ(seeds("random:4"), sweep.seeds);
+    EXPECT_THAT(seeds("carry-up,carry-down").kinds, ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
+    EXPECT_THAT(read(scene_with(fmt::format(R"({{"over": [{}], "seed": "random:0"}})", kSpeed))).report(),
+                HasSubstr("random:N"));
     const Sweep units =
         *read(scene_with(R"({"over": [{"key": "initial.angle", "from": "30°", "to": "90 deg", "count": 4},
         {"key": "cam.speed", "values": ["60 rpm", 7]}],
