@@ -32,6 +32,7 @@ inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a 
 // Changes that no longer fall are rounding once they are below this share of the largest; in contact the stiff force
 // amplifies it tenfold. Otherwise the iteration diverges: by growth, which in contact the first sweeps may show.
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
+inline constexpr double kDepthRounding = 4e-16;  // of the beam's length: two roundings of a gap
 inline constexpr double kStalled = 0.9, kContactGrowth = 2;
 inline constexpr int kContactPatience = 5;
 inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby

@@ -158,6 +158,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
+    force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
     std::array<Lanes, kNodes> matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
         matrix[l] = by_depth * compliance_[l] + by_rate * compliance_rate_[l];
@@ -241,8 +242,8 @@ void ContactStep::linearize(const StepTable& table) {
 
 double ContactStep::error(double h) {
     const double smooth = step_.forcing_error(h, &load);
-    double force = quadrature_error(load.force);
-    if (load.rough) force = std::max(force, quadrature_error(load.friction));
+    double force = quadrature_error(load.force, force_rounding_);
+    if (load.rough) force = std::max(force, quadrature_error(load.friction, force_rounding_));
     return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
                                      force * mobility_hub_ / step_.scale_theta_dot});
 }

@@ -47,6 +47,7 @@ class ContactStep {
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
     double gap_offset_ = 0, centred_ = -1;
+    double force_rounding_ = 0;  // what rounding of the penetration makes of the force [N]
     double mobility_modes_ = 0, mobility_hub_ = 0;
     Frame<Lanes> frame_;
     Lanes known_theta_{}, known_theta_dot_{};  // where the contact was evaluated last

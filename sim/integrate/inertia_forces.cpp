@@ -81,10 +81,13 @@ class ModalInertia final : public InertiaForces {
         for (std::size_t i = 0; i < n_; ++i)
             out[1 + i] = m_.U[static_cast<Eigen::Index>(i)] * s.acceleration[0] + mass_ * acceleration[i] -
                          spin2 * turned[i] - second * gq_[i] + m_.W[static_cast<Eigen::Index>(i)] * pull;
-        out[0] = (m_.J + dot(n_, bq_.data(), q)) * s.acceleration[0] + dot(n_, m_.U.data(), acceleration) +
+        gain_ = dot(n_, bq_.data(), q);
+        out[0] = (m_.J + gain_) * s.acceleration[0] + dot(n_, m_.U.data(), acceleration) +
                  2.0 * spin * dot(n_, bq_.data(), rate) +
                  gravity_ * (m_.S * s.cos - dot(n_, m_.W.data(), q) * s.sin - 0.5 * s.cos * fall);
     }
+
+    Lanes hub_inertia_gain() const override { return gain_; }
 
   private:
     const ModalMatrices& m_;  // of the model, which shares them with its copies
@@ -92,6 +95,7 @@ class ModalInertia final : public InertiaForces {
     double mass_, gravity_, radius_, length_;
     bool paper_, second_order_gravity_ = false;
     LaneMatrix inertia_, spinning_, second_;
+    Lanes gain_{};
     std::vector<Lanes> bq_, rq_, gq_;
 };
 

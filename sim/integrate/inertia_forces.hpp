@@ -22,6 +22,9 @@ class InertiaForces {
     virtual ~InertiaForces() = default;
     // out ← d(∂T/∂ξ̇)/dt − ∂T/∂ξ + ∂V_g/∂ξ, one entry a coordinate.
     virtual void evaluate(const NodalMotion& motion, Lanes* out) = 0;
+    // By how much bending changes the inertia about the hub, ∂²T/∂Θ̇², as far as the model tells: where the coupling
+    // with the shapes leaves little of that, this is what keeps the accelerations from settling by themselves.
+    virtual Lanes hub_inertia_gain() const { return {}; }
 };
 
 }  // namespace beamcam::sim

@@ -21,10 +21,10 @@ Lanes integral(double start, double h, const Lanes& rate) {
 
 double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
 
-LegendreDecay legendre_decay(const Lanes& nodal) {
+LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
     const auto& legendre = Collocation::get().legendre;
     const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
-    const double last = std::max(size(6), size(7)), before = std::max(size(4), size(5));
+    const double last = std::max(0.0, std::max(size(6), size(7)) - rounding), before = std::max(size(4), size(5));
     return {last, last == 0 ? 0 : std::min(1.0, last / before)};
 }
 
@@ -33,8 +33,8 @@ double interpolation_error(const Lanes& nodal) {
     return last * ratio * std::max(ratio, kLeastDecay);
 }
 
-double quadrature_error(const Lanes& nodal) {
-    const auto [last, ratio] = legendre_decay(nodal);
+double quadrature_error(const Lanes& nodal, double rounding) {
+    const auto [last, ratio] = legendre_decay(nodal, rounding);
     const double r2 = ratio * ratio;
     return last * std::max(r2 * r2, kLeastQuadratureDecay);
 }
@@ -250,18 +250,39 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
     coordinate_acceleration_[0] += (1 / form->J) * s.push;
     inertia_->evaluate({position_.data(), rate_.data(), coordinate_acceleration_.data(), sin, cos}, forces_.data());
     kernels_.multiply(n, n + 1, form->mode_rows.data(), forces_.data(), bq_.data());
-    s.push += torque - forces_[0];
-    if (load) s.push += load->torque();
-    double change2 = 0;
+    // The moment on the rigid turn that is out of balance, and the forcing that would balance the modes.
+    Lanes hub = torque - forces_[0];
+    if (load) hub += load->torque();
     for (std::size_t i = 0; i < n; ++i) {
         Lanes force = form->h[i] * torque - bq_[i];
         if (load) force += load->modal(i);
-        const Lanes f = mode_acceleration_[i] + per_mass * force;
-        const double d = largest(f - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
+        bq_[i] = mode_acceleration_[i] + per_mass * force;
+    }
+    share_by_bent_inertia(hub);
+    s.push += hub;
+    double change2 = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double d = largest(bq_[i] - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
         change2 += d * d;
-        s.f[i] = f;
+        s.f[i] = bq_[i];
     }
     return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
+}
+
+// Both by the inertia D of the straight beam, corrected for what bending adds to it: of the inertia D + g rrᵀ, g about
+// the hub and r the hub's row, the inverse is D⁻¹ − D⁻¹r g/(1 + g rᵀD⁻¹r) rᵀD⁻¹.
+void NodalStep::share_by_bent_inertia(Lanes& hub) {
+    const double* row = form->mode_columns.data();
+    const double per_mass = 1 / form->mass;
+    double mobility = 1 / form->J;
+    Lanes turn = hub * (1 / form->J);
+    for (std::size_t i = 0; i < n; ++i) {
+        mobility += per_mass * row[i] * row[i];
+        turn += row[i] * (bq_[i] - segment.f[i]);
+    }
+    const Lanes gain = inertia_->hub_inertia_gain(), moment = turn * gain / (1 + mobility * gain);
+    hub -= moment;
+    for (std::size_t i = 0; i < n; ++i) bq_[i] -= (per_mass * row[i]) * moment;
 }
 
 void NodalStep::hub_from_load(double h) {

@@ -30,13 +30,14 @@ double step_length(int level);  // [s] on the ladder of step lengths
 struct LegendreDecay {
     double last, ratio;
 };
-LegendreDecay legendre_decay(const Lanes& nodal);
+LegendreDecay legendre_decay(const Lanes& nodal, double rounding = 0);
 // Interpolation error of a forcing with these nodal values. Coefficients that fall show a resolved forcing, whose error
 // the integration smooths as well; coefficients that do not are vibration sampled too seldom, and count in full.
 double interpolation_error(const Lanes& nodal);
 // Error of what a step leaves of a nodal force: coefficients that fall by r from pair to pair make the quadrature of
 // order sixteen err by the last times r⁴; where the force starts like a power of time it is that power which falls.
-double quadrature_error(const Lanes& nodal);
+// What is below `rounding` of the last coefficients is no error.
+double quadrature_error(const Lanes& nodal, double rounding = 0);
 
 // Convergence of a fixed-point iteration by its changes, in units of the tolerance.
 class FixedPoint {
@@ -99,6 +100,7 @@ struct NodalStep {
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
+    void share_by_bent_inertia(Lanes& hub);
     double turn_hub(double h, const Lanes& inertia);
     double update_by_arrays(const StepTable& table, const ContactLoad* load);
     double update_by_inertia(const StepTable& table, const ContactLoad* load);

@@ -670,7 +670,7 @@ TEST(LongFindings, TheTransientIsSensitiveAndThenReproducibleAgain) {
     struct Stated {
         double speed, from, to;
     };
-    for (const Stated& stated : {Stated{0, 2.3, 6.9}, Stated{1, 2.1, 9.0}, Stated{5, 2.1, 8.1}}) {
+    for (const Stated& stated : {Stated{0, 2.3, 6.9}, Stated{1, 2.1, 8.1}, Stated{5, 2.1, 8.1}}) {
         const auto a = theta(stated.speed, sim::Method::automatic, 1e-8),
                    b = theta(stated.speed, sim::Method::rk8, 1e-12);
         double first = 0, last = 0, largest = 0;
