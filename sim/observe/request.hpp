@@ -44,7 +44,7 @@ struct Request {
     std::vector<PointRequest> points;
     std::vector<Channel> extrema;  // located on the dense output
     bool turning_points = true;    // apexes and zero crossings of θ, which need a look at every ripple
-    bool horizon = false;          // during which intervals θ is reproducible (horizon.hpp); costs a second run
+    bool horizon = false;          // during which intervals θ is reproducible (horizon.hpp); costs more runs
 };
 
 }  // namespace beamcam::sim

@@ -88,7 +88,7 @@ struct Result {
     std::optional<double> reproducible_until;       // the first loss, or the end [s]
     std::vector<Interval> not_reproducible;         // [s]
     std::optional<double> reproducible_again_from;  // after the last of these, where it ends before the run [s]
-    std::string compared_with;                      // method and tolerance of the second run
+    std::string compared_with;                      // methods and tolerances of the other runs
     std::string reproducibility;                    // all of it in a sentence
     Counters counters;
     std::vector<std::pair<Method, long>> steps_by_method;  // accepted steps of each method that took any

@@ -21,6 +21,7 @@ constexpr double kMostSteps = 500e3;  // of an explicit method: some seconds
 constexpr double kRadians = 2;        // that such a step spans of the fastest vibration
 constexpr double kLastTurns = 6;      // of the cam, that lasting contact is compared for
 constexpr double kRepeated = 2;       // of these, that what follows repeats
+constexpr double kSettling = 0.25;    // of a turn after the last touch, for the other method
 
 Problem at_tolerance(const Problem& problem) {
     Problem out = problem;
@@ -58,6 +59,13 @@ bool repeats_in_contact(const Problem& problem) {
     const Drive& drive = problem.hub.drive;
     return problem.cam && (std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive)) &&
            !std::holds_alternative<StickSlipFriction>(problem.contact.friction);
+}
+
+// Whether row i of the two is the same angle.
+bool agree(const Problem& problem, const Result& plain, const Result& other, std::size_t i) {
+    const double scale = compared_angle(problem).scale;
+    const double a = scale * plain.tables[0].values[0][i], b = scale * other.tables[0].values[0][i];
+    return std::fabs(a - b) <= kError * std::max(1.0, std::fabs(b));
 }
 
 std::string sentence(const Result& result) {
@@ -122,15 +130,29 @@ Comparison comparison(const Problem& problem, double end) {
 
 Comparison tighter_comparison(const Problem& problem) { return {at_tolerance(problem), true}; }
 
+bool tighter_is_cheap(const Problem& problem) {
+    System system(problem);
+    const bool exponential = problem.solver.method == Method::automatic || problem.solver.method == Method::exponential;
+    return exponential && exponential_in_contact(system);
+}
+
+double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter) {
+    const std::vector<double>& times = angle.tables[0].times;
+    double until = times.back();
+    if (repeats_in_contact(problem) && !plain.impacts.empty() && !plain.impacts.back().t_end)
+        until = std::min(until, plain.impacts.back().t_start + kSettling * cam_period(problem));
+    for (std::size_t i = 0; i < times.size() && times[i] <= until; ++i)
+        if (!agree(problem, plain, tighter, i)) return times[i];
+    return until;
+}
+
+void put_first(const Result& first, Result& whole) {
+    std::ranges::copy(first.tables[0].values[0], whole.tables[0].values[0].begin());
+}
+
 void tell_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
                           const Comparison& compared, Result& result) {
-    const double scale = compared_angle(problem).scale;
-    const std::vector<double>&times = angle.tables[0].times, &ours = plain.tables[0].values[0],
-          &theirs = other.tables[0].values[0];
-    const auto agree = [&](std::size_t i) {
-        const double a = scale * ours[i], b = scale * theirs[i];
-        return std::fabs(a - b) <= kError * std::max(1.0, std::fabs(b));
-    };
+    const std::vector<double>& times = angle.tables[0].times;
     const double end = result.end_time;
     result.not_reproducible.clear();
     result.reproducible_again_from.reset();
@@ -139,7 +161,7 @@ void tell_reproducibility(const Problem& problem, const Request& angle, const Re
     double back = 0;  // since when it agrees again
     for (std::size_t i = 0; i < times.size() && times[i] <= end; ++i) {
         const double t = times[i];
-        if (!agree(i)) {
+        if (!agree(problem, plain, other, i)) {
             const bool crossing =
                 !lost && !result.not_reproducible.empty() && agreed - *result.not_reproducible.back().to < kChance;
             if (crossing)
@@ -166,6 +188,9 @@ void tell_reproducibility(const Problem& problem, const Request& angle, const Re
     const Solver& solver = compared.problem.solver;
     result.compared_with = fmt::format("{} at rtol {:g}{}", name(solver.method), solver.rtol,
                                        compared.same_method ? " (the same method: others take too many steps)" : "");
+    if (compared.until && *compared.until < times.back())
+        result.compared_with += fmt::format(", from {:.4g} s on with {} at rtol {:g}", *compared.until,
+                                            name(problem.solver.method), solver.rtol);
     result.reproducibility = sentence(result);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "sim/run/simulate.hpp"
@@ -26,10 +27,19 @@ bool agrees_for_good(const Problem& problem, const Request& angle, const Result&
 struct Comparison {
     Problem problem;
     bool same_method = false;
+    std::optional<double> until = {};  // [s] where the same method at a tighter tolerance takes its place
 };
 Comparison comparison(const Problem& problem, double end);
 // The same method at a tighter tolerance.
 Comparison tighter_comparison(const Problem& problem);
+
+// True where a run by the same method at a tighter tolerance is much cheaper than one by another. The other is then
+// needed only as long as it may tell more [s]: until the motion differs from that run, or a while after the last
+// touch.
+bool tighter_is_cheap(const Problem& problem);
+double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter);
+// Puts the rows of `first`, which may be fewer, in the place of those of `whole`.
+void put_first(const Result& first, Result& whole);
 
 // Fills in what a result says of its reproducibility. `angle` is `horizon_request`, cut perhaps; `plain` and `other`
 // are its results by the run and by the comparison. Instants that the other did not reach count as not reproducible.

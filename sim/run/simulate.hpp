@@ -51,7 +51,7 @@ std::vector<Result> simulate(const Problem& problem, std::span<const Request> re
                              TrajectoryWriter* keep = nullptr, Effort* effort = nullptr);
 
 // The same from a trajectory that was kept, which must reach as far as the requests: the same bits again. A
-// horizon still costs its second run.
+// horizon still costs its other runs.
 std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
                            const Progress& progress = {}, Effort* effort = nullptr);
 

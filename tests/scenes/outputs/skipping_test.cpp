@@ -91,7 +91,7 @@ TEST(Skipping, TheSummaryCarriesTheWork) {
     EXPECT_THAT(run.out, HasSubstr("\"integrations\": 1"));
     EXPECT_THAT(run.out, HasSubstr(fmt::format("\"rhs_evaluations\": {}", count(run, "rhs_evaluations"))));
     EXPECT_EQ(count(run, "trajectories_kept"), 0);  // extremes and events alone are not worth storing it
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM simulate s.json --summary - --horizon -v"), "integrations"), 2);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM simulate s.json --summary - --horizon -v"), "integrations"), 3);
 }
 
 TEST(Skipping, NoContactIsSearchedWhereTheBeamCannotReach) {

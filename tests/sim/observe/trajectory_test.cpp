@@ -249,7 +249,7 @@ TEST(KeptTrajectory, FindsTheTurningPointsThatTheRunDidNotLookFor) {
     }
 }
 
-TEST(KeptTrajectory, GivesTheHorizonAfterOneRunMore) {
+TEST(KeptTrajectory, GivesTheHorizonAfterTheRunsThatItIsComparedWith) {
     Problem problem;
     Request request;
     request.end_time = 0.5;
@@ -260,10 +260,10 @@ TEST(KeptTrajectory, GivesTheHorizonAfterOneRunMore) {
     Effort effort;
     const Result replayed = replay(problem, Trajectory(problem, kept.numbers), {&request, 1}, {}, &effort).front();
     EXPECT_EQ(replayed.reproducible_until, direct.reproducible_until);
-    EXPECT_EQ(effort.integrations, 1);
+    EXPECT_EQ(effort.integrations, 2);  // the method itself at a tighter tolerance, and another
     effort = {};
     simulate(problem, {&request, 1}, {}, nullptr, &effort);
-    EXPECT_EQ(effort.integrations, 2);
+    EXPECT_EQ(effort.integrations, 3);
 }
 
 TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {

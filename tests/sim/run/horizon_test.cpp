@@ -13,6 +13,7 @@ namespace beamcam::sim::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 Result with_horizon(const Problem& problem, double end) {
     Request request;
@@ -138,7 +139,8 @@ TEST(Horizon, OfThePapersSystemIsATransientThatEnds) {
         Problem p;
         p.cam->speed = speed;
         const Result r = with_horizon(p, 10);
-        EXPECT_EQ(r.compared_with, "rk8 at rtol 1e-10") << speed;
+        EXPECT_THAT(r.compared_with, MatchesRegex("rk8 at rtol 1e-10, from 2\\..* s on with auto at rtol 1e-10"))
+            << speed;
         EXPECT_GT(*r.reproducible_until, 1) << speed;
         EXPECT_LT(*r.reproducible_until, 3) << speed;
         ASSERT_FALSE(r.not_reproducible.empty());
@@ -148,6 +150,44 @@ TEST(Horizon, OfThePapersSystemIsATransientThatEnds) {
         EXPECT_EQ(r.not_reproducible.back().to, r.reproducible_again_from);
         for (const Interval& lost : r.not_reproducible) EXPECT_LT(lost.from, lost.to);
     }
+}
+
+// Another method runs until the motion differs from a run of its own at a tighter tolerance, or has settled.
+TEST(Horizon, NeedsTheOtherMethodOnlyWhereItMayTellMore) {
+    const Problem p;
+    EXPECT_TRUE(tighter_is_cheap(p));
+    Problem other = p;
+    other.solver.method = Method::rk8;
+    EXPECT_FALSE(tighter_is_cheap(other));
+    const Request angle = horizon_request(p, 20);
+    const std::vector<double> ours(angle.tables[0].times.size(), 0.5);
+    Result plain, tighter;
+    plain.tables.push_back({{}, {ours}}), tighter.tables.push_back({{}, {ours}});
+    EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 20);
+    plain.impacts.emplace_back().t_start = 7;  // and stays
+    EXPECT_NEAR(other_needed_until(p, angle, plain, tighter), 7 + 0.25 * 2 * std::numbers::pi / p.cam->speed, 1e-12);
+    tighter.tables[0].values[0][3000] += 2e-6;
+    EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 3);
+    // The other's rows take the place of the first.
+    Result first;
+    first.tables.push_back({{}, {{1, 2}}});
+    put_first(first, tighter);
+    EXPECT_EQ(tighter.tables[0].values[0][1], 2);
+    EXPECT_EQ(tighter.tables[0].values[0][2], 0.5);
+}
+
+TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
+    SKIP_UNDER_SANITIZERS();
+    const Problem p;
+    Request request;
+    request.end_time = 60;
+    request.turning_points = false;
+    Effort motion, both;
+    simulate(p, {&request, 1}, {}, nullptr, &motion);
+    request.horizon = true;
+    const Result r = simulate(p, {&request, 1}, {}, nullptr, &both).front();
+    EXPECT_LT(both.spent.rhs_evaluations, 4 * motion.spent.rhs_evaluations) << r.reproducibility;
+    EXPECT_EQ(both.integrations, 3);
 }
 
 TEST(Horizon, ComparesWithAnotherMethodWhereverOneIsFeasible) {
