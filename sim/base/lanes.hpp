@@ -47,10 +47,14 @@ BEAMCAM_INLINE Lanes operator-(Lanes a) {
 }
 
 BEAMCAM_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+// Of magnitudes; what is no number is passed over.
 BEAMCAM_INLINE double largest(const Lanes& a) {
-    double m = 0;
-    for (int k = 0; k < kNodes; ++k) m = a[k] > m ? a[k] : (-a[k] > m ? -a[k] : m);
-    return m;
+    Lanes::Part m{};
+    for (const Lanes::Part& part : a.part) {
+        m = part > m ? part : m;
+        m = -part > m ? -part : m;
+    }
+    return m[0] > m[1] ? m[0] : m[1];
 }
 
 inline void sine_and_cosine(double a, double& sine, double& cosine) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/integrate/exponential_segment.hpp"
+#include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -138,13 +139,14 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
 
 // The oscillation about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
 // (|f″| + 2γ|f′|)/ω³ times half their distance; f is bounded by the derivatives of its Legendre polynomials.   (S59)
-ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i) const {
+ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* legendre) const {
     const Collocation& gauss = Collocation::get();
+    const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
     const double force = kBetweenNodes * largest(f[i]), square = o.omega * o.omega;
     double force_range = 0, force_rate = 0, force_second = 0;  // the first: about the mean
     for (int j = 1; j < kNodes; ++j) {
-        const double c = std::fabs(sum(gauss.legendre[static_cast<std::size_t>(j)] * f[i]));
+        const double c = std::fabs(legendre[j][lane]);
         force_range += c;
         force_rate += c * j * (j + 1) / h;
         force_second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
@@ -163,7 +165,7 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i) const {
         const double driven = kToNode * h * (force_second + 2 * o.gamma * force_rate) / (square * o.omega);
         const double swing = std::sqrt(largest(free * free + free_rate * free_rate)) * decay + driven;
         // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x of the oscillation x about f/ω².
-        const double mean = sum(gauss.legendre[0] * f[i]) / square, range = force_range / square + swing;
+        const double mean = legendre[0][lane] / square, range = force_range / square + swing;
         mode.low = std::max(mode.low, mean - range);
         mode.high = std::min(mode.high, mean + range);
         mode.rate = std::min(mode.rate, o.omega * swing + force_rate / square);
@@ -184,7 +186,21 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     modal_bounds_known_ = true;
     ModalBounds& b = modal_bounds_;
     b.modes.resize(n_);
-    for (std::size_t i = 0; i < n_; ++i) b.modes[i] = mode_bounds(i);
+    turn();
+    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
+        Lanes legendre[kNodes];
+        lane_kernels().combine(Collocation::get().legendre.data(), turned_.data() + g * kNodes, legendre);
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) b.modes[i] = mode_bounds(i, legendre);
+    }
+    b.q = q;
+    b.rate = v;
+    b.force = f;
+    b.spin = b.angle = spin;
+    if (!form_->prescribed) {
+        b.angle = Lanes{} + theta0;
+        for (int l = 0; l < kNodes; ++l)
+            b.angle += (h * spin[l]) * Collocation::get().integrate[static_cast<std::size_t>(l)];
+    }
     b.h = h;
     b.power_cam = ledger_changes ? kBetweenNodes * largest(rate[kWorkCam]) : 0;
     b.power_drive = ledger_changes ? kBetweenNodes * largest(rate[kWorkDrive]) : 0;

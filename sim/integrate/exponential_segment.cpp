@@ -9,53 +9,49 @@ namespace beamcam::sim {
 
 template <class Visit>
 void ExponentialSegment::each_number(Visit&& visit) {
-    const auto lanes = [&](Lanes& l) {
-        for (int k = 0; k < kNodes; ++k) {
-            double value = l[k];
-            visit(value);
-            l[k] = value;
-        }
+    const auto numbers = [&](std::span<double> all) { visit(all); };
+    const auto number = [&](double& one) { visit(std::span(&one, 1)); };
+    const auto lanes = [&](std::span<Lanes> all) {
+        static_assert(sizeof(Lanes) == kNodes * sizeof(double));
+        if (!all.empty()) visit(std::span(&all[0][0], all.size() * kNodes));
     };
-    for (double* one : {&h, &theta0, &p0, &boundary0}) visit(*one);
-    for (std::vector<double>* all : {&q0, &v0, &end})
-        for (double& one : *all) visit(one);
-    for (std::vector<Lanes>* all : {&q, &v, &f})
-        for (Lanes& one : *all) lanes(one);
-    lanes(spin);
-    lanes(push);
-    for (double& one : ledger0) visit(one);
+    for (double* one : {&h, &theta0, &p0, &boundary0}) number(*one);
+    for (std::vector<double>* all : {&q0, &v0, &end}) numbers(*all);
+    for (std::vector<Lanes>* all : {&q, &v, &f}) lanes(*all);
+    lanes({&spin, 1});
+    lanes({&push, 1});
+    numbers(ledger0);
     const auto flag = [&](bool& on) {
         double value = on;
-        visit(value);
+        number(value);
         on = value != 0;
     };
     flag(ledger_changes);
-    if (ledger_changes)
-        for (Lanes& one : rate) lanes(one);
+    if (ledger_changes) lanes(rate);
     flag(touching);
     if (!touching) return;
-    for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.x})
-        for (double& one : *all) visit(one);
+    for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.x}) numbers(*all);
     double ending = static_cast<int>(samples.ending);
-    visit(ending);
+    number(ending);
     samples.ending = static_cast<TouchSamples::Ending>(static_cast<int>(ending));
 }
 
 SegmentKind ExponentialSegment::numbers(std::vector<double>& out) const {
     // Only read, by this visitor.
-    const_cast<ExponentialSegment*>(this)->each_number([&](const double& value) { out.push_back(value); });
+    const_cast<ExponentialSegment*>(this)->each_number(
+        [&](std::span<const double> all) { out.insert(out.end(), all.begin(), all.end()); });
     return SegmentKind::exponential;
 }
 
 void ExponentialSegment::load(double begin, double end_time, std::span<const double> numbers) {
     t0 = begin;
     t1 = end_time;
-    std::size_t next = 0;
-    each_number([&](double& value) {
-        if (next == numbers.size()) throw std::invalid_argument("a segment of the trajectory is too short");
-        value = numbers[next++];
+    each_number([&](std::span<double> all) {
+        if (numbers.size() < all.size()) throw std::invalid_argument("a segment of the trajectory is too short");
+        std::ranges::copy(numbers.first(all.size()), all.begin());
+        numbers = numbers.subspan(all.size());
     });
-    if (next != numbers.size()) throw std::invalid_argument("a segment of the trajectory is too long");
+    if (!numbers.empty()) throw std::invalid_argument("a segment of the trajectory is too long");
     changed();
 }
 
@@ -125,16 +121,20 @@ double ExponentialSegment::spin_at(double p, const double* x) const {
     return p / (form_->J + quadratic);
 }
 
+// The forcing at the nodes, in lanes over eight modes.
+void ExponentialSegment::turn() const {
+    if (turned_known_) return;
+    turned_known_ = true;
+    for (std::size_t i = 0; i < n_; ++i)
+        for (int l = 0; l < kNodes; ++l)
+            turned_[i / kNodes * kNodes + static_cast<std::size_t>(l)][static_cast<int>(i % kNodes)] = f[i][l];
+}
+
 // Derivatives of the forcing at the start of the step or at a node, and where the modes are there.
 void ExponentialSegment::expand(int at) const {
     if (expanded_ == at) return;
     expanded_ = at;
-    if (!turned_known_) {
-        turned_known_ = true;
-        for (std::size_t i = 0; i < n_; ++i)
-            for (int l = 0; l < kNodes; ++l)
-                turned_[i / kNodes * kNodes + static_cast<std::size_t>(l)][static_cast<int>(i % kNodes)] = f[i][l];
-    }
+    turn();
     std::array<Lanes, kNodes> factors = Collocation::get().derive[static_cast<std::size_t>(at)];
     double inverse = 1;
     for (Lanes& factor : factors) {

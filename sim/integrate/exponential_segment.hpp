@@ -59,9 +59,10 @@ class ExponentialSegment final : public Segment {
     double spin_at(double p, const double* coordinates) const;
 
   private:
-    // Calls visit(double&) on every number that `value`, `bounds` and `touch` go by, besides t0 and t1.
+    // Calls visit(std::span<double>) on all numbers that `value`, `bounds` and `touch` go by, besides t0 and t1.
     template <class Visit>
     void each_number(Visit&& visit);
+    void turn() const;
     void expand(int point) const;
     double expand_before(double s) const;
     void evolve(std::size_t group, double tau, Lanes& x, Lanes& rate) const;
@@ -73,7 +74,8 @@ class ExponentialSegment final : public Segment {
     double largest_rate(std::size_t mode, double amplitude, double force) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest_spin) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
-    ModalBounds::Mode mode_bounds(std::size_t mode) const;
+    // `legendre`: coefficients of the forcing of its group.
+    ModalBounds::Mode mode_bounds(std::size_t mode, const Lanes* legendre) const;
     double torque_on_vibration(double s, const double* y) const;
 
     std::shared_ptr<const ModalForm> form_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/lanes.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/problem/problem.hpp"
 
@@ -45,6 +46,8 @@ struct ModalBounds {
         double q_frequency = 0, rate_frequency = 0;        // |q̈| ≤ q_frequency² amplitude, so for q̇ [rad/s]
     };
     std::vector<Mode> modes;
+    std::span<const Lanes> q, rate, force;  // at the Gauss nodes: q, q̇ and q̈ + 2γq̇ + ω²q
+    Lanes angle{}, spin{};                  // there: of the frame [rad], [rad/s]
     double h = 0;                           // length of the collocation step [s]
     double power_cam = 0, power_drive = 0;  // of magnitudes [W]
 };

@@ -12,7 +12,8 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kNegligible = 1e-10;  // of the best value: what is not searched for
+// Of the best value: what is not searched for. The error of the energy balance is rounding and what steps miss.
+double negligible(ChannelKind kind) { return kind == ChannelKind::energy_residual ? 1e-3 : 1e-10; }
 // Intervals that a search looks into, at most: many times more than a sound step needs, so that a damaged one ends.
 constexpr double kLooksPerRadian = 32;
 constexpr double kFewestLooks = 4000, kMostLooks = 1e8;
@@ -26,15 +27,20 @@ struct Sample {
 
 // The largest value of sign · f so far.
 struct Best {
-    double sign, value, t;
+    double sign, value, t, negligible;
     long looks = 0;  // that the search may still take
     void offer(const Sample& s) {
         if (!(sign * s.value > value)) return;
         value = sign * s.value;
         t = s.t;
     }
-    double to_beat() const { return value + kNegligible * std::fabs(value); }
+    double left_out() const { return negligible * std::fabs(value); }
+    double to_beat() const { return value + left_out(); }
 };
+
+Best best_so_far(ChannelKind kind, double sign, const Extremum& e) {
+    return sign > 0 ? Best{sign, e.max, e.t_max, negligible(kind)} : Best{sign, -e.min, e.t_min, negligible(kind)};
+}
 
 // The crest of sign · f near three samples, if the parabola through them promises a better value.
 template <class F>
@@ -70,7 +76,7 @@ void climb(const F& f, const Variation& variation, const Sample& a, const Sample
     if (--best.looks < 0) return;
     const Sample m{t, f(t)};
     best.offer(m);
-    if (variation.unresolved(length) <= kNegligible * std::fabs(best.value)) {
+    if (variation.unresolved(length) <= best.left_out()) {
         climb_crest(f, variation, a, m, b, best);
         return;
     }
@@ -122,14 +128,17 @@ bool is_estimated(ChannelKind kind) {
     return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
 }
 
+bool is_of_hub(ChannelKind kind) { return kind == ChannelKind::theta || kind == ChannelKind::theta_dot; }
+
+// While they touch.
 bool needs_gap(ChannelKind kind) {
     return kind == ChannelKind::energy_contact || kind == ChannelKind::energy_residual ||
            kind == ChannelKind::loss_contact;
 }
 
 bool needs_contact(ChannelKind kind) {
-    return needs_gap(kind) || kind == ChannelKind::gap || kind == ChannelKind::contact_x ||
-           kind == ChannelKind::contact_s || kind == ChannelKind::contact_force || is_separation(kind);
+    return kind == ChannelKind::gap || kind == ChannelKind::contact_x || kind == ChannelKind::contact_s ||
+           kind == ChannelKind::contact_force || is_separation(kind);
 }
 
 }  // namespace
@@ -141,7 +150,8 @@ ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels
       channels_(std::move(channels)),
       y_(static_cast<std::size_t>(system.size)),
       first_(channels_.size()),
-      last_(channels_.size()) {}
+      last_(channels_.size()),
+      candidates_(channels_.size()) {}
 
 void ExtremaFinder::set_phase(const Phase& phase) {
     evaluator_.set_phase(phase);
@@ -172,10 +182,11 @@ double ExtremaFinder::evaluate(const SegmentInterval& s, Channel channel, double
     if (channel.kind == ChannelKind::q)
         return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
     s.segment->value(t, y_.data());
+    if (modal_ && is_of_hub(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
-    if (probing_ && evaluator_.system().has_cam() && needs_contact(channel.kind)) look_for_contact(t);
-    if (probing_ && evaluator_.system().phase().touching && needs_gap(channel.kind))
-        evaluator_.set_gap(evaluator_.contact().gap);
+    const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
+    if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) look_for_contact(t);
+    if (probing_ && stored) evaluator_.set_gap(evaluator_.contact().gap);
     return evaluator_.value(channel);
 }
 
@@ -225,20 +236,25 @@ void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrem
             offer(extrema[c], s.from, first_[c]);
             offer(extrema[c], s.to, last_[c]);
         }
-        const ModalChannels::Range range = modal_channels_.range(channels_[c], first_[c], last_[c]);
+        ModalChannels::Range range = modal_channels_.range(channels_[c], first_[c], last_[c]);
+        const auto beaten = [&](double sign) {
+            return (sign > 0 ? range.high : -range.low) <= best_so_far(channels_[c].kind, sign, extrema[c]).to_beat();
+        };
+        if (beaten(1) && beaten(-1)) continue;
+        if (channels_[c].kind != ChannelKind::q)  // whose bounds are as close
+            if (const auto closer = modal_channels_.range_by_nodes(channels_[c], first_[c], last_[c])) range = *closer;
         for (const double sign : {1.0, -1.0}) {
-            const Best best{sign, sign > 0 ? extrema[c].max : -extrema[c].min, 0};
+            if (beaten(sign)) continue;
             const double high = sign > 0 ? range.high : -range.low;
-            if (high <= best.to_beat()) continue;
             if (!kept) kept = keep(s);
-            candidates_.push_back({c, sign, high, kept});
+            candidates_[c][sign > 0 ? 0 : 1].push_back({high, kept});
         }
     }
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
 std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const SegmentInterval& s) {
-    KeptStep step{evaluator_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, {}, {}};
+    KeptStep step{evaluator_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, kept_steps_++, {}, {}};
     s.segment->numbers(step.numbers);
     kept_numbers_ += step.numbers.size();
     return std::make_shared<const KeptStep>(std::move(step));
@@ -247,30 +263,38 @@ std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const Segment
 void ExtremaFinder::finish(std::vector<Extremum>& extrema) { search_kept(extrema); }
 
 void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
-    std::ranges::stable_sort(candidates_, {},
-                             [](const Candidate& c) { return std::tuple(c.channel, c.sign, -c.high); });
     const Phase phase = evaluator_.system().phase();
-    const KeptStep* loaded = nullptr;
-    if (!stored_ && !candidates_.empty())
+    loaded_ = nullptr;
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+        for (const double sign : {1.0, -1.0}) search_candidates(c, sign, candidates_[c][sign > 0 ? 0 : 1], extrema[c]);
+    kept_numbers_ = 0;
+    set_phase(phase);
+}
+
+bool ExtremaFinder::less_promising(const Candidate& a, const Candidate& b) {
+    return a.high != b.high ? a.high < b.high : a.step->order > b.step->order;
+}
+
+// The most promising first, until the rest is beaten.
+void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Candidate>& candidates, Extremum& e) {
+    if (!stored_ && !candidates.empty())
         stored_ = make_stored_segment(SegmentKind::exponential, evaluator_.system().problem());
-    for (const Candidate& candidate : candidates_) {
-        Extremum& e = extrema[candidate.channel];
-        const Best best{candidate.sign, candidate.sign > 0 ? e.max : -e.min, 0};
-        if (candidate.high <= best.to_beat()) continue;
+    std::ranges::make_heap(candidates, less_promising);
+    for (; !candidates.empty(); candidates.pop_back()) {
+        std::ranges::pop_heap(candidates, less_promising);
+        const Candidate& candidate = candidates.back();
+        if (candidate.high <= best_so_far(channels_[c].kind, sign, e).to_beat()) break;
         const KeptStep& step = *candidate.step;
         const SegmentInterval s{stored_.get(), step.from, step.to, false};
-        if (loaded != &step) {
-            loaded = &step;
+        if (loaded_ != &step) {
+            loaded_ = &step;
             stored_->load(step.t0, step.t1, step.numbers);
             set_phase(step.phase);
             set_bounds(s);
         }
-        const Channel channel = channels_[candidate.channel];
-        search(s, channel, candidate.sign, sample_kept(step, s, channel), e);
+        search(s, channels_[c], sign, sample_kept(step, s, channels_[c]), e);
     }
-    candidates_.clear();
-    kept_numbers_ = 0;
-    set_phase(phase);
+    candidates.clear();
 }
 
 // Steps that span many periods of vibration without bounds of the modes, in parts that are polynomials as others are.
@@ -303,9 +327,37 @@ void ExtremaFinder::search_now(const SegmentInterval& s, std::vector<Extremum>& 
     }
 }
 
+// What the step knows of its contact, if its instants are those of the samples.
+const TouchSamples* ExtremaFinder::known_contact(const SegmentInterval& s) const {
+    const TouchSamples* touch = s.segment->touch();
+    return touch && touch->t[0] == s.from && touch->t[kSamples - 1] == s.to ? touch : nullptr;
+}
+
 ExtremaFinder::Values ExtremaFinder::sample(const SegmentInterval& s, Channel channel) {
     Values values;
-    for (std::size_t k = 0; k < kSamples; ++k) values[k] = evaluate(s, channel, sample_time(s, k));
+    if (const TouchSamples* touch = known_contact(s)) {
+        if (channel.kind == ChannelKind::contact_force) std::copy_n(touch->force, kSamples, values.begin());
+        if (channel.kind == ChannelKind::gap) std::copy_n(touch->gap, kSamples, values.begin());
+        if (channel.kind == ChannelKind::contact_x) std::copy_n(touch->x, kSamples, values.begin());
+        if (channel.kind == ChannelKind::contact_force || channel.kind == ChannelKind::gap ||
+            channel.kind == ChannelKind::contact_x)
+            return values;
+        if (needs_gap(channel.kind)) {
+            for (std::size_t k = 0; k < kSamples; ++k) {
+                s.segment->value(sample_time(s, k), y_.data());
+                evaluator_.set(sample_time(s, k), y_.data());
+                evaluator_.set_gap(touch->gap[k]);
+                values[k] = evaluator_.value(channel);
+            }
+            return values;
+        }
+    }
+    Lanes nodes;
+    const bool linear = channel.kind == ChannelKind::q || is_of_hub(channel.kind);
+    const bool known = modal_ && linear && modal_channels_.at_nodes(channel, nodes);
+    for (std::size_t k = 0; k < kSamples; ++k)
+        values[k] =
+            known && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : evaluate(s, channel, sample_time(s, k));
     return values;
 }
 
@@ -328,13 +380,7 @@ Variation ExtremaFinder::variation(const SegmentInterval& s, Channel channel, co
     for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
     Variation out;
     out.add_polynomial(nodes, h);
-    double missed = 0;
-    for (const double end : {0.0, 1.0}) {
-        Lanes weights;
-        Collocation::get().values_at(end, weights);
-        missed = std::max(missed, std::fabs(sum(weights * nodes) - values[end == 0 ? 0 : kSamples - 1]));
-    }
-    out.add(2 * missed, kNodes * (kNodes + 1) / h);
+    out.add_missed(nodes, values[0], values[kSamples - 1], h);
     if (modal_) modal_channels_.add_unresolved(channel, out);
     return out;
 }
@@ -343,6 +389,14 @@ Variation ExtremaFinder::variation(const SegmentInterval& s, Channel channel, co
 double ExtremaFinder::turn(double arc, double near) {
     const double around = 2 * std::numbers::pi * evaluator_.system().problem().cam->radius;
     return arc - around * std::round((arc - near) / around);
+}
+
+// The error of the energy balance within a step of the collocation is flat at the nodes, where nothing is missed of the
+// forcing: it exceeds its values there by less than they span.
+bool ExtremaFinder::hardly_exceeds(const Values& values, double sign, const Extremum& e) {
+    const auto [low, high] = std::ranges::minmax(values);
+    const double best = sign > 0 ? e.max : -e.min;
+    return (sign > 0 ? high : -low) < best && (sign > 0 ? high : -low) + (high - low) <= best;
 }
 
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Values& sampled, Extremum& e) {
@@ -354,10 +408,15 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     Values values = sampled;
     if (arc)
         for (double& value : values) value = turn(value, sampled[0]);
+    if (channel.kind == ChannelKind::energy_residual && modal_) {
+        for (std::size_t k = 0; k < kSamples; ++k) offer(e, sample_time(s, k), values[k]);
+        if (hardly_exceeds(values, sign, e)) return;
+    }
     const Variation strays = variation(s, channel, values);
-    const double before = sign > 0 ? e.max : -e.min;
     const double radians = (s.to - s.from) * evaluator_.system().highest_frequency();
-    Best best{sign, before, s.from, static_cast<long>(std::min(kFewestLooks + kLooksPerRadian * radians, kMostLooks))};
+    Best best = best_so_far(channel.kind, sign, e);
+    const double before = best.value;
+    best.looks = static_cast<long>(std::min(kFewestLooks + kLooksPerRadian * radians, kMostLooks));
     for (std::size_t k = 0; k < kSamples; ++k) best.offer({sample_time(s, k), values[k]});
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         climb(f, strays, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]}, best);
@@ -381,28 +440,17 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
 void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration) {
     const bool modal = set_bounds(s);
     Extremum of_force{0, s.from, force.value_or(0), s.from}, of_gap{-penetration, s.from, 0, s.from};
-    const auto promises = [&](ChannelKind kind, double sign, double best) {
+    const auto promises = [&](ChannelKind kind, double sign, const Extremum& e) {
         if (!modal) return true;
         const ModalChannels::Range range = modal_channels_.range({kind}, 0, 0);
-        return !((sign > 0 ? range.high : -range.low) <= Best{sign, best, 0}.to_beat());
+        return !((sign > 0 ? range.high : -range.low) <= best_so_far(kind, sign, e).to_beat());
     };
-    const TouchSamples* touch = s.segment->touch();
-    const std::vector<SegmentInterval> all = parts(s);
-    const bool sampled = touch && all.size() == 1 && touch->t[0] == s.from && touch->t[kSamples - 1] == s.to;
-    const auto look = [&](ChannelKind kind, double sign, const auto& known, Extremum& e) {
-        if (!promises(kind, sign, sign > 0 ? e.max : -e.min)) return;
-        for (const SegmentInterval& part : all) {
-            Values values;
-            if (sampled)
-                std::copy_n(known, kSamples, values.begin());
-            else
-                values = sample(part, {kind});
-            search(part, {kind}, sign, values, e);
-        }
+    const auto look = [&](ChannelKind kind, double sign, Extremum& e) {
+        if (!promises(kind, sign, e)) return;
+        for (const SegmentInterval& part : parts(s)) search(part, {kind}, sign, sample(part, {kind}), e);
     };
-    if (evaluator_.system().phase().touching)
-        look(ChannelKind::contact_force, 1, touch ? &touch->force[0] : nullptr, of_force);
-    look(ChannelKind::gap, -1, touch ? &touch->gap[0] : nullptr, of_gap);
+    if (evaluator_.system().phase().touching) look(ChannelKind::contact_force, 1, of_force);
+    look(ChannelKind::gap, -1, of_gap);
     force = of_force.max;
     penetration = -of_gap.min;
 }
@@ -411,17 +459,39 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double
 
 template <class F, class Found>
 void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, double scale, F&& f, Found&& found) {
-    constexpr double kRounding = 1e-14;  // of the sum of magnitudes
     Values values;
-    for (std::size_t k = 0; k < kSamples; ++k) {
-        values[k] = f(sample_time(s, k));
-        scale = std::max(scale, std::fabs(values[k]));
-    }
+    for (std::size_t k = 0; k < kSamples; ++k) values[k] = f(sample_time(s, k));
+    each_sign_change(s, channel, scale, values, f, found);
+}
+
+template <class F, class Found>
+void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, double scale, const Values& values,
+                                     F&& f, Found&& found) {
+    constexpr double kRounding = 1e-14;  // of the sum of magnitudes
+    for (const double value : values) scale = std::max(scale, std::fabs(value));
     const double rounding = kRounding * scale;
     const Variation strays = variation(s, channel, values);
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         sign_changes(f, strays, rounding, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]},
                      found);
+}
+
+// Angle and rate of the hub, of a step that has them at its nodes.
+bool ExtremaFinder::hub_samples(const SegmentInterval& s, Values& angles, Values& rates) {
+    Lanes angle, rate;
+    if (!modal_channels_.at_nodes({ChannelKind::theta}, angle)) return false;
+    modal_channels_.at_nodes({ChannelKind::theta_dot}, rate);
+    for (int k = 0; k < kNodes; ++k) {
+        const auto sample = static_cast<std::size_t>(k) + 1;
+        angles[sample] = angle[k];
+        rates[sample] = rate[k];
+    }
+    for (const std::size_t end : {std::size_t{0}, kSamples - 1}) {
+        s.segment->value(sample_time(s, end), y_.data());
+        angles[end] = modal_channels_.hub(ChannelKind::theta, y_.data());
+        rates[end] = modal_channels_.hub(ChannelKind::theta_dot, y_.data());
+    }
+    return true;
 }
 
 void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& apexes,
@@ -431,13 +501,8 @@ void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& 
                may_cross = !motion || (motion->angle_low <= 0 && motion->angle_high >= 0);
     if (!may_turn && !may_cross) return;
     set_bounds(s);
-    const auto model = [&](double t) -> const Model& {
-        s.segment->value(t, y_.data());
-        evaluator_.system().place(t, y_.data());
-        return evaluator_.system().model();
-    };
-    const auto angle = [&](double t) { return model(t).hub_angle(); };
-    const auto rate = [&](double t) { return model(t).hub_rate(); };
+    const auto angle = [&](double t) { return evaluate(s, {ChannelKind::theta}, t); };
+    const auto rate = [&](double t) { return evaluate(s, {ChannelKind::theta_dot}, t); };
     const auto apex = [&](const Sample& a, const Sample& b) {
         if (!(a.value > 0)) return;
         const double t = find_root(rate, a.t, b.t, a.value, b.value);
@@ -448,6 +513,12 @@ void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& 
         const double t = find_root(angle, a.t, b.t, a.value, b.value);
         theta_zero.push_back({t, rate(t)});
     };
+    if (Values angles, rates; modal_ && hub_samples(s, angles, rates)) {
+        if (may_turn)
+            each_sign_change(s, {ChannelKind::theta_dot}, motion->spin + motion->ripple_rate, rates, rate, apex);
+        if (may_cross) each_sign_change(s, {ChannelKind::theta}, motion->ripple, angles, angle, zero);
+        return;
+    }
     for (const SegmentInterval& part : parts(s)) {
         if (may_turn)
             each_sign_change(part, {ChannelKind::theta_dot}, motion ? motion->spin + motion->ripple_rate : 0, rate,

@@ -48,15 +48,16 @@ class ExtremaFinder {
     struct KeptStep {
         Phase phase;
         double from, to, t0, t1;
+        long order;
         std::vector<double> numbers;
         // Both separations at the samples: their costly part is the same.
         mutable std::optional<std::array<Values, 2>> separations;
     };
     struct Candidate {
-        std::size_t channel;
-        double sign, high;  // `high`: bound of sign times the channel
+        double high;  // bound of the channel, or of its negative
         std::shared_ptr<const KeptStep> step;
     };
+    static bool less_promising(const Candidate& a, const Candidate& b);
 
     double evaluate(const SegmentInterval& s, Channel channel, double t);
     void search_contact_again();
@@ -64,14 +65,21 @@ class ExtremaFinder {
     void evaluate_all(const SegmentInterval& s, double t, std::vector<double>& values);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
+    void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
     void search_now(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search(const SegmentInterval& s, Channel channel, double sign, const Values& values, Extremum& e);
+    const TouchSamples* known_contact(const SegmentInterval& s) const;
     Values sample(const SegmentInterval& s, Channel channel);
     Values sample_kept(const KeptStep& step, const SegmentInterval& s, Channel channel);
+    static bool hardly_exceeds(const Values& values, double sign, const Extremum& e);
     Variation variation(const SegmentInterval& s, Channel channel, const Values& values);
     bool set_bounds(const SegmentInterval& s);
     std::vector<SegmentInterval> parts(const SegmentInterval& s);
     double turn(double arc, double near);
+    bool hub_samples(const SegmentInterval& s, Values& angles, Values& rates);
+    template <class F, class Found>
+    void each_sign_change(const SegmentInterval& s, Channel channel, double scale, const Values& values, F&& f,
+                          Found&& found);
     template <class F, class Found>
     void each_sign_change(const SegmentInterval& s, Channel channel, double scale, F&& f, Found&& found);
 
@@ -86,9 +94,11 @@ class ExtremaFinder {
     double bounded_from_ = -1;              // its start
     long incomplete_ = 0;
 
-    std::vector<Candidate> candidates_;
+    std::vector<std::array<std::vector<Candidate>, 2>> candidates_;  // of each channel: for its maximum, its minimum
     std::size_t kept_numbers_ = 0;
+    long kept_steps_ = 0;
     std::unique_ptr<StoredSegment> stored_;
+    const KeptStep* loaded_ = nullptr;
 };
 
 }  // namespace beamcam::sim

@@ -3,6 +3,7 @@
 // modal models. MODEL.md §12, (S59).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
@@ -24,8 +25,14 @@ class ModalChannels {
     };
     // The tip's deflection or its rate in the state y, but for what is not linear in the modes.
     double tip(ChannelKind kind, const double* y) const;
+    // The hub's angle or rate in that state.
+    double hub(ChannelKind kind, const double* y) const;
+    // The same at the nodes, or q; false where the part is not the whole step, or the channel is none of these.
+    bool at_nodes(Channel channel, Lanes& values) const;
     // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
+    // The same from its values at the nodes, too: closer and dearer; nothing where `at_nodes` is false.
+    std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
@@ -35,22 +42,28 @@ class ModalChannels {
         double q = 0, rate = 0, acceleration = 0, mixed = 0, shift = 0;
     };
     struct Mode {  // weights that do not change
-        double h, tip, U, W, stiffness, inertia, weight, shape, slope, omega;
+        double h, turn, tip, U, W, stiffness, inertia, weight, shape, slope, wave, omega, damping;
     };
-    Sensitivity sensitivity(Channel channel, std::size_t i) const;
     double swing(std::size_t i) const;
+    double swinging_share(std::size_t i) const;
+    template <class Add>
+    void each_unresolved(Channel channel, Add&& add) const;
     double drift(ChannelKind kind) const;
     template <class Visit>
     void each_mode(Channel channel, Visit&& visit) const;
-    template <class Visit>
-    void each_vibration(Channel channel, Visit&& visit) const;
     void place_contact();
     void set_contact();
     Range contact_range(Channel channel) const;
+    Range separation_range() const;
     double contact_value(ChannelKind kind, int sample) const;
 
     System& system_;
+    struct Strays {  // how far q, q̇ and products of modes stray within the step, the last by amplitude 1
+        double q, rate, mixed;
+        double swing, share;  // of the mode, and what of products with it swings
+    };
     std::vector<Mode> modes_;
+    std::vector<Strays> strays_;
     double reach_ = 0, length_ = 0, mass_ = 0, inertia_ = 0, lever_ = 0, gravity_ = 0;
     double friction_ = 0, cam_radius_ = 0, cam_speed_ = 0, disc_speed_ = 0;
 
@@ -59,6 +72,7 @@ class ModalChannels {
     const MotionBounds* motion_ = nullptr;
     const TouchSamples* touch_ = nullptr;
     double from_ = 0, to_ = 0, balance_error_ = 0;
+    bool whole_ = false;                                   // all of the collocation step, whose hub moves freely
     double deflection_ = 0, inclination_ = 0, alpha_ = 0;  // bounds of |v|, |v′|, |α|
     double inertia_root_ = 0, weight_root_ = 0;            // of √|qᵀBq|, √|qᵀGq|
     double hub_acceleration_ = 0;                          // of |θ̈|

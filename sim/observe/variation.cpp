@@ -8,15 +8,50 @@
 namespace beamcam::sim {
 
 void Variation::add(double amplitude, double frequency) {
-    if (amplitude > 0) vibrations_.push_back({amplitude, frequency});
+    if (!(amplitude > 0)) return;
+    if (vibrations_.empty()) vibrations_.reserve(kUsual);
+    vibrations_.push_back({amplitude, frequency});
 }
 
-// |P_j| ≤ 1 and |P_j″| ≤ (j − 1)j(j + 1)(j + 2)/8 on [−1, 1].
-void Variation::add_polynomial(const Lanes& nodes, double h) {
-    for (int j = 2; j < kNodes; ++j) {
-        const double bend = 0.5 * (j - 1) * j * (j + 1) * (j + 2);
-        add(std::fabs(sum(Collocation::get().legendre[static_cast<std::size_t>(j)] * nodes)), std::sqrt(bend) / h);
+namespace {
+
+// Constants of the Legendre polynomials on [0, 1], worked out once: |P_j| ≤ 1 and |P_j″| ≤ (j − 1)j(j + 1)(j + 2)/2.
+struct Polynomials {
+    Lanes coefficients[kNodes];  // [l][j]: what a value at node l contributes to the coefficient of P_j
+    double frequency[kNodes];
+    Lanes at_start;  // ℓ_l at 0, which is ℓ_{7−l} at 1
+    Polynomials() {
+        const Collocation& gauss = Collocation::get();
+        gauss.values_at(0, at_start);
+        for (int j = 0; j < kNodes; ++j) {
+            for (int l = 0; l < kNodes; ++l) coefficients[l][j] = gauss.legendre[static_cast<std::size_t>(j)][l];
+            frequency[j] = j < 2 ? 0 : std::sqrt(0.5 * (j - 1) * j * (j + 1) * (j + 2));
+        }
     }
+};
+
+const Polynomials& polynomials() {
+    static const Polynomials constants;
+    return constants;
+}
+
+}  // namespace
+
+void Variation::add_polynomial(const Lanes& nodes, double h) {
+    const Polynomials& constants = polynomials();
+    Lanes amplitudes{};
+    for (int l = 0; l < kNodes; ++l) amplitudes += nodes[l] * constants.coefficients[l];
+    for (int j = 2; j < kNodes; ++j) add(std::fabs(amplitudes[j]), constants.frequency[j] / h);
+}
+
+void Variation::add_missed(const Lanes& nodes, double first, double last, double h) {
+    const Lanes& at_start = polynomials().at_start;
+    double start = 0, end = 0;
+    for (int k = 0; k < kNodes; ++k) {
+        start += at_start[k] * nodes[k];
+        end += at_start[k] * nodes[kNodes - 1 - k];
+    }
+    add(2 * std::max(std::fabs(start - first), std::fabs(end - last)), kNodes * (kNodes + 1) / h);
 }
 
 double Variation::strays(double length) const {

@@ -14,6 +14,8 @@ class Variation {
     void add(double amplitude, double frequency);
     // The polynomial through values at the Gauss nodes of an interval of length h; its linear part does not stray.
     void add_polynomial(const Lanes& nodes, double h);
+    // What that polynomial misses of the values at both ends.
+    void add_missed(const Lanes& nodes, double first, double last, double h);
 
     double strays(double length) const;
     // The same of f′ from the slope of the line.
@@ -26,6 +28,7 @@ class Variation {
     double unresolved(double length) const;
 
   private:
+    static constexpr std::size_t kUsual = 32;
     struct Vibration {
         double amplitude, frequency;
     };
