@@ -5,13 +5,10 @@
 #include <limits>
 
 #include "sim/base/ode.hpp"
+#include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr int kMostArcNewton = 8;
-constexpr double kArcDifference =
-    1e-6;  // of the range: the derivative by the parameter, which only steers the corrector
 
 bool same_events(const FlowMap& a, const FlowMap& b) {
     return a.touches.size() == b.touches.size() && a.holds == b.holds && a.lifts == b.lifts;

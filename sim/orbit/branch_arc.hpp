@@ -17,9 +17,6 @@ struct ArcPoint {
     PeriodicOrbit orbit;
 };
 
-// Residual of the corrector, in sizes of the orbit: converged; still taken where rounding allows no better.
-inline constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
-
 class BranchArc {
   public:
     // Of orbits with the section and the phase of `like`.

@@ -11,21 +11,10 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/branch_arc.hpp"
+#include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kSmallestArc = 1e-9;  // of the range: what stops the branch is located so far
-constexpr double kArcShrink = 0.3, kArcGrowth = 1.4,
-                 kLeastCosine = 0.98;     // of a step; cosine between neighbouring tangents
-constexpr double kRealMultiplier = 1e-9;  // of the imaginary part: rounding
-constexpr double kOnCircle = 1e-7;        // of |μ|² − 1: rounding, as of pairs that never leave the circle
-constexpr double kFirstArc = 0.1;         // of the longest
-constexpr double kAtTip = 1e-6;           // of the beam's length: so near to the tip a branch that stops is at a corner
-// Of the parameter where a part of rest on the cam ends: its last impacts are too slow to be told apart.
-constexpr double kRestUncertainty = 3e-5;
-constexpr double kMovedSection = 0.01;  // [rad] a section that moves by less stays
-constexpr double kAtRangeEnd = 1e-5;    // of the range; what lies beyond it may be impossible
 
 Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
     return p.derivative + sign * Eigen::MatrixXd::Identity(p.derivative.rows(), p.derivative.cols());
@@ -269,7 +258,6 @@ const char* name(OrbitChange change) {
 
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress) {
-    constexpr double kDoubledShift = 0.02;  // of the orbit's size: where the doubled branch is begun
     const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit);
     std::vector<Branch> branches(1);
     const auto run = [&](const BranchArc& arc, ArcPoint at, bool both, Branch& branch) {

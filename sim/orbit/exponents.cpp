@@ -7,23 +7,12 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/orbit/constants.hpp"
 #include "sim/orbit/flow_map.hpp"
 #include "sim/run/run.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-// Between two orthonormalizations no damped mode decays by more than this factor's logarithm.
-constexpr double kMostDecay = 5;
-constexpr double kUnsettled = 4;  // standard errors between the halves of an average
-constexpr double kUnsettledRounding =
-    1e-3;                            // of the whole: blocks of a periodic motion may agree better than they cut it
-constexpr double kCompliant = 0.02;  // [s]
-constexpr double kNoRank = 1e-13;    // of a unit tangent: what is left of it is rounding
-constexpr double kGrazing = 0.01;    // of the typical approach speed: slower impacts are near grazing
-// Relative errors of a tangent, in a step, in units of rtol: they enter an exponent once, and are not multiplied.
-constexpr double kTangentErrors = 100;
-constexpr std::size_t kHistory = 400;  // points of the convergence, at most about
 
 // The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
 double longest_interval(const Problem& problem) {

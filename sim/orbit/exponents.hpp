@@ -9,14 +9,11 @@
 #include <vector>
 
 #include "sim/dynamics/initial.hpp"
+#include "sim/orbit/constants.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
-
-// Chaos needs that the later half of a motion alone multiplies differences by more than the exponential of this: linear
-// growth does not.                                                                                              (S89)
-inline constexpr double kLateGrowth = 3;
 
 struct ExponentsRequest {
     int count = 1;                           // of the largest exponents; 0: the whole spectrum

@@ -6,21 +6,11 @@
 #include <numbers>
 
 #include "sim/base/numerics.hpp"
+#include "sim/orbit/constants.hpp"
 #include "sim/orbit/section_map.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr int kMostNewton = 16;
-// Residual over the orbit's size: converged, and what is still taken where rounding allows no better.
-constexpr double kOrbitConverged = 1e-11, kOrbitAcceptable = 1e-8;
-constexpr double kLongestStep = 0.5;  // of the size, in one iteration
-constexpr double kReturn = 0.2;       // of the size: a state so near after some turns is worth a Newton iteration
-
-constexpr int kThrows = 24;         // cam angles from which the beam is thrown; as many between them if that is no use
-constexpr double kRise = 0.4;       // of the period: the thrown beam is in flight there
-constexpr double kAboveCam = 1e-6;  // [rad] so that the throw does not begin with a touch
-constexpr double kSame = 1e-6;      // of the speed of an impact: orbits nearer than that are one
 
 // The cam angle some time later, in [−π, π].
 double section_after(const Problem& problem, double section, double t) {
@@ -52,7 +42,7 @@ Place longest_flight(const Problem& problem, const Place& from, double duration,
 std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
     const Eigen::Index n = y.size();
     double last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostNewton; ++i) {
+    for (int i = 0; i < kMostOrbitNewton; ++i) {
         const SectionMap::Value value = map.at(y, true);
         const Eigen::VectorXd residual = value.image - y;
         const double size = residual.norm();
@@ -83,7 +73,7 @@ bool repeats(const PeriodicOrbit& orbit) {
         bool same = true;
         for (std::size_t i = 0; same && i + once < count; ++i)
             same = std::fabs(orbit.impacts[i].approach - orbit.impacts[i + once].approach) <
-                   kSame * orbit.impacts[i].approach;
+                   kSameOrbit * orbit.impacts[i].approach;
         if (same) return true;
     }
     return false;
@@ -140,7 +130,7 @@ std::optional<Place> thrown(const Problem& problem, double section, double perio
 
 bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
     return a.turns == b.turns && a.impacts.size() == b.impacts.size() &&
-           std::fabs(a.slowest_impact() - b.slowest_impact()) < kSame * a.slowest_impact();
+           std::fabs(a.slowest_impact() - b.slowest_impact()) < kSameOrbit * a.slowest_impact();
 }
 
 // Where the motion chatters or is lost, orbits of few impacts may exist beside it.

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/orbit/constants.hpp"
 #include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr double kPlastic = 1e-9;       // of the approach speed: a slower rebound is none
 constexpr int kFlow = kDirections - 1;  // the direction of the motion itself at events
-// Touches with this share of difference in speed are one and the same: the gap's rounding was taken out between.
-constexpr double kSameSpeed = 1e-9;
 
 void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
     const std::size_t n = s.xi.size();

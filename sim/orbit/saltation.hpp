@@ -17,9 +17,6 @@ struct TangentTouch {
     double overhang = 0;  // of the foot over the tip: negative between root and tip [m]
 };
 
-// Rows of tangents beside the coordinates and their rates: z and δ̇₋.
-inline constexpr int kTangentMemories = 2;
-
 class Saltation {
   public:
     // `jets` and `units` (of the rows of tangents) must outlive this.

@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/orbit/constants.hpp"
+
 namespace beamcam::sim {
-namespace {
-
-constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;
-constexpr int kMostMapSteps = 3'000'000;  // of one section map: no orbit that is worth it needs more
-
-}  // namespace
 
 Problem at_section(Problem problem, double section) {
     problem.cam->phase = section;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/orbit/constants.hpp"
+
 namespace beamcam::sim {
 namespace {
 

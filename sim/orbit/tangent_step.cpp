@@ -6,16 +6,10 @@
 #include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/nodal_step.hpp"
+#include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr int kMemories = 2;  // rows beside the coordinates and their rates: z and δ̇₋
-// Of a tangent's error in a step: shorter steps gain nothing.
-constexpr double kTangentRounding = 1e-14;
-// An error falls with this power of a step's length, at least; a level of the ladder is a factor √2.
-constexpr int kTangentOrder = 8;
-constexpr double kSameLength = 1e-13;  // of a step: rounding of the time
 
 // The hub as an oscillator without stiffness: its response is the integral.
 StepTable::Row hub_row(double h) {
@@ -77,7 +71,7 @@ const StepTable& TangentStep::table(int level, double rest) {
 // D_xF at the nodes, less the oscillators.
 void TangentStep::differentiate(const Segment& motion, double t0, double h) {
     const Collocation& gauss = Collocation::get();
-    const int columns = 2 * n_ + kMemories;
+    const int columns = 2 * n_ + kTangentMemories;
     const int used = phase_.touching ? columns : 2 * n_;
     const auto n = static_cast<std::size_t>(n_);
     Jet bristle_rate;
@@ -148,19 +142,19 @@ double TangentStep::solve(const StepTable& table, const Eigen::MatrixXd& before,
     const Collocation& gauss = Collocation::get();
     const auto columns = before.cols();
     forcing_.resize(forced_ * kNodes, columns);
-    unforced_.resize(2 * n_ + kMemories, columns);
+    unforced_.resize(2 * n_ + kTangentMemories, columns);
     for (int k = 0; k < kNodes; ++k) {
         for (int j = 0; j < n_; ++j) {
             const StepTable::Row& row = table.rows[static_cast<std::size_t>(j)];
             unforced_.row(j) = row.qq[k] * before.row(j) + row.qv[k] * before.row(n_ + j);
             unforced_.row(n_ + j) = row.vq[k] * before.row(j) + row.vv[k] * before.row(n_ + j);
         }
-        unforced_.bottomRows(kMemories) = before.bottomRows(kMemories);
+        unforced_.bottomRows(kTangentMemories) = before.bottomRows(kTangentMemories);
         for (int i = 0; i < forced_; ++i) forcing_.row(i * kNodes + k) = derivative_[k].row(i) * unforced_;
     }
     forcing_ = lu_.solve(forcing_).eval();
     after.resize(before.rows(), columns);
-    after.bottomRows(kMemories) = before.bottomRows(kMemories);
+    after.bottomRows(kTangentMemories) = before.bottomRows(kTangentMemories);
     for (Eigen::Index c = 0; c < columns; ++c) {
         const auto nodal = [&](int i) {
             Lanes f;

@@ -6,22 +6,12 @@
 #include <numeric>
 #include <variant>
 
+#include "sim/orbit/constants.hpp"
 #include "sim/orbit/exponents.hpp"
+#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kSameState = 1e-5;       // of the cam's lift and of its rate: states closer than this are one
-constexpr double kUsualLift = 1e-3;       // [rad] where the cam does not lift the beam
-constexpr int kRepeats = 3;               // a period must fit so often into the turns that are compared
-constexpr std::size_t kFewestTurns = 12;  // in which a motion without a period is told from one that settles
-constexpr double kNoise = 1e-7;           // of the lift: changes of a difference that mean nothing
-constexpr double kSettled = 0.1;          // of a difference: its limit is no farther
-constexpr double kNear = 0.02;            // of the lift: differences from a period that may still vanish
-constexpr std::size_t kBlocks = 10;       // of the exponent
-constexpr double kSureErrors = 3;         // standard errors
-constexpr double kSmallError = 0.02;      // per turn, of an exponent that is zero
-constexpr double kLinearGrowth = 1.2;  // in the later half: differences that grow like the time double, ln 2 and some
 
 using Strobes = std::span<const Strobe>;
 
@@ -68,7 +58,7 @@ bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
         const double first = difference(2 * apart), middle = difference(apart), last = difference(0);
         if (std::fabs(last - first) < kNoise) continue;
         const double bend = (last - middle) - (middle - first), step = last - middle;
-        if (!(std::fabs(step * step) < kSettled * last * std::fabs(bend))) return true;
+        if (!(std::fabs(step * step) < kSettledShare * last * std::fabs(bend))) return true;
     }
     return false;
 }

@@ -6,14 +6,9 @@
 #include <numbers>
 
 #include "sim/base/numerics.hpp"
+#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr int kLooks = 720;       // around the turn: a few for each degree of what e < R can bend
-constexpr double kMargin = 0.01;  // of the range of θ̈_c, for what lies between two looks
-
-}  // namespace
 
 CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
     : centre_(cam.centre),

@@ -7,22 +7,11 @@
 #include "sim/base/numerics.hpp"
 #include "sim/observe/warnings.hpp"
 #include "sim/run/constants.hpp"
+#include "sim/sweep/constants.hpp"
 #include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kInside = 1e-3;            // of the length: the contact keeps this distance from the beam's ends
-constexpr double kAccuracy = 1e-13;         // [rad] of a settled motion: some hundred roundings
-constexpr double kOpening = 1e-13;          // [rad] below the surface while it opens: rounding
-constexpr double kAngleRounding = 2e-16;    // [rad]
-constexpr double kShortestAdvance = 1e-15;  // [s]
-constexpr double kInstant = 1e-16;          // of the cam's turn: the touch is known no better
-constexpr long kWarmUp =
-    20;  // turns before the samples in which the difference turns into the direction that grows most
-constexpr double kFarFromAway = 1.5;  // [rad] from the cam's axis; a little less than π/2
-constexpr long kStretchesPerReport = 4096;
-constexpr double kLargestDifference = 1e50;  // and the smallest is its inverse: far from overflow
 
 bool frictionless(const Friction& friction) { return std::holds_alternative<NoFriction>(friction); }
 
@@ -37,7 +26,7 @@ bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
         std::isfinite(sampling.end_time))
         return false;
     const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
-                 margin = kInside * p.beam.length;
+                 margin = kInsideBeam * p.beam.length;
     const double nearest = away - p.cam->eccentricity, farthest = away + p.cam->eccentricity;
     if (!(nearest > reach)) return false;
     const double shortest = std::sqrt(nearest * nearest - reach * reach) - p.hub.radius,

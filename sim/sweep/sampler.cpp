@@ -5,13 +5,9 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/extrema.hpp"
+#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr double kErrors = 10;  // of the tolerance: errors of a settled motion
-
-}  // namespace
 
 bool points_away(const Problem& problem, double theta) {
     if (!problem.cam || is_prescribed(problem.hub.drive)) return false;

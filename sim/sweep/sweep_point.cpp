@@ -6,13 +6,12 @@
 
 #include "sim/orbit/exponents.hpp"
 #include "sim/run/run.hpp"
+#include "sim/sweep/constants.hpp"
 #include "sim/sweep/rigid_motion.hpp"
 #include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr long kLaterTurns = 1000;  // in which a chaotic motion may settle: milliseconds by closed forms
 
 // The motion goes on for as long as its samples were taken, with its largest exponent. The cam stands then where it
 // stood at the start: samples are taken over whole turns.

@@ -4,14 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/sweep/constants.hpp"
+
 namespace beamcam::sim {
-namespace {
-
-constexpr double kRounding = 2e-16;  // [rad] of the last terms
-constexpr double kSure = 0.9;        // of the length that the last terms allow
-constexpr double kLongestTurn = 1;   // [rad] of a stretch without gravity, whose series ends by itself
-
-}  // namespace
 
 // With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0};
 // a difference obeys δ̈ = k s δ.                                                                              (S83)
@@ -51,7 +46,7 @@ void SwingSeries::expand(const Swing& from, bool difference) {
     }
     const auto reaches = [&](int order) {
         const double last = std::fabs(a_[order]);
-        return last > 0 ? std::pow(kRounding / last, 1.0 / order) : std::numeric_limits<double>::infinity();
+        return last > 0 ? std::pow(kAngleRounding / last, 1.0 / order) : std::numeric_limits<double>::infinity();
     };
     length_ =
         kSure * std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
