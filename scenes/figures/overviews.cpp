@@ -8,6 +8,7 @@
 
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/key_label.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "sim/beam/modes.hpp"
 
@@ -147,6 +148,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<
         const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
         out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = ink, .width = 0.6});
     }
+    if (problem.hub.radius > 0) body({.kind = Shape::Kind::disc, .radius = problem.hub.radius});
     const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, problem.beam.depth);
     Shape outline{.kind = Shape::Kind::area};
     for (std::size_t i = 0; i < beam.line.size(); ++i) outline.points.push_back(beam.face(i));
@@ -201,7 +203,7 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         }
         const render::Color ink = render::rgb(0x000000);
         panel.shapes.push_back({.kind = Shape::Kind::disc, .radius_points = 2, .color = ink});
-        if (problem.hub.radius > 0)
+        if (problem.hub.radius > 0 && !one)
             panel.shapes.push_back(
                 {.kind = Shape::Kind::circle, .radius = problem.hub.radius, .color = ink, .width = 0.9});
         if (problem.cam)
@@ -252,10 +254,12 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
     return [=, problem = scene.problem, lang = how.lang](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
-        Panel loss = map_panel("|$v_{\\r{n}}$| before / (m s^{−1})", "|$v_{\\r{n}}$| after / |$v_{\\r{n}}$| before"),
-              next = map_panel("|$v_{\\r{n}}$| of collision $k$ / (m s^{−1})",
-                               "|$v_{\\r{n}}$| of collision $k$ + 1 / (m s^{−1})"),
-              phase = map_panel("phase of the cam / (2π)", "|$v_{\\r{n}}$| before / (m s^{−1})");
+        const auto speed = [&](const char* which, const char* zh) {
+            return axis_label(kApproachSpeed.in(lang) + (en ? which : zh), "m/s");
+        };
+        Panel loss = map_panel(speed("", ""), en ? "rebound / approach speed" : "分离速度 / 接近速度"),
+              next = map_panel(speed(" $k$", " $k$"), speed(" $k$ + 1", " $k$ + 1")),
+              phase = map_panel(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", speed("", ""));
         const auto shown = [&](const auto& touch) {
             return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
         };
@@ -275,9 +279,13 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
         figure.title = en ? "Maps of the impacts" : "冲击映射";
         std::string words;
         const std::pair<Panel*, Words> panels[] = {
-            {&loss, {"ratio of the normal speeds of each impact against its speed", "各次冲击的恢复比与速度"}},
-            {&next, {"normal speed of each collision against that of the one before", "相邻碰撞的法向速度"}},
-            {&phase, {"normal speed of each impact against the phase of the cam", "各次冲击的法向速度与凸轮相位"}}};
+            {&loss,
+             {"ratio of the normal speeds after and before each impact against its approach speed",
+              "各次冲击的恢复比与接近速度"}},
+            {&next,
+             {"approach speed of each collision, $k$ + 1, against that of the one before, $k$",
+              "相邻碰撞（第 $k$、$k$ + 1 次）的接近速度"}},
+            {&phase, {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}}};
         for (const auto& [panel, what] : panels) {
             if (panel->series.front().x.empty()) continue;
             panel->letter = std::string(1, static_cast<char>('a' + figure.panels.size()));
@@ -340,8 +348,9 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         Figure figure;
         figure.name = "impact-histograms";
         figure.title = en ? "How often impacts have which speed and phase" : "冲击速度与相位的直方图";
-        figure.panels = {histogram("|$v_{\\r{n}}$| before / (m s^{−1})", speeds, *std::ranges::max_element(speeds)),
-                         histogram(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", phases, 1)};
+        figure.panels = {
+            histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds)),
+            histogram(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", phases, 1)};
         for (std::size_t k = 0; k < 2; ++k) {
             figure.panels[k].letter = std::string(1, static_cast<char>('a' + k));
             figure.panels[k].y.label = en ? "impacts" : "冲击次数";
@@ -349,9 +358,9 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         figure.aspect = 1.2;
         const double bins = static_cast<double>(figure.panels[0].series[0].x.size()) / 2;
         figure.caption = filled(
-            en ? "The {} impacts from {} s to {} s: how many have (a) which normal speed, in intervals of {} m "
+            en ? "The {} impacts from {} s to {} s: how many have (a) which approach speed, in intervals of {} m "
                  "s^{{−1}}, (b) which phase of the cam, in intervals of {}. "
-               : "{} 次冲击（{} s 至 {} s）：(a) 法向速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
+               : "{} 次冲击（{} s 至 {} s）：(a) 接近速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
             speeds.size(), number(from, 4), number(to, 4), number(figure.panels[0].series[0].x.back() / bins, 2),
             number(1 / bins, 2));
         figure.caption += facts(problem, lang);
