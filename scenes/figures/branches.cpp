@@ -76,12 +76,12 @@ std::string add_special(const output::BranchTable& table, double range, Panel& p
 }
 
 // Stable and unstable pieces of all branches, and the range of the parameter.
-struct Curves {
+struct BranchCurves {
     Series stable, unstable;
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
-Curves curves_of(const output::BranchTable& table, Lang lang) {
-    Curves out;
+BranchCurves curves_of(const output::BranchTable& table, Lang lang) {
+    BranchCurves out;
     out.stable.label = lang == Lang::en ? "stable" : "稳定";
     out.unstable.label = lang == Lang::en ? "unstable" : "不稳定";
     out.stable.solid = true;
@@ -118,7 +118,7 @@ std::string branches_caption(const output::BranchTable& table, const std::string
 Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const sim::Problem& problem,
                        Lang lang) {
     const bool en = lang == Lang::en;
-    Curves curves = curves_of(table, lang);
+    BranchCurves curves = curves_of(table, lang);
     Panel panel;
     panel.name = "branches";
     panel.x = {.label = key_label(table.key, problem), .tight = true};

@@ -166,7 +166,7 @@ TEST(Diagram, OfSamplesAndOfBranchesHaveOneApproachSpeed) {
     table.key = "cam.speed";
     sim::BranchPoint point;
     point.orbit.impacts = {{0, 0.3}};
-    table.branches = {{.points = {point, point}}};
+    table.branches.emplace_back().points = {point, point};
     EXPECT_EQ(branches_figure(table, {}, sim::Problem(), Lang::en).panels[0].y.label, samples.panels[0].y.label);
     const SweepGrid two = grid(
         R"({"over": [{"key": "cam.speed", "values": [1, 2]}, {"key": "cam.eccentricity", "values": [0.01, 0.02]}]})");
