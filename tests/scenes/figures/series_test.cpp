@@ -219,7 +219,7 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
         std::vector<std::pair<double, double>> points;
         std::istringstream rows(testing::slurp(folder / "d.csv"));
         for (std::string line; std::getline(rows, line);)
-            if (line.starts_with("1,rig,")) {
+            if (line.find(",rig,") == 1) {
                 std::vector<std::string> fields;  // panel, series, what x is, x, what y is, y, value
                 std::istringstream in(line);
                 for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
