@@ -92,7 +92,20 @@ Style style_of(const Column& column) {
     return s;
 }
 
-const Look& look(int k) { return kLooks[static_cast<std::size_t>(k) % kLooks.size()]; }
+// Beyond the eight colours these come again with the dashes of others.
+const Look& look(int k) {
+    static const std::vector<Look> kAll = [] {
+        constexpr std::size_t kStep = 3;  // has no divisor in common with eight
+        std::vector<Look> all;
+        for (std::size_t round = 0; round < kLooks.size(); ++round)
+            for (std::size_t i = 0; i < kLooks.size(); ++i) {
+                const Look& other = kLooks[(i + kStep * round) % kLooks.size()];
+                all.push_back({kLooks[i].color, other.dash, other.marker});
+            }
+        return all;
+    }();
+    return kAll[static_cast<std::size_t>(k) % kAll.size()];
+}
 
 Color pale(Color color, double share) { return mix(color, rgb(0xFFFFFF), share); }
 

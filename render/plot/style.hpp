@@ -43,7 +43,7 @@ struct Look {
     std::vector<double> dash;  // in widths of the line; empty: solid
     Marker marker = Marker::circle;
 };
-const Look& look(int k);  // repeats after eight
+const Look& look(int k);  // colours repeat after eight, with other dashes; all after 64
 
 Color pale(Color color, double share = 0.62);  // towards white, opaque: print knows no transparency
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "output/files/numbers.hpp"
+#include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/recipes.hpp"
@@ -26,7 +27,7 @@ struct FigureArguments {
     std::optional<std::string> width, data, caption;
     double dpi = 0;  // by the file
     std::vector<std::string> channels, right, compare, notes;
-    std::optional<std::string> against, x_low, x_high, low, high, title, from, to, height, window, collision;
+    std::optional<std::string> against, x_low, x_high, low, high, title, from, to, at, height, window, collision;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
 
     // Of the only panel, which a list of channels does not name.
@@ -105,8 +106,9 @@ FigureOutput with_keys(const FigureArguments& args, Scene scene) {
         add(output, "channels", list_node(args.channels));
     }
     const std::pair<const char*, const std::optional<std::string>&> options[] = {
-        {"x", args.against}, {"x_low", args.x_low},   {"x_high", args.x_high}, {"from", args.from},
-        {"to", args.to},     {"height", args.height}, {"window", args.window}, {"collision", args.collision}};
+        {"x", args.against},     {"x_low", args.x_low},   {"x_high", args.x_high},
+        {"from", args.from},     {"to", args.to},         {"at", args.at},
+        {"height", args.height}, {"window", args.window}, {"collision", args.collision}};
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
     if (!args.compare.empty()) add(output, "compare", compared_node(args));
@@ -123,6 +125,8 @@ FigureOutput with_keys(const FigureArguments& args, Scene scene) {
     std::vector<Message> messages;
     if (!read_only_output(output, args.scene, "--", files, scene, messages))
         throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
+    for (const Message& warning : messages)
+        if (!args.common.quiet) output::tell("{}: warning: {}\n", args.scene, warning.text);
     FigureOutput figure = std::get<FigureOutput>(scene.outputs.front());
     SeriesKeys& keys = figure.series;
     if (!keys.compare.empty()) keys.compare.front().problem = scene.problem;  // with what --set says of it
@@ -137,7 +141,7 @@ bool asks_for_series(const FigureArguments& args) {
            args.logarithmic || args.apart;
 }
 bool tells_keys(const FigureArguments& args) {
-    return args.figure == "series" || asks_for_series(args) || args.window || args.collision || args.height;
+    return args.figure == "series" || asks_for_series(args) || args.window || args.collision || args.height || args.at;
 }
 
 FigureOutput wanted(const FigureArguments& args, const Recipe& recipe, const Scene& scene) {
@@ -179,6 +183,7 @@ int act(const FigureArguments& given) {
     FigureArguments args = given;
     Scene scene = read_or_refuse(args.scene, args.common);
     if (args.figure.empty() && asks_for_series(args)) args.figure = "series";
+    if (args.figure.empty() && args.at) args.figure = "strobe";
     if (args.figure.empty()) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
@@ -239,8 +244,10 @@ void add_figure(Grammar& grammar) {
     app.option("--title", &args->title, "WORDS", "Of series of one panel: above it; $θ$ is mathematics");
     app.option("--note", &args->notes, "AT=WORDS", "Of series: a line at an instant, impact:1=touch (repeatable)");
     app.option("--from", &args->from, "T",
-               "Of series and of figures of a stretch such as kymograph: from this instant");
+               "Of series and of figures of a stretch such as kymograph: from this instant: a time, impact:2, …");
     app.option("--to", &args->to, "T", "Of these: until this instant");
+    app.option("--at", &args->at, "T",
+               "Of strobe, which needs no FIGURE then: this instant alone: a time, impact:2, apex:1, last");
     app.option("--height", &args->height, "H", "Its height, for example 60mm");
     app.option("--window", &args->window, "T", "Of spectrogram: length of its windows");
     app.option("--collision", &args->collision, "N", "Of collision: which one, counted from 1");

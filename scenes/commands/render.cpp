@@ -149,15 +149,47 @@ void apply_render_options(const RenderArguments& args, VideoOutput& film) {
                                                    : render::Theme::light;
 }
 
+void refuse_options(std::initializer_list<std::pair<const std::optional<std::string>*, const char*>> options,
+                    const std::string& why) {
+    for (const auto& [given, name] : options)
+        if (*given) throw UsageError(fmt::format("{} {}", name, why));
+}
+
+// A still of lines: the figure "strobe" at one instant, for print.
+FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) {
+    if (!args.at)
+        throw UsageError(fmt::format("-o {}: name the instant with --at for one picture of lines", args.file));
+    if (!args.others.empty())
+        throw UsageError(fmt::format("-o {} shows one motion; name one scene, or a .png file", args.file));
+    refuse_options({{&args.from, "--from"}, {&args.to, "--to"}, {&args.fps, "--fps"}, {&args.speed, "--speed"}},
+                   "belongs to films; --at makes one picture");
+    refuse_options({{&args.size, "--size"},
+                    {&args.style, "--style"},
+                    {&args.codec, "--codec"},
+                    {&args.background, "--background"},
+                    {&args.show, "--show"},
+                    {&args.comparison, "--comparison"},
+                    {&args.poster, "--poster"},
+                    {&args.duration, "--duration"}},
+                   fmt::format("belongs to films and pictures of pixels; -o {} is drawn in lines, as `beamcam figure "
+                               "strobe --at` draws it, which takes --width and --column",
+                               args.file));
+    FigureOutput figure;
+    figure.file = args.file;
+    figure.figure = "strobe";
+    figure.series.at = instant_argument("--at", *args.at);
+    figure.lang = film.view.lang;
+    figure.dark = args.theme == "dark";
+    return figure;
+}
+
 Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
-    if (ending == ".pdf" || ending == ".svg" || ending == ".eps")
-        throw UsageError(
-            fmt::format("-o {}: a still of lines is the figure strobe at one instant: beamcam figure {} "
-                        "strobe --from {} --to {} -o {}",
-                        args.file, args.scene, args.at.value_or("0.3"), args.at.value_or("0.3"), args.file));
-    need_ending("-o", args.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".html", ".glb"});
+    if (ending == ".pdf" || ending == ".svg" || ending == ".eps") return vector_still(args, film);
+    need_ending(
+        "-o", args.file,
+        {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".pdf", ".svg", ".eps", ".html", ".glb"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.poster && ending == ".png")
         throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
@@ -170,16 +202,15 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
     }
     if (ending == ".html" || ending == ".glb") {  // they play the motion itself
         if (!args.others.empty()) throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
-        for (const auto& [given, name] : {std::pair{&args.size, "--size"},
-                                          {&args.speed, "--speed"},
-                                          {&args.codec, "--codec"},
-                                          {&args.comparison, "--comparison"},
-                                          {&args.frames, "--frames"},
-                                          {&args.shard, "--shard"},
-                                          {&args.poster, "--poster"},
-                                          {&args.duration, "--duration"}})
-            if (*given)
-                throw UsageError(fmt::format("{} belongs to films and pictures; -o {} is none", name, args.file));
+        refuse_options({{&args.size, "--size"},
+                        {&args.speed, "--speed"},
+                        {&args.codec, "--codec"},
+                        {&args.comparison, "--comparison"},
+                        {&args.frames, "--frames"},
+                        {&args.shard, "--shard"},
+                        {&args.poster, "--poster"},
+                        {&args.duration, "--duration"}},
+                       fmt::format("belongs to films and pictures; -o {} is none", args.file));
         film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
         film.compare.clear();
         if (ending == ".glb") return ModelOutput{film, args.file, film.span};
@@ -267,10 +298,10 @@ int act(const RenderArguments& args) {
 
 void add_render(Grammar& grammar) {
     auto args = std::make_shared<RenderArguments>();
-    Command& app = grammar.command(
-        "render",
-        "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
-        "(name-####.png), still (--at, .png), page that plays the motion (.html) or moving model (.glb)");
+    Command& app = grammar.command("render",
+                                   "Make one film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence "
+                                   "(name-####.png), still (--at; .png, or .pdf .svg .eps in lines), page that plays "
+                                   "the motion (.html) or moving model (.glb)");
     add_scene(app, args->scene, args->common);
     app.positional("OTHERS", &args->others, "More scenes, to be compared with the first in one picture");
     app.option("-o,--output", &args->file, "FILE", "File to make").required();

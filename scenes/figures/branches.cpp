@@ -75,35 +75,60 @@ std::string add_special(const output::BranchTable& table, double range, Panel& p
     return text;
 }
 
+// Stable and unstable pieces of all branches, and the range of the parameter.
+struct BranchCurves {
+    Series stable, unstable;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+BranchCurves curves_of(const output::BranchTable& table, Lang lang) {
+    BranchCurves out;
+    out.stable.label = lang == Lang::en ? "stable" : "稳定";
+    out.unstable.label = lang == Lang::en ? "unstable" : "不稳定";
+    out.stable.solid = true;
+    out.unstable.look = 1;
+    for (const sim::Branch& branch : table.branches) {
+        if (branch.points.empty()) continue;
+        add_impacts(branch, true, out.stable);
+        add_impacts(branch, false, out.unstable);
+        for (const sim::BranchPoint& point : branch.points) {
+            out.low = std::min(out.low, point.parameter);
+            out.high = std::max(out.high, point.parameter);
+        }
+    }
+    return out;
+}
+
+std::string branches_caption(const output::BranchTable& table, const std::string& special, bool with_sweep,
+                             const sim::Problem& problem, Lang lang) {
+    const bool en = lang == Lang::en;
+    return filled(en ? "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
+                       "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
+                       "contact passes the tip), R release. {}. {}{}"
+                     : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
+                       "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
+                  symbol_of(table.key), special,
+                  !with_sweep ? ""
+                  : en        ? "Dots: impacts of a sweep. "
+                              : "点：扫描所得碰撞。",
+                  facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+}
+
 }  // namespace
 
 Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const sim::Problem& problem,
                        Lang lang) {
     const bool en = lang == Lang::en;
-    Series stable, unstable;
-    stable.label = en ? "stable" : "稳定";
-    unstable.label = en ? "unstable" : "不稳定";
-    stable.solid = true;
-    unstable.look = 1;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const sim::Branch& branch : table.branches) {
-        if (branch.points.empty()) continue;
-        add_impacts(branch, true, stable);
-        add_impacts(branch, false, unstable);
-        for (const sim::BranchPoint& point : branch.points) {
-            low = std::min(low, point.parameter);
-            high = std::max(high, point.parameter);
-        }
-    }
+    BranchCurves curves = curves_of(table, lang);
     Panel panel;
     panel.name = "branches";
     panel.x = {.label = key_label(table.key, problem), .tight = true};
-    panel.y = {.label = en ? "approach speed of impacts / (m s^{−1})" : "碰撞接近速度 / (m s^{−1})"};
+    panel.y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")};
     panel.legend = render::figure::Legend::box;
-    if (!swept.parameter.empty())
+    const bool with_sweep = !swept.parameter.empty();
+    if (with_sweep)
         panel.clouds.push_back({en ? "sweep" : "扫描", swept.parameter, swept.approach, render::rgb(kSweptColor)});
-    const std::string special = add_special(table, high - low, panel);
-    for (Series* series : {&stable, &unstable})
+    const std::string special = add_special(table, curves.high - curves.low, panel);
+    for (Series* series : {&curves.stable, &curves.unstable})
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
@@ -111,17 +136,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     figure.name = "branches";
     figure.title = en ? "Branches of periodic orbits" : "周期轨道分支";
     figure.panels.push_back(std::move(panel));
-    figure.caption =
-        filled(en ? "Speeds at which the impacts of periodic orbits begin, over {}: stable orbits solid, unstable ones "
-                    "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
-                    "contact passes the tip), R release. {}. {}{}"
-                  : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-                    "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
-               symbol_of(table.key), special,
-               swept.parameter.empty() ? ""
-               : en                    ? "Dots: impacts of a sweep. "
-                                       : "点：扫描所得碰撞。",
-               facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+    figure.caption = branches_caption(table, special, with_sweep, problem, lang);
     figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
                          : "截面映射上的 Newton 法，相对容差 10^{−12}。";
     return figure;

@@ -24,6 +24,9 @@ struct Words {
     std::string in(Lang lang) const { return lang == Lang::en ? en : zh; }
 };
 
+// The one name of −v_n at a first touch: positive, as (S30) has it.
+inline constexpr Words kApproachSpeed{"approach speed", "接近速度"};
+
 // fmt::format with a text chosen by language while running.
 template <class... Values>
 std::string filled(const char* text, const Values&... values) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "scenes/figures/recipes.hpp"
 #include "sim/studies/paper.hpp"
@@ -126,8 +127,20 @@ std::string fall_caption(const Beams& beams, const Results& results, double end,
     return text;
 }
 
-FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
+// Until `end`; about the time `closely` [s] in close-up too.
+Fall ask_for_fall(Studies& studies, const sim::Problem& problem, double end, std::optional<double> closely) {
+    Fall fall;
+    fall.study = studies.of(problem, end, "free-fall");
+    studies.turning_points(fall.study);
+    fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
+    if (closely)
+        fall.close = studies.table(fall.study, {*closely - kAround, *closely + kAround, 241},
+                                   {ChannelKind::t, ChannelKind::theta});
+    return fall;
+}
+
+// Which beams the scene has, and what is asked of each. `closely`: when the rigid beam is level, if that is shown.
+Beams beams_of(const Scene& scene, std::optional<double>& closely, Studies& studies) {
     const double end = scene.end_time;
     Beams beams;
     beams.own = without_cam(scene.problem);
@@ -136,61 +149,66 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
     beams.flexible = beams.own.beam.model != sim::ModelKind::rigid;
     const std::optional<double> exact = closed_form(beams.own);
     beams.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
-    const bool close = beams.flexible && exact && *exact + kAround < end;
-    const auto want = [&](const sim::Problem& p, bool enlarged) {
-        Fall fall;
-        fall.study = studies.of(p, end, "free-fall");
-        studies.turning_points(fall.study);
-        fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
-        if (enlarged)
-            fall.close = studies.table(fall.study, {*exact - kAround, *exact + kAround, 241},
-                                       {ChannelKind::t, ChannelKind::theta});
-        return fall;
-    };
-    beams.falls[0] = want(beams.own, close);
-    beams.falls[1] = want(beams.stiff, close);
-    if (beams.paper) beams.falls[2] = want(beams.doubled, false);
+    if (beams.flexible && exact && *exact + kAround < end) closely = exact;
+    beams.falls[0] = ask_for_fall(studies, beams.own, end, closely);
+    beams.falls[1] = ask_for_fall(studies, beams.stiff, end, closely);
+    if (beams.paper) beams.falls[2] = ask_for_fall(studies, beams.doubled, end, {});
     if (const auto fewer = with_one_mode_fewer(beams.own)) {
         beams.fewer = studies.of(*fewer, end, "free-fall");
         studies.turning_points(*beams.fewer);
         studies.may_fail(*beams.fewer);
     }
-    return [=](const Results& results) {
-        const bool en = lang == Lang::en;
+    return beams;
+}
+
+// The beams that are shown, with their labels.
+std::vector<std::tuple<int, const sim::Problem*, Words>> shown_beams(const Beams& beams) {
+    std::vector<std::tuple<int, const sim::Problem*, Words>> out;
+    if (beams.flexible) out.emplace_back(0, &beams.own, Words{"flexible", "柔性"});
+    out.emplace_back(1, &beams.stiff, Words{"rigid", "刚性"});
+    if (beams.paper) out.emplace_back(2, &beams.doubled, Words{"rigid, factor 2", "刚性，2 倍"});
+    return out;
+}
+
+Panel fall_panel(const Beams& beams, std::optional<double> closely, const Results& results, Lang lang) {
+    Panel panel;
+    panel.x.label = "$t$ / s";
+    panel.y.label = "$θ$ / rad";
+    panel.legend = Legend::box;
+    panel.rules.push_back({.at = 0});
+    for (const auto& [k, problem, label] : shown_beams(beams)) {
+        const Fall& fall = beams.falls[k];
+        panel.series.push_back(curve(results[fall.study]->tables[fall.table], label.in(lang), k));
+        panel.series.back().solid = panel.series.size() == 1;
+    }
+    // Room above the curves for the legend.
+    double low = 0, high = 0;
+    for (const Series& s : panel.series)
+        for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
+    panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
+    if (beams.paper) mark_zero(panel, *results[beams.falls[2].study], 2, false);
+    auto inset = closely ? close_up(beams.falls[0], beams.falls[1], *closely, results) : std::nullopt;
+    if (inset) {
+        panel.insets.push_back(std::move(*inset));
+    } else {
+        if (beams.flexible) mark_zero(panel, *results[beams.falls[0].study], 0, false);
+        mark_zero(panel, *results[beams.falls[1].study], 1, beams.flexible);
+    }
+    return panel;
+}
+
+FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    std::optional<double> closely;
+    const Beams beams = beams_of(scene, closely, studies);
+    return [=, lang = how.lang, end = scene.end_time](const Results& results) {
         Figure figure;
         figure.name = "free-fall";
-        figure.title = en ? "Hub angle without the cam" : "无凸轮时的转角";
-        Panel panel;
-        panel.x.label = "$t$ / s";
-        panel.y.label = "$θ$ / rad";
-        panel.legend = Legend::box;
-        panel.rules.push_back({.at = 0});
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
-        const auto add = [&](int k, const sim::Problem& problem, Words label) {
-            const Fall& fall = beams.falls[k];
-            const sim::Result& result = *results[fall.study];
-            panel.series.push_back(curve(result.tables[fall.table], label.in(lang), k));
-            panel.series.back().solid = panel.series.size() == 1;
-            runs.emplace_back(&problem, &result);
-        };
-        if (beams.flexible) add(0, beams.own, {"flexible", "柔性"});
-        add(1, beams.stiff, {"rigid", "刚性"});
-        if (beams.paper) add(2, beams.doubled, {"rigid, factor 2", "刚性，2 倍"});
-        // Room above the curves for the legend.
-        double low = 0, high = 0;
-        for (const Series& s : panel.series)
-            for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
-        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
-        if (beams.paper) mark_zero(panel, *results[beams.falls[2].study], 2, false);
-        auto inset = close ? close_up(beams.falls[0], beams.falls[1], *exact, results) : std::nullopt;
-        if (inset) {
-            panel.insets.push_back(std::move(*inset));
-        } else {
-            if (beams.flexible) mark_zero(panel, *results[beams.falls[0].study], 0, false);
-            mark_zero(panel, *results[beams.falls[1].study], 1, beams.flexible);
-        }
-        figure.panels.push_back(std::move(panel));
+        figure.title = lang == Lang::en ? "Hub angle without the cam" : "无凸轮时的转角";
+        figure.panels.push_back(fall_panel(beams, closely, results, lang));
         figure.aspect = 0.74;
+        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
+        for (const auto& [k, problem, label] : shown_beams(beams))
+            runs.emplace_back(problem, results[beams.falls[k].study]);
         figure.caption = fall_caption(beams, results, end, lang) + beam_facts(beams.own, lang);
         figure.accuracy = accuracy(runs, lang);
         return figure;

@@ -123,120 +123,172 @@ Transient transient(const sim::Table& a, const sim::Table& b) {
     return out;
 }
 
-}  // namespace
-
-std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& studies) {
-    const char* who = "findings";
-    const std::size_t flexible = studies.of(falling(1), 0.4, who);
-    const std::size_t printed = studies.of(with_model(falling(1), sim::ModelKind::paper), 0.4, who);
-    const std::size_t long_beam = studies.of(falling(8), 1.2, who);
-    const std::size_t long_printed = studies.of(with_model(falling(8), sim::ModelKind::paper), 1.2, who);
-    sim::Problem still;
-    still.cam->speed = 0;
-    const std::size_t first = studies.of(still, kFirst, who);
-    sim::Problem resting = still;
-    resting.initial.shape = sim::InitialShape::resting;
-    const std::size_t rest = studies.of(resting, kFirst, who);
-    const std::size_t table = studies.table(
-        rest, {0, kFirst, 3001}, {ChannelKind::contact_force, ChannelKind::separation, ChannelKind::separation_paper});
+// What the findings look at.
+struct FindingStudies {
+    std::size_t flexible, printed, long_beam, long_printed, first, rest, table;
     std::array<std::array<std::size_t, 2>, 3> repeated{}, angles{};  // at the scene's tolerance, and a tighter one
+};
+
+sim::Problem with_still_cam() {
+    sim::Problem p;
+    p.cam->speed = 0;
+    return p;
+}
+
+void ask_for_repeated_impacts(Studies& studies, const char* who, FindingStudies& all) {
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t tight = 0; tight < 2; ++tight) {
             sim::Problem p;
             p.cam->speed = kCamSpeeds[k];
             if (tight) p.solver.rtol /= 100, p.solver.atol /= 100;
-            repeated[k][tight] = studies.of(p, kSettled, who);
-            angles[k][tight] =
-                studies.table(repeated[k][tight], {0, kSettled, 12001}, {ChannelKind::t, ChannelKind::theta});
+            all.repeated[k][tight] = studies.of(p, kSettled, who);
+            all.angles[k][tight] =
+                studies.table(all.repeated[k][tight], {0, kSettled, 12001}, {ChannelKind::t, ChannelKind::theta});
         }
-    for (const std::size_t study :
-         {flexible, printed, long_beam, long_printed, repeated[0][0], repeated[1][0], repeated[2][0]})
+}
+
+FindingStudies ask_for_findings(Studies& studies) {
+    const char* who = "findings";
+    FindingStudies all{};
+    all.flexible = studies.of(falling(1), 0.4, who);
+    all.printed = studies.of(with_model(falling(1), sim::ModelKind::paper), 0.4, who);
+    all.long_beam = studies.of(falling(8), 1.2, who);
+    all.long_printed = studies.of(with_model(falling(8), sim::ModelKind::paper), 1.2, who);
+    all.first = studies.of(with_still_cam(), kFirst, who);
+    sim::Problem resting = with_still_cam();
+    resting.initial.shape = sim::InitialShape::resting;
+    all.rest = studies.of(resting, kFirst, who);
+    all.table = studies.table(all.rest, {0, kFirst, 3001},
+                              {ChannelKind::contact_force, ChannelKind::separation, ChannelKind::separation_paper});
+    ask_for_repeated_impacts(studies, who, all);
+    for (const std::size_t study : {all.flexible, all.printed, all.long_beam, all.long_printed, all.repeated[0][0],
+                                    all.repeated[1][0], all.repeated[2][0]})
         studies.turning_points(study);
-    return [=](const Results& results) {
-        std::vector<Finding> out;
-        const sim::Result& flex = *results[flexible];
-        out.push_back({"Fig. 2: the flexible beam falls in 0.37 s, the rigid rod in 0.262 s",
-                       "Both take 0.37 s; 0.262 s is 1/√2 of it: a factor 2 between torque and inertia",
-                       fmt::format("flexible {:.9f} s, rigid {:.15f} s, with the factor 2 {:.12f} s", zero(flex),
-                                   sim::rod_fall_time(1, 9.81, M_PI / 4, 1), sim::rod_fall_time(1, 9.81, M_PI / 4, 2)),
-                       "`FallingRod.ReachesTheHorizontalWhenItShould`, `Paper.AFactorTwoGivesThePapersTime`"});
-        const SupportedBeam held;
-        out.push_back(
-            {"Eq. (5), overhanging span",
-             "C₂ lacks + q l₁³/(24 cos θ), D₂ lacks − q l₁⁴/(24 cos θ): the slope jumps at the support. Both are "
-             "small; "
-             "nearly all of the difference is that along the rod the deflection is 1/cos² θ larger",
-             fmt::format("l₁ = {:.3f} m: slope jumps by {} as printed, by {} with the terms; deflection of the tip: "
-                         "printed {} mm, with the terms {} mm ({} %), along the rod {} mm",
-                         held.support, plain(held.jump(Printing::printed), 4), plain(held.jump(Printing::completed), 1),
-                         plain(held.tip(Printing::printed) * 1e3, 4), plain(held.tip(Printing::completed) * 1e3, 4),
-                         plain(100 * (held.tip(Printing::completed) / held.tip(Printing::printed) - 1), 1),
-                         plain(held.tip(Printing::corrected) * 1e3, 4)),
-             "`Paper.DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot`, "
-             "`Paper.MissingTermsOfTheDeflectionAreSmall`"});
-        out.push_back(
-            {"Eq. (4): the signs of gravity", "They contradict the potential (2): as printed, the rod would rise",
-             fmt::format("θ̈(0) = {} rad/s² (true), +{} rad/s² (as printed)", plain(-1.5 * 9.81 * std::cos(M_PI / 4), 6),
-                         plain(1.5 * 9.81 * std::cos(M_PI / 4), 6)),
-             "`FallingRod.ReachesTheHorizontalWhenItShould`"});
-        const sim::Result& paper = *results[printed];
-        out.push_back({"Eq. (4): l = L cos θ in the stiffening term", "Energy is not conserved",
-                       fmt::format("largest change of energy in the free fall, of its scale: printed {}, consistent {}",
-                                   plain(paper.energy_residual_max / paper.energy_scale, 3),
-                                   plain(flex.energy_residual_max / flex.energy_scale, 1)),
-                       "`Energy.IsNotConstantInThePapersEquation`"});
-        out.push_back({"Eq. (4): u_f kept in T, dropped from gravity", "Small for L = 1 m, milliseconds for L = 8 m",
-                       fmt::format("fall time, printed − consistent: {} s (L = 1 m), {} s (L = 8 m)",
-                                   plain(zero(paper) - zero(flex), 3),
-                                   plain(zero(*results[long_printed]) - zero(*results[long_beam]), 3)),
-                       "`Findings.ForeshorteningInGravityMatters`"});
-        const Verdicts v = verdicts(results[rest]->tables[table]);
-        out.push_back(
-            {"Eq. (6): Δ ≥ 0 means not separated",
-             "The sign of its gravity term is reversed for a rod above the cam; true is N ≥ 0",
-             fmt::format("a beam that rests on the cam, {} samples: Δ calls it separated in {}, with the sign "
-                         "corrected in {}",
-                         v.touching, v.printed_wrong, v.corrected_wrong),
-             "`Findings.SeparationAsPrintedIsWrongForARestingBeam`, "
-             "`Findings.SeparationAsPrintedHasTheWrongSign`"});
-        const sim::Result& touch = *results[first];
-        const sim::Cam cam = *still.cam;
-        sim::Cam centred = cam;
-        centred.eccentricity = 0;
-        out.push_back({"§3.4: x₁ = √(D² − R²) = 0.229 m",
-                       "Right only for e = 0; √(D² + e² + 2De cos ψ − R²) with eccentricity",
-                       fmt::format("e = 0: {:.6f} m; e = 0.02 m, ψ = 0: {:.6f} m, the located first touch: {:.6f} m",
-                                   sim::tangent_distance(centred, 0, Printing::printed),
-                                   sim::tangent_distance(cam, 0, Printing::corrected),
-                                   touch.impacts.empty() ? std::nan("") : touch.impacts.front().x),
-                       "`Figures.TrialMethodMeetsTheLocatedTouch`"});
-        out.push_back(
-            {"The system moves in the horizontal plane", "Gravity is in its potential (2); without it nothing falls",
-             "g is not printed; 9.81 m/s² reproduces 0.37 s", "`FallingRod.ReachesTheHorizontalWhenItShould`"});
-        std::string numbers;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto run = [&](std::size_t tight) -> const sim::Result& { return *results[repeated[k][tight]]; };
-            const Transient apart = transient(run(0).tables[angles[k][0]], run(1).tables[angles[k][1]]);
-            const std::vector<double> heights = rebounds(run(0));
-            numbers += fmt::format(
-                "{}ω = {}: θ is not reproducible to {} rad from {:.1f} s to {:.1f} s (there within {:.2f} rad); {} of "
-                "{} rebounds in {} s exceed the one before",
-                k ? "; " : "", kCamSpeeds[k], plain(kTolerated, 1), apart.from, apart.to, apart.largest,
-                higher_than_before(heights), heights.empty() ? 0 : heights.size() - 1, kRepeated);
-        }
-        out.push_back({"Fig. 6: θ(t) through repeated impacts",
-                       "Cannot be reproduced number by number: half of its parameters are not printed, and the motion "
-                       "is a sensitive transient. What holds: θ fluctuates, peaks decline in trend, without regularity",
-                       numbers,
-                       "`Findings.ReboundsDeclineInTrendWithoutRegularity`, "
-                       "`LongFindings.TheTransientIsSensitiveAndThenReproducibleAgain`"});
-        out.push_back({"Variation of T: the last term 2ρAθ̇²(a + x + u_f)δu_f",
-                       "The factor 2 is wrong: (1) gives 1, and (4) is right again",
-                       fmt::format("with the factor 1, a beam turning at Ω = 4 has the flapwise frequency {:.4f} (both "
-                                   "in √(EI/(ρAL⁴))); published: 5.5850",
-                                   flapwise_frequency()),
-                       "`Modes.StiffeningOfTheTurningBeamHasTheFactorOne`"});
-        return out;
+    return all;
+}
+
+Finding on_fall_times(const sim::Result& flex) {
+    return {"Fig. 2: the flexible beam falls in 0.37 s, the rigid rod in 0.262 s",
+            "Both take 0.37 s; 0.262 s is 1/√2 of it: a factor 2 between torque and inertia",
+            fmt::format("flexible {:.9f} s, rigid {:.15f} s, with the factor 2 {:.12f} s", zero(flex),
+                        sim::rod_fall_time(1, 9.81, M_PI / 4, 1), sim::rod_fall_time(1, 9.81, M_PI / 4, 2)),
+            "`FallingRod.ReachesTheHorizontalWhenItShould`, `Paper.AFactorTwoGivesThePapersTime`"};
+}
+
+Finding on_overhanging_span() {
+    const SupportedBeam held;
+    return {"Eq. (5), overhanging span",
+            "C₂ lacks + q l₁³/(24 cos θ), D₂ lacks − q l₁⁴/(24 cos θ): the slope jumps at the support. Both are "
+            "small; "
+            "nearly all of the difference is that along the rod the deflection is 1/cos² θ larger",
+            fmt::format("l₁ = {:.3f} m: slope jumps by {} as printed, by {} with the terms; deflection of the tip: "
+                        "printed {} mm, with the terms {} mm ({} %), along the rod {} mm",
+                        held.support, plain(held.jump(Printing::printed), 4), plain(held.jump(Printing::completed), 1),
+                        plain(held.tip(Printing::printed) * 1e3, 4), plain(held.tip(Printing::completed) * 1e3, 4),
+                        plain(100 * (held.tip(Printing::completed) / held.tip(Printing::printed) - 1), 1),
+                        plain(held.tip(Printing::corrected) * 1e3, 4)),
+            "`Paper.DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot`, "
+            "`Paper.MissingTermsOfTheDeflectionAreSmall`"};
+}
+
+Finding on_signs_of_gravity() {
+    return {"Eq. (4): the signs of gravity", "They contradict the potential (2): as printed, the rod would rise",
+            fmt::format("θ̈(0) = {} rad/s² (true), +{} rad/s² (as printed)", plain(-1.5 * 9.81 * std::cos(M_PI / 4), 6),
+                        plain(1.5 * 9.81 * std::cos(M_PI / 4), 6)),
+            "`FallingRod.ReachesTheHorizontalWhenItShould`"};
+}
+
+Finding on_stiffening(const sim::Result& paper, const sim::Result& flex) {
+    return {"Eq. (4): l = L cos θ in the stiffening term", "Energy is not conserved",
+            fmt::format("largest change of energy in the free fall, of its scale: printed {}, consistent {}",
+                        plain(paper.energy_residual_max / paper.energy_scale, 3),
+                        plain(flex.energy_residual_max / flex.energy_scale, 1)),
+            "`Energy.IsNotConstantInThePapersEquation`"};
+}
+
+Finding on_foreshortening(const sim::Result& paper, const sim::Result& flex, const sim::Result& long_paper,
+                          const sim::Result& long_flex) {
+    return {"Eq. (4): u_f kept in T, dropped from gravity", "Small for L = 1 m, milliseconds for L = 8 m",
+            fmt::format("fall time, printed − consistent: {} s (L = 1 m), {} s (L = 8 m)",
+                        plain(zero(paper) - zero(flex), 3), plain(zero(long_paper) - zero(long_flex), 3)),
+            "`Findings.ForeshorteningInGravityMatters`"};
+}
+
+Finding on_separation(const Verdicts& v) {
+    return {"Eq. (6): Δ ≥ 0 means not separated",
+            "The sign of its gravity term is reversed for a rod above the cam; true is N ≥ 0",
+            fmt::format("a beam that rests on the cam, {} samples: Δ calls it separated in {}, with the sign "
+                        "corrected in {}",
+                        v.touching, v.printed_wrong, v.corrected_wrong),
+            "`Findings.SeparationAsPrintedIsWrongForARestingBeam`, "
+            "`Findings.SeparationAsPrintedHasTheWrongSign`"};
+}
+
+Finding on_first_touch(const sim::Result& touch) {
+    const sim::Cam cam = *with_still_cam().cam;
+    sim::Cam centred = cam;
+    centred.eccentricity = 0;
+    return {"§3.4: x₁ = √(D² − R²) = 0.229 m", "Right only for e = 0; √(D² + e² + 2De cos ψ − R²) with eccentricity",
+            fmt::format("e = 0: {:.6f} m; e = 0.02 m, ψ = 0: {:.6f} m, the located first touch: {:.6f} m",
+                        sim::tangent_distance(centred, 0, Printing::printed),
+                        sim::tangent_distance(cam, 0, Printing::corrected),
+                        touch.impacts.empty() ? std::nan("") : touch.impacts.front().x),
+            "`Figures.TrialMethodMeetsTheLocatedTouch`"};
+}
+
+Finding on_gravity() {
+    return {"The system moves in the horizontal plane", "Gravity is in its potential (2); without it nothing falls",
+            "g is not printed; 9.81 m/s² reproduces 0.37 s", "`FallingRod.ReachesTheHorizontalWhenItShould`"};
+}
+
+std::string numbers_of_repeated_impacts(const FindingStudies& all, const Results& results) {
+    std::string numbers;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto run = [&](std::size_t tight) -> const sim::Result& { return *results[all.repeated[k][tight]]; };
+        const Transient apart = transient(run(0).tables[all.angles[k][0]], run(1).tables[all.angles[k][1]]);
+        const std::vector<double> heights = rebounds(run(0));
+        numbers += fmt::format(
+            "{}ω = {}: θ is not reproducible to {} rad from {:.1f} s to {:.1f} s (there within {:.2f} rad); {} of "
+            "{} rebounds in {} s exceed the one before",
+            k ? "; " : "", kCamSpeeds[k], plain(kTolerated, 1), apart.from, apart.to, apart.largest,
+            higher_than_before(heights), heights.empty() ? 0 : heights.size() - 1, kRepeated);
+    }
+    return numbers;
+}
+
+Finding on_repeated_impacts(const std::string& numbers) {
+    return {"Fig. 6: θ(t) through repeated impacts",
+            "Cannot be reproduced number by number: half of its parameters are not printed, and the motion "
+            "is a sensitive transient. What holds: θ fluctuates, peaks decline in trend, without regularity",
+            numbers,
+            "`Findings.ReboundsDeclineInTrendWithoutRegularity`, "
+            "`LongFindings.TheTransientIsSensitiveAndThenReproducibleAgain`"};
+}
+
+Finding on_variation_of_t() {
+    return {"Variation of T: the last term 2ρAθ̇²(a + x + u_f)δu_f",
+            "The factor 2 is wrong: (1) gives 1, and (4) is right again",
+            fmt::format("with the factor 1, a beam turning at Ω = 4 has the flapwise frequency {:.4f} (both "
+                        "in √(EI/(ρAL⁴))); published: 5.5850",
+                        flapwise_frequency()),
+            "`Modes.StiffeningOfTheTurningBeamHasTheFactorOne`"};
+}
+
+}  // namespace
+
+std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& studies) {
+    return [all = ask_for_findings(studies)](const Results& of) {
+        const sim::Result &flex = *of[all.flexible], &paper = *of[all.printed];
+        return std::vector<Finding>{on_fall_times(flex),
+                                    on_overhanging_span(),
+                                    on_signs_of_gravity(),
+                                    on_stiffening(paper, flex),
+                                    on_foreshortening(paper, flex, *of[all.long_printed], *of[all.long_beam]),
+                                    on_separation(verdicts(of[all.rest]->tables[all.table])),
+                                    on_first_touch(*of[all.first]),
+                                    on_gravity(),
+                                    on_repeated_impacts(numbers_of_repeated_impacts(all, of)),
+                                    on_variation_of_t()};
     };
 }
 

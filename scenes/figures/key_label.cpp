@@ -21,8 +21,8 @@ std::string symbol_of(const std::string& name) {
                                                              {"initial.angular_velocity", "$\\dot{θ}_{0}$"},
                                                              {"theta", "$θ$"},
                                                              {"theta_dot", "$\\dot{θ}$"},
-                                                             {"v_n_before", "$v_{n}$ before impact"},
-                                                             {"v_n_after", "$v_{n}$ after impact"},
+                                                             {"v_n_before", "$v_{\\r{n}}$ before impact"},
+                                                             {"v_n_after", "$v_{\\r{n}}$ after impact"},
                                                              {"contact_x", "$x_{\\r{c}}$"},
                                                              {"cam_phase", "cam phase"},
                                                              {"t", "$t$"}};

@@ -231,6 +231,50 @@ Series largest_difference(Series s, const std::vector<double>& reference) {
     return s;
 }
 
+// The hub angle of each model, and what it differs by from the first: of equal shapes, and of others.
+struct ModelPanels {
+    Panel angle, models, bases;
+};
+ModelPanels empty_panels() {
+    ModelPanels out;
+    out.angle.letter = "a", out.models.letter = "b", out.bases.letter = "c";
+    out.angle.y.label = "$θ$ / rad";
+    out.angle.legend = Legend::box;
+    out.models.legend = out.bases.legend = Legend::none;
+    out.angle.share = 1.4;
+    for (Panel* panel : {&out.models, &out.bases}) {
+        panel->y.label = "max |$Δθ$| / rad";
+        panel->y.scale = Scale::logarithmic;
+    }
+    return out;
+}
+ModelPanels model_panels(const std::vector<Rung>& all, const Results& results) {
+    ModelPanels out = empty_panels();
+    std::vector<double> reference;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Rung& rung = all[k];
+        if (!is_there(*results[rung.study])) continue;
+        Series s = reached(results[rung.study]->tables[rung.table]);
+        s.label = rung.label;
+        s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
+        s.solid = k == 0;
+        s.weight = 0.85;
+        if (k == 0) reference = s.y;
+        if (Series d = largest_difference(s, reference); k > 0 && !d.x.empty())
+            (rung.same_shapes ? out.models : out.bases).series.push_back(std::move(d));
+        out.angle.series.push_back(std::move(s));
+    }
+    return out;
+}
+
+// Until the last of the flexible beams is cut short: what the rigid one does beyond compares with nothing.
+double shown_until(const std::vector<Rung>& all, const Results& results) {
+    double shown = 0;
+    for (const Rung& rung : all)
+        if (rung.model != ModelKind::rigid) shown = std::max(shown, results[rung.study]->end_time);
+    return shown;
+}
+
 FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     std::vector<Rung> all = rungs(scene, lang);
@@ -242,52 +286,25 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
-        const bool en = lang == Lang::en;
-        Figure figure;
-        figure.name = "models";
-        figure.title = en ? "The models compared" : "各模型比较";
-        Panel angle, models, bases;
-        angle.letter = "a", models.letter = "b", bases.letter = "c";
-        angle.y.label = "$θ$ / rad";
-        angle.legend = Legend::box;
-        models.legend = bases.legend = Legend::none;
-        angle.share = 1.4;
-        for (Panel* panel : {&models, &bases}) {
-            panel->y.label = "max |$Δθ$| / rad";
-            panel->y.scale = Scale::logarithmic;
-        }
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
         if (!is_there(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "
                 "cannot be integrated; its warning says why");
-        // Until the last of the flexible beams is cut short: what the rigid one does beyond compares with nothing.
-        double shown = 0;
-        for (const Rung& rung : all)
-            if (rung.model != ModelKind::rigid) shown = std::max(shown, results[rung.study]->end_time);
-        std::vector<double> reference;
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            const Rung& rung = all[k];
-            if (!is_there(*results[rung.study])) continue;
-            Series s = reached(results[rung.study]->tables[rung.table]);
-            s.label = rung.label;
-            s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
-            s.solid = k == 0;
-            s.weight = 0.85;
-            if (k == 0) reference = s.y;
-            if (Series d = largest_difference(s, reference); k > 0 && !d.x.empty())
-                (rung.same_shapes ? models : bases).series.push_back(std::move(d));
-            angle.series.push_back(std::move(s));
-            runs.emplace_back(&rung.problem, results[rung.study]);
-        }
-        for (Panel* panel : {&angle, &models, &bases}) {
+        Figure figure;
+        figure.name = "models";
+        figure.title = lang == Lang::en ? "The models compared" : "各模型比较";
+        ModelPanels panels = model_panels(all, results);
+        for (Panel* panel : {&panels.angle, &panels.models, &panels.bases}) {
             panel->x.label = "$t$ / s";
-            panel->x.from = 0, panel->x.to = shown;
+            panel->x.from = 0, panel->x.to = shown_until(all, results);
             if (!panel->series.empty()) figure.panels.push_back(std::move(*panel));
         }
         figure.stack = true;
         figure.share_x = true;
         figure.aspect = 1.5;
+        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
+        for (const Rung& rung : all)
+            if (is_there(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
         figure.caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
                          facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(runs, lang);

@@ -72,6 +72,14 @@ std::optional<std::string> needs_start_off_the_cam(const Scene& scene) {
            "\"straight\" or \"static\"";
 }
 
+const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number) {
+    for (const sim::Collision& each : result.collisions)
+        if (strikes(problem, each) && --number == 0) return &each;
+    return nullptr;
+}
+
+int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
+
 sim::Problem without_cam(sim::Problem problem) {
     problem.cam.reset();
     return problem;

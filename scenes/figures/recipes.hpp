@@ -59,6 +59,11 @@ bool strikes(const sim::Problem& problem, const Touch& touch) {
     return touch.t_start > 0 || problem.initial.shape != sim::InitialShape::resting;
 }
 
+// Counted from 1; null: there are fewer.
+const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number);
+// Rows over the scene: an impact lasts a few tenths of a millisecond.
+int contact_rows(double end);
+
 sim::Problem without_cam(sim::Problem problem);
 sim::Problem rigid(sim::Problem problem);
 

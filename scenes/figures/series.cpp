@@ -11,10 +11,10 @@
 #include <numeric>
 
 #include "render/plot/channel_label.hpp"
-#include "render/plot/ticks.hpp"
 #include "scenes/figures/key_label.hpp"
 #include "scenes/figures/measured.hpp"
 #include "scenes/figures/reproducible.hpp"
+#include "scenes/figures/series_curves.hpp"
 #include "scenes/figures/series_rules.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 #include "scenes/figures/series_words.hpp"
@@ -31,57 +31,6 @@ using sim::Channel;
 using sim::ChannelKind;
 
 constexpr int kRows = 2001;  // to begin with; more where a curve bends
-
-// A quantity along an axis: its unit, with the prefix that suits its values.
-struct Measure {
-    double factor = 1;
-    std::string unit;  // may be empty
-};
-
-Measure measure_of(const std::string& unit, double largest) {
-    const bool prefixed = unit == "m" || unit == "N" || unit == "J" || unit == "s";
-    const render::Prefix prefix = render::prefix_for(prefixed && largest > 0 && std::isfinite(largest) ? largest : 1);
-    return {1 / prefix.factor, prefix.symbol + unit};
-}
-
-// Only differences of potential energy mean anything: its least value is the zero.
-std::vector<double> above_zero(std::vector<double> values, Channel channel) {
-    if (channel.kind != ChannelKind::energy_potential || values.empty()) return values;
-    const double least = *std::ranges::min_element(values);
-    for (double& v : values) v -= least;
-    return values;
-}
-
-bool has_values(const sim::Table& table) {
-    return std::ranges::any_of(table.values.back(), [](double v) { return std::isfinite(v); });
-}
-
-double largest(const std::vector<double>& values) {
-    double out = 0;
-    for (const double v : values)
-        if (std::isfinite(v)) out = std::max(out, std::abs(v));
-    return out;
-}
-
-// Angles along x become phases of a turn, 0…1; the curve begins anew with each turn.
-void fold_turns(Series& curve) {
-    const Series whole = std::exchange(curve, {});
-    curve = whole;
-    curve.x.clear(), curve.y.clear();
-    const auto add = [&](double x, double y) { curve.x.push_back(x), curve.y.push_back(y); };
-    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
-    for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
-        if (std::floor(now) != std::floor(before)) {
-            const double edge =
-                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
-            const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
-            const bool forward = now > before;
-            add(forward, y), add(std::nan(""), std::nan("")), add(!forward, y);
-        }
-        add(now - std::floor(now), whole.y[i]);
-    }
-}
 
 std::string letter(std::size_t k) { return {static_cast<char>('a' + k)}; }
 
@@ -225,84 +174,123 @@ class SeriesFigure {
         return most;
     }
 
-    // One side of a panel. `look` counts the curves of both.
-    void add_side(const SeriesPanel& keys, const std::vector<std::size_t>& shown, bool right, int& look,
-                  std::size_t& table, const Results& results, Panel& out, Panel& differences) const {
-        const std::vector<Channel>& channels = right ? keys.right : keys.channels;
-        Axis& axis = right ? *out.right : out.y;
+    // One side of a panel: its channels, their curves of all motions in turn, and how they are written.
+    struct Side {
+        const std::vector<Channel>& channels;
+        const std::vector<std::size_t>& shown;
+        bool right, alone;  // alone: the panel has one channel
+        std::vector<sim::Table> curves = {};
+        Measure measure = {};
+        std::vector<std::string> symbols = {};  // of the channels
+    };
+    Side side(const SeriesPanel& keys, const std::vector<std::size_t>& shown, bool right, std::size_t& table,
+              const Results& results) const {
+        Side out{right ? keys.right : keys.channels, shown, right, keys.channels.size() == 1 && keys.right.empty()};
+        const std::vector<Channel>& channels = out.channels;
         double most = keys_.apart ? most_of_all(channels, table, results) : 0;
-        std::vector<sim::Table> all;
         for (std::size_t i = 0; i < channels.size() * shown.size(); ++i) {
-            all.push_back(curve(results, shown[i % shown.size()], table++));
-            all.back().values.back() = above_zero(all.back().values.back(), channels[i / shown.size()]);
-            most = std::max(most, largest(all.back().values.back()));
+            sim::Table& rows = out.curves.emplace_back(curve(results, shown[i % shown.size()], table++));
+            rows.values.back() = above_zero(rows.values.back(), channels[i / shown.size()]);
+            most = std::max(most, largest(rows.values.back()));
         }
-        if (!(most > 0) && std::ranges::none_of(all, has_values))
+        if (!(most > 0) && std::ranges::none_of(out.curves, has_values))
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(channels.front()), keys_.from, end_));
-        const Measure measure = measure_of(unit(channels.front(), motions_.front().problem), most);
-        std::vector<std::string> symbols;
+        out.measure = measure_of(unit(channels.front(), motions_.front().problem), most);
         for (const Channel& channel : channels)
-            symbols.push_back(filled(keys_.against == "frequency" ? "|{}|" : "{}", render::print_symbol(channel)));
-        const bool own_label = !right && !keys.label.empty();
-        axis.label = axis_label(own_label ? keys.label : fmt::format("{}", fmt::join(symbols, ", ")), measure.unit);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const SeriesMotion& motion = motions_[shown[i % shown.size()]];
-            const std::string& symbol = symbols[i / shown.size()];
-            Series whole;
-            whole.x = abscissa(all[i], motion.problem);
-            whole.y = scaled(all[i].values.back(), measure.factor);
-            whole.right = right;
-            whole.look = look++;
-            whole.weight = words_.weight;
-            const bool is_one_symbol = channels.size() == 1 && !out.right;
-            whole.label = shown.size() == 1 ? symbol
-                          : is_one_symbol   ? motion.label
-                                            : fmt::format("{}, {}", motion.label, symbol);
-            auto [sure, unsure] = split(whole, all[i].values[0], lost(*results[motion.study]));
-            unsure.faded = true;
-            if (!sure.x.empty()) unsure.label.clear();
-            if (is_phase()) fold_turns(sure), fold_turns(unsure);
-            if (!unsure.x.empty()) out.series.push_back(std::move(unsure));
-            if (!sure.x.empty()) out.series.push_back(std::move(sure));
-        }
-        const bool with_data = std::ranges::find(shown, measured_motion_) != shown.end();
-        for (std::size_t k = 0; k < channels.size() && with_data; ++k)
-            for (const Measured& each : measured_)
-                add_measured(each, channels[k], right, measure, look, results, out, differences);
-        if (right) return;
-        for (auto* limit : {&axis.from, &axis.to})
-            if (*limit) **limit *= measure.factor;
-        for (const double at : keys.lines) out.rules.push_back({.at = at * measure.factor});
+            out.symbols.push_back(filled(keys_.against == "frequency" ? "|{}|" : "{}", render::print_symbol(channel)));
+        return out;
     }
 
-    void add_measured(const Measured& each, Channel channel, bool right, const Measure& measure, int& look,
-                      const Results& results, Panel& out, Panel& differences) const {
-        const SeriesMotion& motion = motions_[measured_motion_];
-        const std::vector<double>* values = each.data.find(channel);
-        const std::vector<double>* along = abscissa_ ? each.data.find(*abscissa_) : &each.data.times;
-        if (keys_.against == "frequency" && values && !out.series.empty()) {
-            if (const auto lines = measured_spectrum(each.data, channel, out.series.back().x.back())) {
-                Series& s = out.series.emplace_back(
-                    measured_series(each.data, lines->values[0], scaled(lines->values[1], measure.factor), look++));
-                s.line = true, s.every_point = false, s.right = right;
+    // The curve `i` of a side, paler where θ is not reproducible.
+    void add_curve(const Side& side, std::size_t i, int look, const Results& results, Panel& out) const {
+        const SeriesMotion& motion = motions_[side.shown[i % side.shown.size()]];
+        const std::string& symbol = side.symbols[i / side.shown.size()];
+        const sim::Table& rows = side.curves[i];
+        Series whole;
+        whole.x = abscissa(rows, motion.problem);
+        whole.y = scaled(rows.values.back(), side.measure.factor);
+        whole.right = side.right;
+        whole.look = look;
+        whole.weight = words_.weight;
+        whole.label = side.shown.size() == 1 ? symbol
+                      : side.alone           ? motion.label
+                                             : fmt::format("{}, {}", motion.label, symbol);
+        auto [sure, unsure] = split(whole, rows.values[0], lost(*results[motion.study]));
+        unsure.faded = true;
+        if (!sure.x.empty()) unsure.label.clear();
+        if (is_phase()) fold_turns(sure), fold_turns(unsure);
+        if (!unsure.x.empty()) out.series.push_back(std::move(unsure));
+        if (!sure.x.empty()) out.series.push_back(std::move(sure));
+    }
+
+    // `look` counts the curves of both sides, `table` the tables of all panels.
+    void add_side(const SeriesPanel& keys, const std::vector<std::size_t>& shown, bool right, int& look,
+                  std::size_t& table, const Results& results, Panel& out, Panel& differences) const {
+        const Side curves = side(keys, shown, right, table, results);
+        Axis& axis = right ? *out.right : out.y;
+        const bool own_label = !right && !keys.label.empty();
+        axis.label = axis_label(own_label ? keys.label : fmt::format("{}", fmt::join(curves.symbols, ", ")),
+                                curves.measure.unit);
+        for (std::size_t i = 0; i < curves.curves.size(); ++i) add_curve(curves, i, look++, results, out);
+        const bool with_data = std::ranges::find(shown, measured_motion_) != shown.end();
+        for (std::size_t k = 0; k < curves.channels.size() && with_data; ++k)
+            for (const Measured& each : measured_) {
+                if (keys_.against == "frequency") {
+                    add_measured_spectrum(each.data, curves, k, look, out);
+                    continue;
+                }
+                const Series* points = add_measured(each.data, curves, k, look, out);
+                if (points && keys_.residuals && !right)
+                    add_difference(each, curves.channels[k], *points, results, differences);
             }
-            return;
-        }
-        if (!values || !along) return;
-        sim::Table rows;
-        rows.values = {each.data.times, *along};
-        // Beneath the computed curves.
+        if (right) return;
+        for (auto* limit : {&axis.from, &axis.to})
+            if (*limit) **limit *= curves.measure.factor;
+        for (const double at : keys.lines) out.rules.push_back({.at = at * curves.measure.factor});
+    }
+
+    void add_measured_spectrum(const Measurement& data, const Side& side, std::size_t k, int& look, Panel& out) const {
+        if (!data.find(side.channels[k]) || out.series.empty()) return;
+        const auto lines = measured_spectrum(data, side.channels[k], out.series.back().x.back());
+        if (!lines) return;
+        Series& s = out.series.emplace_back(
+            measured_series(data, lines->values[0], scaled(lines->values[1], side.measure.factor), look++));
+        s.line = true, s.every_point = false, s.right = side.right;
+    }
+
+    // What the rows of data are drawn against; nothing where they do not hold it. The cam's law gives its angle.
+    std::optional<std::vector<double>> measured_abscissa(const Measurement& data) const {
+        const sim::Problem& problem = motions_[measured_motion_].problem;
+        if (!abscissa_) return scaled(data.times, per_second(problem));
+        if (const std::vector<double>* held = data.find(*abscissa_)) return *held;
+        if (abscissa_->kind != ChannelKind::cam_angle || !problem.cam) return std::nullopt;
+        std::vector<double> angles;
+        for (const double t : data.times) angles.push_back(problem.cam->phase - problem.cam->speed * t);
+        return angles;
+    }
+
+    // Beneath the computed curves. Nothing where the data do not hold it.
+    const Series* add_measured(const Measurement& data, const Side& side, std::size_t k, int& look, Panel& out) const {
+        const std::vector<double>* values = data.find(side.channels[k]);
+        const auto along = measured_abscissa(data);
+        if (!values || !along) return nullptr;
         Series& points = *out.series.insert(
-            out.series.begin(), measured_series(each.data, abscissa(rows, motion.problem),
-                                                scaled(above_zero(*values, channel), measure.factor), look++));
-        points.right = right;
-        if (!keys_.residuals || right) return;
-        const sim::Table& computed = results[motion.study]->tables[each.table];
-        std::vector<double> difference = *values;
-        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= column(computed, channel.kind)[i];
+            out.series.begin(),
+            measured_series(data, *along, scaled(above_zero(*values, side.channels[k]), side.measure.factor), look++));
+        points.right = side.right;
+        if (is_phase()) fold_turns(points);
+        return &points;
+    }
+
+    void add_difference(const Measured& each, Channel channel, const Series& points, const Results& results,
+                        Panel& differences) const {
+        const sim::Result& result = *results[motions_[measured_motion_].study];
+        const std::vector<double>& computed = column(result.tables[each.table], channel.kind);
+        std::vector<double> difference = *each.data.find(channel);
+        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= computed[i];
         Series whole = measured_series(each.data, points.x, std::move(difference), points.look);
-        auto [sure, unsure] = split(whole, each.data.times, lost(*results[motion.study]));
+        auto [sure, unsure] = split(whole, each.data.times, lost(result));
         unsure.faded = true;
         for (Series* part : {&unsure, &sure})
             if (!part->x.empty()) differences.series.push_back(std::move(*part));
@@ -371,6 +359,16 @@ class SeriesFigure {
         }
     }
 
+    // Data that hold what the panels show, but not what it is drawn against.
+    std::string undrawn_words() const {
+        std::string text;
+        for (const Measured& each : measured_)
+            if (!measured_abscissa(each.data))
+                text += filled(en() ? "Data “{}” do not hold {} and are not drawn. " : "{}：不含 {}，未绘出。",
+                               each.data.label, render::print_symbol(*abscissa_));
+        return text;
+    }
+
     void write_caption(Figure& figure, const Results& results) const {
         std::vector<std::string> labels;
         std::vector<std::pair<std::string, const sim::Result*>> runs;
@@ -403,9 +401,10 @@ class SeriesFigure {
         else
             figure.caption += horizon_words(runs, keys_.from, end_, lang_);
         const SeriesMotion& motion = motions_[measured_motion_];
-        figure.caption += keys_.against == "frequency"
-                              ? measured_spectrum_words(measured_, lang_)
-                              : agreement_words(measured_, *results[motion.study], motion.problem, lang_);
+        figure.caption +=
+            keys_.against == "frequency"
+                ? measured_spectrum_words(measured_, lang_)
+                : undrawn_words() + agreement_words(measured_, *results[motion.study], motion.problem, lang_);
         figure.caption += common_facts(motions_, lang_);
         figure.accuracy = accuracy(pairs, lang_);
     }

@@ -121,6 +121,114 @@ std::string located(const sim::Problem& problem, const sim::Result& result, cons
            digits_stated(problem, lang);
 }
 
+// The trial points in both rounds, with when each reaches the cam.
+struct Trial {
+    DistanceHistory history;
+    std::vector<double> when;                // [s], as history.x; kNever: not within the scene
+    std::size_t first = 0, first_trial = 0;  // of all the earliest, and of the first round's
+
+    double spacing() const { return history.x[1] - history.x[0]; }
+};
+Trial try_points(const sim::Result& fall, const Stations& searched, const std::vector<std::size_t>& where,
+                 std::vector<double> times, const sim::Problem& problem) {
+    Trial out;
+    DistanceHistory& f = out.history;
+    f.t = std::move(times);
+    const auto arrival_at = [&](double place) { return arrival(f.t, distance(fall, where, place, f.t, problem)); };
+    const std::size_t begin = trial_begin(searched, arrival_at);
+    const double spacing = searched.x[1] - searched.x[0];
+    for (int k = 0; k <= (kTrial - 1) * kRefined; ++k) {
+        const double place = static_cast<double>(begin) + static_cast<double>(k) / kRefined;
+        f.x.push_back(searched.x.front() + place * spacing);
+        f.distance.push_back(distance(fall, where, place, f.t, problem));
+        out.when.push_back(arrival(f.t, f.distance.back()));
+    }
+    out.first = static_cast<std::size_t>(std::ranges::min_element(out.when) - out.when.begin());
+    for (std::size_t k = 0; k < out.when.size(); k += kRefined)
+        if (out.when[k] < out.when[out.first_trial]) out.first_trial = k;
+    if (out.when[out.first] == kNever)
+        throw render::PictureError(
+            fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
+                        "cam before {:g} s; raise time.end",
+                        searched.x.front(), searched.x.back(), f.t.back()));
+    return out;
+}
+
+Panel distance_panel(const Trial& trial) {
+    const DistanceHistory& f = trial.history;
+    Panel panel;
+    panel.legend = Legend::box;
+    panel.x.label = "$t$ / ms";
+    panel.y.label = "$D$′ / mm";
+    panel.rules.push_back({.at = 0});
+    const double touch = trial.when[trial.first], shown = std::min(kShown, 0.25 * touch);
+    const double from = touch - shown, to = touch + 0.5 * shown;
+    int look = 0;
+    for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
+        Series s;
+        s.label = "$x$ = " + length_text(f.x[k]);
+        s.look = look++;
+        for (std::size_t i = 0; i < f.t.size(); ++i)
+            if (f.t[i] >= from && f.t[i] <= to) s.x.push_back(f.t[i] * 1e3), s.y.push_back(f.distance[k][i] * 1e3);
+        panel.series.push_back(std::move(s));
+    }
+    // Room above the falling curves for the inset.
+    double highest = 0;
+    for (const Series& s : panel.series)
+        for (const double v : s.y) highest = std::max(highest, v);
+    panel.y.to = 2.15 * highest;
+    return panel;
+}
+
+// When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
+Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
+    Panel inset;
+    inset.legend = Legend::none;
+    inset.x.label = "$x$ / m";
+    inset.x.tight = false;
+    inset.y.label = "$t_{0}$ / ms";
+    Series coarse, refined;
+    for (std::size_t k = 0; k < trial.when.size(); ++k) {
+        if (trial.when[k] == kNever) continue;
+        const double x = trial.history.x[k], t = trial.when[k] * 1e3;
+        const bool near = k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined;
+        if (k % kRefined == 0) coarse.x.push_back(x), coarse.y.push_back(t);
+        if (near) refined.x.push_back(x), refined.y.push_back(t);
+    }
+    refined.look = 0;
+    refined.solid = true;
+    coarse.look = 0;
+    coarse.line = false;
+    coarse.every_point = true;
+    inset.series = {refined, coarse};
+    if (!strikes.impacts.empty()) {
+        const sim::Impact& hit = strikes.impacts.front();
+        inset.marks.push_back(
+            {.x = hit.x, .y = hit.t_start * 1e3, .label = lang == Lang::en ? "located" : "事件定位", .look = 1});
+    }
+    return inset;
+}
+
+std::string trial_words(const Trial& trial, double rtol, Lang lang) {
+    const std::vector<double>&when = trial.when, &x = trial.history.x;
+    const std::size_t first = trial.first;
+    // The first zero lies between the neighbours of the first point; its time is known as well as theirs agree.
+    double around = 0;
+    for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, x.size() - 1)})
+        if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
+    return filled(lang == Lang::en
+                      ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
+                        "near the first touch. Inset: the time of zero against $x$, the trial method's first round "
+                        "(points) and its refinement (line), and the event that the simulation locates. First of the "
+                        "trial points: {} m; among points {} mm apart: $x$ = {} m, $t$ = {} s; "
+                      : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
+                        "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
+                        "mm 后 $x$ "
+                        "= {} m，$t$ = {} s；",
+                  number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
+                  supported({when[first], std::max(around, 10 * rtol * when[first])}));
+}
+
 FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     const sim::Problem falling = without_cam(scene.problem);
@@ -135,98 +243,18 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
         check = studies.of(*fewer, scene.end_time, "distance");
         studies.may_fail(*check);
     }
-
-    return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
-        const bool en = lang == Lang::en;
+    return [=, problem = scene.problem](const Results& results) {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
-        DistanceHistory f;
-        f.t = instants(all);
-        const auto arrival_at = [&](double place) { return arrival(f.t, distance(falls, where, place, f.t, problem)); };
-        const std::size_t begin = trial_begin(searched, arrival_at);
-        const double spacing = searched.x[1] - searched.x[0];
-        std::vector<double> when;
-        for (int k = 0; k <= (kTrial - 1) * kRefined; ++k) {
-            const double place = static_cast<double>(begin) + static_cast<double>(k) / kRefined;
-            f.x.push_back(searched.x.front() + place * spacing);
-            f.distance.push_back(distance(falls, where, place, f.t, problem));
-            when.push_back(arrival(f.t, f.distance.back()));
-        }
-        const std::vector<double>& fine = f.x;
-        const auto first = static_cast<std::size_t>(std::min_element(when.begin(), when.end()) - when.begin());
-        std::size_t first_trial = 0;
-        for (std::size_t k = 0; k < when.size(); k += kRefined)
-            if (when[k] < when[first_trial]) first_trial = k;
-        if (when[first] == kNever)
-            throw render::PictureError(
-                fmt::format("figure distance: no point of the beam between {:g} and {:g} m reaches the "
-                            "cam before {:g} s; raise time.end",
-                            searched.x.front(), searched.x.back(), end));
+        const Trial trial = try_points(falls, searched, where, instants(all), problem);
+        Panel panel = distance_panel(trial);
+        panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
         Figure figure;
         figure.name = "distance";
-        figure.title = en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";
-        Panel panel;
-        panel.legend = Legend::box;
-        panel.x.label = "$t$ / ms";
-        panel.y.label = "$D$′ / mm";
-        panel.rules.push_back({.at = 0});
-        const double shown = std::min(kShown, 0.25 * when[first]);
-        const double from = when[first] - shown, to = when[first] + 0.5 * shown;
-        int look = 0;
-        for (std::size_t k = 0; k < fine.size(); k += kRefined) {
-            Series s;
-            s.label = "$x$ = " + length_text(fine[k]);
-            s.look = look++;
-            for (std::size_t i = 0; i < f.t.size(); ++i)
-                if (f.t[i] >= from && f.t[i] <= to) s.x.push_back(f.t[i] * 1e3), s.y.push_back(f.distance[k][i] * 1e3);
-            panel.series.push_back(std::move(s));
-        }
-        // Room above the falling curves for the inset.
-        double highest = 0;
-        for (const Series& s : panel.series)
-            for (const double v : s.y) highest = std::max(highest, v);
-        panel.y.to = 2.15 * highest;
-        Panel inset;
-        inset.legend = Legend::none;
-        inset.x.label = "$x$ / m";
-        inset.x.tight = false;
-        inset.y.label = "$t_{0}$ / ms";
-        Series coarse, refined;
-        for (std::size_t k = 0; k < fine.size(); ++k) {
-            if (when[k] == kNever) continue;
-            const bool near = k + kRefined >= first_trial && k <= first_trial + kRefined;
-            if (k % kRefined == 0) coarse.x.push_back(fine[k]), coarse.y.push_back(when[k] * 1e3);
-            if (near) refined.x.push_back(fine[k]), refined.y.push_back(when[k] * 1e3);
-        }
-        refined.look = 0;
-        refined.solid = true;
-        coarse.look = 0;
-        coarse.line = false;
-        coarse.every_point = true;
-        inset.series = {refined, coarse};
-        if (!strikes.impacts.empty()) {
-            const sim::Impact& hit = strikes.impacts.front();
-            inset.marks.push_back(
-                {.x = hit.x, .y = hit.t_start * 1e3, .label = en ? "located" : "事件定位", .look = 1});
-        }
-        panel.insets.push_back({.panel = {inset}, .width = 0.42, .height = 0.42});
+        figure.title = lang == Lang::en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.76;
-        // The first zero lies between the neighbours of the first point; its time is known as well as theirs agree.
-        double around = 0;
-        for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, fine.size() - 1)})
-            if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
-        figure.caption =
-            filled(en ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
-                        "near the first touch. Inset: the time of zero against $x$, the trial method's first round "
-                        "(points) and its refinement (line), and the event that the simulation locates. First of the "
-                        "trial points: {} m; among points {} mm apart: $x$ = {} m, $t$ = {} s; "
-                      : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
-                        "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
-                        "mm 后 $x$ "
-                        "= {} m，$t$ = {} s；",
-                   number(fine[first_trial], 3), number((fine[1] - fine[0]) * 1e3, 3), number(fine[first], 4),
-                   supported({when[first], std::max(around, 10 * problem.solver.rtol * when[first])})) +
-            located(problem, strikes, check ? results[*check] : nullptr, lang) + facts(problem, lang);
+        figure.caption = trial_words(trial, problem.solver.rtol, lang) +
+                         located(problem, strikes, check ? results[*check] : nullptr, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang);
         return figure;
     };

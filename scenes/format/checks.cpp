@@ -10,9 +10,7 @@
 #include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
 #include "output/image/png_reader.hpp"
-#include "render/plot/text.hpp"
 #include "render/plot/words.hpp"
-#include "scenes/figures/recipes.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"
 
@@ -278,126 +276,7 @@ void judge_video(ObjectReader& r, VideoOutput& video) {
     judge_format(r, video);
 }
 
-// ---- figures, tables, files --------------------------------------------------------------------
-
-void judge_markup(ObjectReader& r, const std::string& key, const std::string& text) {
-    try {
-        render::figure::parse_markup(text);
-    } catch (const std::invalid_argument& error) {
-        r.fail(r.place(key), key,
-               fmt::format("{} = {}: {}; \\$ \\_ \\^ \\\\ stand for themselves", r.path(key), in_quotes(text),
-                           error.what()));
-    }
-}
-
-namespace {
-
-void refuse_mixed_units(ObjectReader& r, const char* key, const std::vector<sim::Channel>& channels) {
-    const sim::Problem& problem = r.context().scene.problem;
-    for (const sim::Channel& channel : channels)
-        if (std::string_view(unit(channel, problem)) != unit(channels.front(), problem))
-            return r.fail(r.place(key), key,
-                          fmt::format("{}: {} is measured in {}, {} in {}; one axis has one unit: use \"right\", or "
-                                      "another panel",
-                                      r.path(key), name(channel), unit(channel, problem), name(channels.front()),
-                                      unit(channels.front(), problem)));
-}
-
-void judge_series(ObjectReader& r, FigureOutput& figure) {
-    SeriesKeys& series = figure.series;
-    if (figure.figure != "series") {
-        const Recipe* recipe = recipe_named(figure.figure);
-        const bool stretch = recipe && recipe->takes_stretch;
-        const double end = series.to.value_or(r.context().scene.end_time);
-        if (stretch && !(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
-            r.fail(r.place("from"), "from",
-                   fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
-        const bool windows = recipe && recipe->takes_channel;
-        for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts",
-                                           "compare", "comparison", "residuals", "notes"})
-            if (r.has(key) && !(stretch && (key == "from" || key == "to")) && !(windows && key == "channels"))
-                r.fail(r.place(key), std::string(key), fmt::format("{} belongs to the figure \"series\"", r.path(key)));
-        if (windows && series.panels.front().channels.size() > 1)
-            r.fail(r.place("channels"), "channels",
-                   fmt::format("{}: a {} shows one channel", r.path("channels"), figure.figure));
-        if (windows && series.window && !(2 * *series.window <= end - series.from))
-            r.fail(r.place("window"), "window",
-                   fmt::format("{} = {:g} s is more than half of the {:g} s that it moves along", r.path("window"),
-                               *series.window, end - series.from));
-    }
-    if (const Recipe* recipe = recipe_named(figure.figure); r.has("value") && recipe && !recipe->takes_value)
-        r.fail(r.place("value"), "value",
-               fmt::format("{} belongs to the figures \"bifurcation\", \"map\" and \"basins\"", r.path("value")));
-    if (r.has("collision") && figure.figure != "collision")
-        r.fail(r.place("collision"), "collision",
-               fmt::format("{} belongs to the figure \"collision\"", r.path("collision")));
-    for (const char* key : {"window", "highest"})
-        if (r.has(key) && figure.figure != "spectrogram")
-            r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"spectrogram\"", r.path(key)));
-    if (figure.figure != "series") return;
-    if (series.panels.empty() && !r.findings().any())
-        r.fail(
-            *r.node(), "channels",
-            fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]", r.what()));
-    // Lines of a spectrum differ by orders of magnitude; panels of one's own say their scale.
-    if (series.against == "frequency" && r.has("channels"))
-        for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
-    const double end = series.to.value_or(r.context().scene.end_time);
-    if (!(series.from < end))
-        r.fail(r.place("from"), "from",
-               fmt::format("{} = {} s is not before the end, {} s", r.path("from"), series.from, end));
-    if (series.x_low && series.x_high && !(*series.x_low < *series.x_high))
-        r.fail(r.place("x_high"), "x_high", fmt::format("{} must be above \"x_low\"", r.path("x_high")));
-    if ((series.against == "turns" || series.against == "phase") && !r.context().scene.problem.cam &&
-        series.compare.empty())
-        r.fail(r.place("x"), "x", fmt::format("{} = \"{}\": the scene has no cam", r.path("x"), series.against));
-    if (series.impacts && series.against != "t" && series.against != "turns")
-        r.fail(r.place("impacts"), "impacts",
-               fmt::format("{}: impacts are lines over \"t\" or \"turns\" alone", r.path("impacts")));
-    if (!series.notes.empty() && series.against != "t" && series.against != "turns")
-        r.fail(r.place("notes"), "notes", fmt::format("{} are lines over \"t\" or \"turns\" alone", r.path("notes")));
-    if (series.apart && series.compare.empty())
-        r.fail(r.place("comparison"), "comparison",
-               fmt::format("{} = \"panels\" needs motions: \"compare\"", r.path("comparison")));
-    const auto measured = [&](const SeriesPanel& panel) {
-        return std::ranges::any_of(panel.channels, [&](const sim::Channel& channel) {
-            return std::ranges::any_of(r.context().scene.data,
-                                       [&](const Measurement& m) { return m.find(channel) != nullptr; });
-        });
-    };
-    if (series.residuals && series.against != "t" && series.against != "turns")
-        r.fail(r.place("residuals"), "residuals",
-               fmt::format("{}: differences are drawn against \"t\" or \"turns\" alone", r.path("residuals")));
-    else if (series.residuals && !r.findings().failed("data") && std::ranges::none_of(series.panels, measured))
-        r.fail(r.place("residuals"), "residuals",
-               fmt::format("{}: the scene has no \"data\" of what the panels show", r.path("residuals")));
-    for (std::size_t i = 0; i < series.compare.size(); ++i) {
-        std::string& label = series.compare[i].label;
-        if (label.empty()) label = std::to_string(i + 1);
-        judge_markup(r, "compare", label);
-    }
-}
-
-}  // namespace
-
-void judge_series_panel(ObjectReader& r, const SeriesPanel& panel) {
-    refuse_mixed_units(r, "channels", panel.channels);
-    refuse_mixed_units(r, "right", panel.right);
-    judge_markup(r, "title", panel.title);
-    judge_markup(r, "label", panel.label);
-    if (panel.low && panel.high && !(*panel.low < *panel.high))
-        r.fail(r.place("high"), "high", fmt::format("{} must be above \"low\"", r.path("high")));
-    if (panel.logarithmic && panel.low && !(*panel.low > 0))
-        r.fail(r.place("low"), "low", fmt::format("{}: a logarithmic axis begins above 0", r.path("low")));
-}
-
-void judge_figure(ObjectReader& r, FigureOutput& figure) {
-    if (figure.file.empty()) figure.file = figure.figure + ".pdf";
-    judge_series(r, figure);
-    if (!r.has("figure") || r.findings().any()) return;  // judged when the physics is known
-    if (const auto refusal = refusal_of(*recipe_named(figure.figure), r.context().scene))
-        r.fail(r.place("figure"), "figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
-}
+// ---- tables, files -----------------------------------------------------------------------------
 
 namespace {
 

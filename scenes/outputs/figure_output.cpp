@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <stdexcept>
-
 #include "render/plot/style.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
+#include "scenes/plan/figure_times.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -46,6 +44,7 @@ static const std::string& restriction() {
         return fmt::format(R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}, "required": ["figure"]}},
         "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}],
                   "properties": {{"window": false, "highest": false}}}},
+        "dependentSchemas": {{"at": {{"properties": {{"figure": {{"const": "strobe"}}}}}}}},
         "else": {{"properties": {{"panels": false, "x": false, "x_low": false, "x_high": false,
                                   "impacts": false, "compare": false, "comparison": false,
                                   "residuals": false, "notes": false}},
@@ -81,12 +80,16 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
              "Of \"series\": lower end of that axis, in SI units.");
     v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny, "Its upper end.");
-    v.number(
-        sim::written_if(stretch, "from"), series.from, dim::kTime, kFromStart,
-        "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": when "
-        "what they show begins.");
-    v.number(sim::written_if(stretch, "to"), series.to, dim::kTime, kFromStart,
-             "When it ends; with the scene when left out. A \"strobe\" that begins there shows that instant alone.");
+    v.form(sim::written_if(stretch && !series.at, "from"), bound_form(series.from, series.from_event),
+           "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": when "
+           "what they show begins. Events are those of the first motion that it shows.");
+    v.form(sim::written_if(stretch && !series.at, "to"), bound_form(series.to, series.to_event),
+           "When it ends; with the scene when left out.");
+    v.form(sim::written_if(figure == "strobe", "at"), instant_form(series.at),
+           "Of \"strobe\": the one instant that it shows, the bodies to scale and the force between them; in place of "
+           "\"from\" and \"to\". It is the still picture as lines, for print.");
+    v.exclude("at", "from");
+    v.exclude("at", "to");
     v.truth(key("impacts"), series.impacts, "Of \"series\": lines where impacts begin.");
     v.number(sim::written_if(windows, "window"), series.window, dim::kTime, sim::kPositive,
              "Of \"spectrogram\": length of its windows, which becomes a power of two of samples.");
@@ -140,19 +143,18 @@ void FigureOutput::visit(SceneVisitor& v) {
 }
 
 void FigureOutput::plan(Planner& planner, std::size_t output) const {
-    const Recipe* recipe = recipe_named(figure);
-    if (!recipe) throw std::logic_error("a figure that the reader does not know: " + figure);
-    Studies studies;
-    const auto make = [make = recipe->prepare(planner.scene(), *this, studies),
-                       height = series.height](const Results& results) {
-        render::figure::Figure made = make(results);
-        choose_prefixes(made);
-        if (height) made.height = *height * 1e3;
-        return made;
-    };
-    FigureFile planned{output, file, figure, {}, make, {}};
-    planned.studies = studies.take();
-    if (recipe->of_sweep) {
+    FigureFile planned{.output = output, .file = file, .figure = figure};
+    planned.settled = !series.looks_at_impacts();
+    FigureOutput how = *this;
+    if (planned.settled) {
+        how = with_event_times(std::move(how), {}, planner.scene().end_time);
+    } else {  // the events may be anywhere in the scene
+        how.series.from = 0, how.series.to.reset();
+        how.series.from_event.reset(), how.series.to_event.reset(), how.series.at.reset();
+        planner.find_events();
+    }
+    prepare_figure(planned, planner.scene(), how);
+    if (recipe_named(figure)->of_sweep) {
         if (planner.ask().shards > 1) return planner.skip(file, "a part has no diagram; collect the parts first");
         planner.ask_for_sweep(file);
     }

@@ -287,7 +287,10 @@ void FramesOutput::visit(SceneVisitor& v) {
 }
 
 void StillOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".png"}), "Name of the file; the scene's name with .png when left out.");
+    v.form(
+        "file", file_form(file, {".png"}),
+        "Name of the file; the scene's name with .png when left out. In lines, for print, it is the figure \"strobe\" "
+        "with \"at\".");
     visit_picture(v, *this);
     v.form(required("at", "\"370 ms\""), instant_form(at), "The instant that it shows.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, ".png"); });

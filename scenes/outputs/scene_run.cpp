@@ -85,7 +85,7 @@ void SceneRun::find_impacts(double far) {
         [&](const sim::Problem& problem, const sim::Request& request) {
             return context_.motions.find(problem, request, &problem == &scene_.problem ? far : request.end_time);
         },
-        [&](const Pictures& p, const std::string& why) { refuse(p.output, why); });
+        [&](std::size_t output, const std::string& why) { refuse(output, why); });
     context_.times.simulate += seconds_since(start);
     files_.claim(plan_);  // now that the number of frames is known
 }

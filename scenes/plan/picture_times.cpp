@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/base/error.hpp"
+#include "scenes/plan/figure_times.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -96,25 +97,58 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
 }
 
-void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
-    std::optional<sim::Result> own;
-    sim::Request none;
-    for (Pictures& p : plan.pictures) {
-        if (p.settled) continue;
-        const bool compares = !p.compared.empty();
-        if (!compares && !own)
-            own = find(scene.problem,
-                       events_until(*plan.impacts_until, std::ranges::any_of(plan.pictures, looks_at_apexes)));
+namespace {
+
+const FigureOutput& output_of(const FigureFile& f, const Scene& scene) {
+    return std::get<FigureOutput>(scene.outputs[f.output]);
+}
+
+bool looks_at_apexes(const Plan& plan, const Scene& scene) {
+    const auto figure_does = [&](const FigureFile& f) { return !f.settled && looks_at_apexes(output_of(f, scene)); };
+    return std::ranges::any_of(plan.pictures, [](const Pictures& p) { return looks_at_apexes(p); }) ||
+           std::ranges::any_of(plan.figures, figure_does);
+}
+
+// What cannot be settled is refused, and leaves the list.
+template <class T, class Settle>
+void settle_each(std::vector<T>& all, const RefusePicture& refuse, const Settle& settle_one) {
+    for (T& each : all) {
+        if (each.settled) continue;
         try {
-            put_times(p, compares ? none : plan.simulation->request,
-                      compares ? times_of_compared(p, find) : times_of(p, *own));
-            p.settled = true;
+            settle_one(each);
+            each.settled = true;
         } catch (const render::PictureError& error) {
             if (!refuse) throw;
-            refuse(p, error.what());
+            refuse(each.output, error.what());
         }
     }
-    std::erase_if(plan.pictures, [](const Pictures& p) { return !p.settled; });
+    std::erase_if(all, [](const T& each) { return !each.settled; });
+}
+
+}  // namespace
+
+void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
+    std::optional<sim::Result> found;
+    const auto own = [&]() -> const sim::Result& {
+        if (!found) found = find(scene.problem, events_until(*plan.impacts_until, looks_at_apexes(plan, scene)));
+        return *found;
+    };
+    settle_each(plan.pictures, refuse, [&](Pictures& p) {
+        sim::Request none;
+        if (p.compared.empty())
+            put_times(p, plan.simulation->request, times_of(p, own()));
+        else
+            put_times(p, none, times_of_compared(p, find));
+    });
+    settle_each(plan.figures, refuse, [&](FigureFile& f) {
+        const FigureOutput& how = output_of(f, scene);
+        const sim::Problem& counted = counted_motion(scene, how);
+        const double end = scene.end_time;
+        prepare_figure(f, scene,
+                       &counted == &scene.problem
+                           ? with_event_times(how, own(), end)
+                           : with_event_times(how, find(counted, events_until(end, looks_at_apexes(how))), end));
+    });
     plan.impacts_until.reset();
 }
 

@@ -117,9 +117,11 @@ struct Pictures {
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
-    std::vector<Study> studies;  // what it looks at, as if it were alone
-    FigureMaker make;            // from their results
-    std::optional<Cost> cost;
+    bool settled =
+        true;  // false: it begins or ends at events; studies and maker are of the whole scene till they are known
+    std::vector<Study> studies = {};  // what it looks at, as if it were alone
+    FigureMaker make = {};            // from their results
+    std::optional<Cost> cost = {};
 };
 
 // What a data file is written from, and where.
@@ -153,7 +155,7 @@ struct Skipped {
 
 struct Plan {
     std::optional<Simulation> simulation;
-    // Until when a first run has to find impacts, because pictures that are not settled look at them.
+    // Until when a first run has to find impacts, because pictures and figures that are not settled look at them.
     std::optional<double> impacts_until;
     std::vector<Variant> variants;
     std::string sweep;           // the first file that shows the points of the scene's sweep; empty: none
@@ -190,12 +192,12 @@ void note_unwritten(Plan& plan, const Scene& scene);
 // A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
 bool is_slow_motion(const Pictures& p);
 
-// Gives the pictures that wait for impacts their instants. `find` runs a problem for its impacts, and its apexes where
-// the request has them; it is called once for the scene's own motion, if a picture needs that, and for each compared
-// one. A picture of an instant that does not exist is handed to `refuse`, and leaves the plan; without `refuse` that is
-// thrown. Throws what `find` throws and render::PictureError.
+// Gives the pictures and figures that wait for impacts their instants. `find` runs a problem for its impacts, and its
+// apexes where the request has them; it is called once for the scene's own motion, if a picture needs that, and for
+// each compared one. What shows an instant that does not exist is handed to `refuse`, by its output, and leaves the
+// plan; without `refuse` that is thrown. Throws what `find` throws and render::PictureError.
 using FindImpacts = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
-using RefusePicture = std::function<void(const Pictures& p, const std::string& why)>;
+using RefusePicture = std::function<void(std::size_t output, const std::string& why)>;
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
 
 // Words of the plan: "lit", "video".

@@ -144,8 +144,9 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     std::string text = "to do\n";
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
     if (plan.impacts_until)
-        line("impacts", fmt::format("a first run until {:g} s finds them: pictures below stand or slow down at them",
-                                    *plan.impacts_until));
+        line("impacts",
+             fmt::format("a first run until {:g} s finds them: outputs below begin, stand or slow down at them",
+                         *plan.impacts_until));
     if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared)

@@ -63,8 +63,7 @@ bool is_shared(const Output& output) {
 
 }  // namespace
 
-Planner::Planner(const Scene& scene, const Ask& ask, const Known& known)
-    : scene_(scene), ask_(ask), known_(known), own_key_(Studies::key(scene.problem)) {
+Planner::Planner(const Scene& scene, const Ask& ask, const Known& known) : scene_(scene), ask_(ask), known_(known) {
     simulation_.request.turning_points = false;
 }
 
@@ -188,20 +187,21 @@ void Planner::add_compared(Pictures& p) {
 }
 
 void Planner::add(FigureFile figure) {
-    for (Study& study : figure.studies) add_study(study, figure.file);
+    for (const Study& study : figure.studies) add_study(study, figure.file);
     plan_.figures.push_back(std::move(figure));
 }
 
+void Planner::find_events() { plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), scene_.end_time); }
+
 // A figure's run joins others of its motion.
-void Planner::add_study(Study& study, const std::string& file) {
-    const std::string key = Studies::key(study.problem);
-    study.of_scene = key == own_key_;
+void Planner::add_study(const Study& study, const std::string& file) {
     if (study.of_scene) {
         look_until(end_of(study.request), file);
         figures_ask_.push_back(study.request);
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
+    const std::string key = Studies::key(study.problem);
     auto same = std::ranges::find_if(plan_.variants,
                                      [&](const Variant& variant) { return Studies::key(variant.problem) == key; });
     if (same == plan_.variants.end()) {

@@ -32,12 +32,14 @@ class Planner {
 
     void add(Pictures p, double ends);  // `ends`: the latest instant that the pictures can look at [s]
     void add(FigureFile figure);
+    // Of a figure that is not settled: the motions are needed until the end of the scene, for their events.
+    void find_events();
     void add(DataFile data) { plan_.data.push_back(std::move(data)); }
 
   private:
     void finish_simulation();
     void settle_cache(Simulation& simulation, std::optional<double> kept_until) const;
-    void add_study(Study& study, const std::string& file);
+    void add_study(const Study& study, const std::string& file);
     void add_own_motion(Pictures& p, double ends);
     void add_compared(Pictures& p);
     void note_left_frames(const Pictures& p, std::size_t count);
@@ -49,7 +51,6 @@ class Planner {
     const Known& known_;
     Plan plan_;
     Simulation simulation_;
-    const std::string own_key_;
     std::vector<sim::Request> figures_ask_;  // of the scene's motion
     bool needed_ = false;
     int finished_ = 0;

@@ -58,12 +58,6 @@ std::optional<double> reached(const Instant& at, const FrameSpan& span, double t
     return span.to ? find_instant(at, motion) : instant_of(at, motion);
 }
 
-FrameSpan with_times(FrameSpan span, const sim::Result& motion) {
-    if (span.from_event) span.from = instant_of(*span.from_event, motion);
-    if (span.to_event) span.to = instant_of(*span.to_event, motion);
-    return span;
-}
-
 struct ShownEvent {
     const FilmEvent* event;
     double t;

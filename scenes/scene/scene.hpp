@@ -319,17 +319,21 @@ struct SeriesNote {
 // What the figure "series" shows; other figures have content of their own.
 struct SeriesKeys {
     std::vector<SeriesPanel> panels = {};
-    std::string against = "t";                      // "t", "turns" of the cam, "frequency", or a channel
-    std::optional<double> x_low = {}, x_high = {};  // of its axis; SI units or turns
-    double from = 0;                                // [s]
-    std::optional<double> to = {};                  // [s]; absent: the end of the scene
-    std::vector<Compared> compare = {};             // absent: this motion alone
-    bool apart = false;                             // each of these in panels of its own
-    bool impacts = false;                           // lines where impacts begin
-    bool residuals = false;                         // below each panel with data, what the data differ by
-    std::optional<double> height = {};              // [m]; absent: what suits the panels
+    std::string against = "t";                              // "t", "turns" of the cam, "frequency", or a channel
+    std::optional<double> x_low = {}, x_high = {};          // of its axis; SI units or turns
+    double from = 0;                                        // [s]
+    std::optional<double> to = {};                          // [s]; absent: the end of the scene
+    std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
+    std::optional<Instant> at = {};                         // of a strobe: the one instant, in place of both
+    std::vector<Compared> compare = {};                     // absent: this motion alone
+    bool apart = false;                                     // each of these in panels of its own
+    bool impacts = false;                                   // lines where impacts begin
+    bool residuals = false;                                 // below each panel with data, what the data differ by
+    std::optional<double> height = {};                      // [m]; absent: what suits the panels
     std::vector<SeriesNote> notes = {};
     std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; absent: what suits the motion
+
+    bool looks_at_impacts() const { return from_event || to_event || (at && at->is_event()); }
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {
@@ -350,7 +354,10 @@ struct FigureOutput {
     std::string value = {};               // of a diagram of a sweep: what it shows; empty: the usual
     std::string data_file, caption_file;  // beside it; empty: none
 
-    Extent extent() const { return series.to ? Extent::keys : Extent::scene; }
+    Extent extent() const {
+        const bool ends = series.to || (series.at && series.at->kind == Instant::Kind::time);
+        return ends ? Extent::keys : Extent::scene;
+    }
     bool is_tiff() const { return file.ends_with(".tif") || file.ends_with(".tiff"); }
     double resolution() const { return dpi.value_or(is_tiff() ? 600 : 300); }
     void visit(SceneVisitor& v);

@@ -58,4 +58,12 @@ class TimeMap {
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion);
 double instant_of(const Instant& instant, const sim::Result& motion);
 
+// What begins and ends at events, with their times instead.
+template <class Span>
+Span with_times(Span span, const sim::Result& motion) {
+    if (span.from_event) span.from = instant_of(*std::exchange(span.from_event, {}), motion);
+    if (span.to_event) span.to = instant_of(*std::exchange(span.to_event, {}), motion);
+    return span;
+}
+
 }  // namespace beamcam::scenes

@@ -1,12 +1,14 @@
 // The plotting engine: axes, reduction, labels, and that any numbers give a picture or a clear error.
 #include "render/plot/figure.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "render/base/error.hpp"
 #include "render/plot/panel.hpp"
@@ -477,6 +479,17 @@ std::string bytes_of(const Figure& figure, Medium medium, const Document& docume
 }
 
 // Everything is drawn in the colours of white paper; the sheet turns them.
+// A spectrum of exponents has many curves.
+TEST(Looks, OfSixtyFourCurvesAreAllDifferent) {
+    std::set<std::pair<std::string, std::vector<double>>> seen;
+    for (int k = 0; k < 64; ++k) {
+        const Look& each = look(k);
+        EXPECT_TRUE(each.color == look(k % 8).color) << k;
+        EXPECT_TRUE(seen.emplace(fmt::format("{} {} {}", each.color.r, each.color.g, each.color.b), each.dash).second)
+            << k;
+    }
+}
+
 TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
     const Palette& films = palette(Theme::dark);
     const auto expect_near = [](Color a, Color b) {

@@ -1,4 +1,5 @@
 // Kymograph, strobe, maps of impacts; and the exports of the same: shapes, states at impacts, TIFF.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 
 #include "output/data/table_reader.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -18,6 +20,7 @@ using testing::Finished;
 using testing::Folder;
 using ::testing::HasSubstr;
 using testing::shell;
+using ::testing::StartsWith;
 
 render::figure::Figure overview_of(const std::string& name, const std::string& keys) {
     const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": ")" +
@@ -45,18 +48,101 @@ TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
 }
 
 // What `--data` writes: a row for each cell with its deflection, and for each mark.
-// Films are pixels; the words name the figure that is lines.
-TEST(Overviews, AStillOfLinesIsAFigureWhichRenderNames) {
+TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
-    const Finished refused = shell(folder, "$BEAMCAM render s.json --at 0.3 -o a.pdf");
-    EXPECT_EQ(refused.code, 2);
-    const std::string key = "beamcam figure ";
-    const std::size_t at = refused.err.find(key);
-    ASSERT_NE(at, std::string::npos) << refused.err;
-    const std::string arguments = refused.err.substr(at + key.size(), refused.err.find('\n', at) - at - key.size());
-    EXPECT_EQ(shell(folder, "$BEAMCAM figure " + arguments).code, 0) << refused.err;
-    EXPECT_TRUE(std::filesystem::exists(folder / "a.pdf"));
+    for (const char* file : {"a.pdf", "a.eps", "a.svg"})
+        ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json --at impact:1 -o {}", file)).code, 0) << file;
+    EXPECT_THAT(testing::slurp((folder / "a.pdf").string()), StartsWith("%PDF"));
+    EXPECT_THAT(testing::slurp((folder / "a.eps").string()), StartsWith("%!PS"));
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at impact:1 -o b.svg").code, 0);
+    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json --at impact:1 -o c.svg").code, 0);  // needs no name
+    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "c.svg"));
+    for (const char* wrong : {"-o a.pdf", "--at 0.3 -o a.pdf --size 640x360", "--at 0.3 -o a.pdf --style lit",
+                              "s.json --at 0.3 -o a.pdf", "--at 0.3 --speed 0.1 -o a.pdf"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json {}", wrong)).code, 2) << wrong;
+}
+
+Plan settled_plan(const Scene& scene, const RefusePicture& refuse = {}) {
+    Plan made = plan(scene);
+    settle(
+        made, scene,
+        [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); },
+        refuse);
+    return made;
+}
+
+TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
+    const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [
+        {"type": "figure", "figure": "series", "channels": ["theta"], "from": "touch", "to": "apex:1"},
+        {"type": "figure", "figure": "strobe", "at": "release"},
+        {"type": "figure", "figure": "strobe", "at": "last", "file": "end.pdf"},
+        {"type": "figure", "figure": "series", "channels": ["theta"], "from": "collision:1", "file": "two.pdf",
+         "compare": [{"label": "higher", "set": {"initial.angle": "50 deg"}}, {"label": "own"}]}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const auto impacts_of = [](sim::Problem problem) {
+        sim::Request request;
+        request.end_time = 1;
+        return sim::simulate(problem, request);
+    };
+    const sim::Result own = impacts_of(reading.scene->problem);
+    EXPECT_EQ(plan(*reading.scene).impacts_until, 1);
+    const Plan made = settled_plan(*reading.scene);
+    ASSERT_EQ(made.figures.size(), 4u);
+    const auto times = [&](std::size_t figure) {
+        return made.figures[figure].studies.at(0).request.tables.at(0).times;
+    };
+    EXPECT_NEAR(times(0).front(), own.impacts[0].t_start, 1e-12);
+    // The apex: the hub stands still between the first collision and the next.
+    const double apex = times(0).back();
+    EXPECT_GT(apex, *own.collisions[0].t_end);
+    EXPECT_LT(apex, own.collisions[1].t_start);
+    sim::Request at_apex;
+    at_apex.end_time = apex;
+    at_apex.tables = {{{apex}, {{sim::ChannelKind::theta_dot, 0}}}};
+    EXPECT_NEAR(sim::simulate(reading.scene->problem, at_apex).tables[0].values[0][0], 0, 1e-6);
+    const auto& released = made.figures[1].studies.at(0).request;
+    EXPECT_NEAR(released.end_time, *own.impacts[0].t_end, 1e-12);
+    EXPECT_EQ(made.figures[2].studies.at(0).request.end_time, 1);
+    const sim::Result higher = impacts_of(made.figures[3].studies.at(0).problem);
+    ASSERT_GT(std::abs(higher.collisions[0].t_start - own.collisions[0].t_start), 1e-4);
+    EXPECT_NEAR(times(3).front(), higher.collisions[0].t_start, 1e-12);
+}
+
+TEST(Stretch, OfAnEventThatDoesNotOccurIsRefusedAlone) {
+    const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [
+        {"type": "figure", "figure": "strobe", "at": "impact:7", "file": "a.pdf"},
+        {"type": "figure", "figure": "kymograph", "from": "release", "to": "touch", "file": "b.pdf"},
+        {"type": "figure", "figure": "kymograph", "from": "touch", "file": "c.pdf"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    std::vector<std::string> why;
+    const Plan made = settled_plan(*reading.scene, [&](std::size_t output, const std::string& text) {
+        why.push_back(std::to_string(output) + ": " + text);
+    });
+    ASSERT_EQ(made.figures.size(), 1u);
+    EXPECT_EQ(made.figures[0].file, "c.pdf");
+    ASSERT_EQ(why.size(), 2u);
+    EXPECT_THAT(why[0], HasSubstr("0: there is no impact 7: the motion has 1 until 0.4 s"));
+    EXPECT_THAT(why[1], HasSubstr("1: figure kymograph: its begin, release 1 at 0.28"));
+    const auto report = [](const std::string& keys) {
+        return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
+    };
+    EXPECT_THAT(report(R"("figure": "strobe", "at": "touch", "to": 1)"), HasSubstr("has both \"at\" and \"to\""));
+    EXPECT_THAT(report(R"("figure": "kymograph", "at": "touch")"), HasSubstr("belongs to the figure \"strobe\""));
+}
+
+TEST(Stretch, OfEventsReadsBackAsItWasWritten) {
+    const Reading reading = testing::read(R"({"outputs": [
+        {"type": "figure", "figure": "strobe", "at": "collision:2"},
+        {"type": "figure", "figure": "kymograph", "from": "touch", "to": "apex:3"}]})");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const std::string text = to_json(*reading.scene);
+    const Reading again = testing::read(text);
+    ASSERT_TRUE(again.scene) << again.report();
+    EXPECT_EQ(to_json(*again.scene), text);
+    const auto& keys = std::get<FigureOutput>(again.scene->outputs[1]).series;
+    EXPECT_EQ(keys.to_event, (Instant{.kind = Instant::Kind::apex, .number = 3}));
 }
 
 // A column of 5 ms holds most of a period of the first mode: an instant of it would show a vibration that is not there.

@@ -206,6 +206,44 @@ TEST(Measured, DataAreDrawnAndJudged) {
     EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Data “rig”: at 6 instants θ differs by 0.0"));
 }
 
+// Data of t and θ, drawn over either and over the phase, which the cam's law gives from t.
+TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
+    const Folder folder;
+    folder.write("rig.csv", "t,theta\n0,0.7\n0.1,0.6\n0.2,0.5\n0.35,0.3\n");
+    folder.write("m.json", R"({"time": {"end": 0.4}, "cam": {"speed": -20, "phase": "90 deg"},
+                               "data": [{"file": "rig.csv", "label": "rig", "theta": "theta"}]})");
+    const auto drawn = [&](const std::string& options) {
+        const Finished made =
+            shell(folder, "$BEAMCAM figure m.json " + options + " -o a.svg --data d.csv --caption c.txt");
+        EXPECT_EQ(made.code, 0) << made.err;
+        std::vector<std::pair<double, double>> points;
+        std::istringstream rows(testing::slurp(folder / "d.csv"));
+        for (std::string line; std::getline(rows, line);)
+            if (line.find(",rig,") == 1) {
+                std::vector<std::string> fields;  // panel, series, what x is, x, what y is, y, value
+                std::istringstream in(line);
+                for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+                points.emplace_back(std::stod(fields.at(3)), std::stod(fields.at(5)));
+            }
+        return std::pair(points, made.err);
+    };
+    const auto [phases, quiet] = drawn("--channels theta --x phase");
+    ASSERT_EQ(phases.size(), 4u);
+    const double times[] = {0, 0.1, 0.2, 0.35}, angles[] = {0.7, 0.6, 0.5, 0.3};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double turns = 0.25 + 20 * times[i] / (2 * M_PI);
+        EXPECT_NEAR(phases[i].first, turns - std::floor(turns), 1e-9);
+        EXPECT_NEAR(phases[i].second, angles[i], 1e-12);
+    }
+    EXPECT_EQ(quiet.find("rig"), std::string::npos) << quiet;
+    EXPECT_EQ(drawn("--channels theta,theta_dot --x theta").first.size(), 4u);
+    // Over what the data do not hold they are not drawn, which the caption and the messages say.
+    const auto [none, told] = drawn("--channels theta --x theta_dot");
+    EXPECT_EQ(none.size(), 0u);
+    EXPECT_THAT(told, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" do not hold theta_dot"));
+    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Data “rig” do not hold"));
+}
+
 TEST(Measured, BadFilesAreToldWithTheirPlace) {
     const Folder folder;
     folder.write("m.json", kRig);

@@ -7,7 +7,9 @@
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
 #include "scenes/figures/branches.hpp"
+#include "scenes/figures/growing_diagram.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/sweep_words.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
 #include "tests/scenes/support.hpp"
@@ -64,7 +66,7 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
                 "v_n_before");
     ASSERT_THAT(figure.panels, SizeIs(2));
     EXPECT_EQ(figure.panels[0].clouds.at(0).x, (std::vector<double>{3, 3, 4, 4, 5, 5, 6, 6}));
-    EXPECT_EQ(figure.panels[0].clouds.at(0).y, (std::vector<double>{-1, -2, -1, -2, -1, -2, -1, -2}));
+    EXPECT_EQ(figure.panels[0].clouds.at(0).y, (std::vector<double>{1, 2, 1, 2, 1, 2, 1, 2}));
     EXPECT_THAT(figure.panels[1].cells.at(0).colors, SizeIs(8));
     EXPECT_THAT(figure.panels[1].swatches, SizeIs(8));
     EXPECT_THAT(figure.caption, HasSubstr("transient 200 turns of the cam"));
@@ -151,6 +153,28 @@ TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
     EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
 }
 
+// Columns of files have the sign of v_n, which is negative before an impact; figures have its approach speed.
+TEST(Diagram, OfSamplesAndOfBranchesHaveOneApproachSpeed) {
+    const SweepGrid one = grid(R"({"over": [{"key": "cam.speed", "values": [1]}]})");
+    const auto samples = diagram("bifurcation", one, data(one, {AttractorClass::periodic}), "v_n_before");
+    EXPECT_EQ(samples.panels[0].clouds[0].y, (std::vector<double>{1, 2}));
+    EXPECT_EQ(samples.panels[0].y.label, "approach speed / (m s^{−1})");
+    const auto section = diagram("poincare", one, data(one, {AttractorClass::periodic}), "");
+    EXPECT_EQ(section.panels[0].clouds[0].y, (std::vector<double>{1, 2}));
+    EXPECT_EQ(section.panels[0].y.label, samples.panels[0].y.label);
+    output::BranchTable table;
+    table.key = "cam.speed";
+    sim::BranchPoint point;
+    point.orbit.impacts = {{0, 0.3}};
+    table.branches.emplace_back().points = {point, point};
+    EXPECT_EQ(branches_figure(table, {}, sim::Problem(), Lang::en).panels[0].y.label, samples.panels[0].y.label);
+    const SweepGrid two = grid(
+        R"({"over": [{"key": "cam.speed", "values": [1, 2]}, {"key": "cam.eccentricity", "values": [0.01, 0.02]}]})");
+    const auto map = diagram("map", two, data(two, {AttractorClass::periodic}), "v_n_before");
+    EXPECT_EQ(map.panels[0].cells[0].values, (std::vector<double>{1.5, 1.5, 1.5, 1.5}));
+    EXPECT_EQ(map.panels[0].color_bar->label, "mean of approach speed / (m s^{−1})");
+}
+
 TEST(Diagram, TellsUpAndDownApart) {
     const SweepGrid both =
         grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}], "seed": ["carry-up", "carry-down"]})");
@@ -195,7 +219,7 @@ TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
     EXPECT_EQ(panel.color_bar->to, 2);
     EXPECT_THAT(figure.caption, HasSubstr("White"));
     // The mean of a column's samples, −1 and −2.
-    EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], -1.5);
+    EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], 1.5);
 }
 
 TEST(Diagram, SpeaksChinese) {

@@ -1,0 +1,162 @@
+#include "scenes/figures/bifurcation_diagram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace beamcam::scenes {
+
+namespace figure = render::figure;
+using render::Color;
+using render::rgb;
+using sim::AttractorClass;
+
+namespace {
+
+constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
+
+// The cell of a point in the strip of classes; none beyond the lanes, of which the first start's is the highest.
+std::optional<std::size_t> strip_cell(const SweptPoints& points, const std::vector<std::size_t>& rank,
+                                      std::uint64_t lanes, std::uint64_t k) {
+    const std::uint64_t seed = k % points.seeds();
+    if (seed >= lanes) return std::nullopt;
+    return (lanes - 1 - seed) * rank.size() + rank[k / points.seeds()];
+}
+
+constexpr std::uint64_t kMostLanes = 8;
+
+// Which class stands where: a row of cells for each start.
+figure::Panel class_strip(const SweptPoints& points) {
+    figure::Panel strip;
+    strip.name = "class";
+    const std::vector<double>& values = points.axis(0).values;
+    const std::vector<std::size_t> rank = ranks(values);
+    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
+    figure::Cells cells;
+    cells.x = edges_around(values);
+    for (std::uint64_t lane = 0; lane <= lanes; ++lane) cells.y.push_back(static_cast<double>(lane));
+    cells.colors.assign(values.size() * lanes, Color{0, 0, 0, 0});
+    std::map<AttractorClass, bool> shown;
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+        const std::optional<std::size_t> cell = strip_cell(points, rank, lanes, k);
+        if (!points.data.has(k) || !cell) continue;
+        const AttractorClass kind = kind_of(points.data.read(k));
+        cells.colors[*cell] = color_of(kind);
+        shown[kind] = true;
+    }
+    strip.cells.push_back(std::move(cells));
+    for (const auto& [kind, any] : shown) strip.swatches.push_back({class_label(kind, points.lang), color_of(kind)});
+    strip.y = {.label = {}, .from = 0, .to = static_cast<double>(lanes), .numbered = false, .ticked = false};
+    for (std::uint64_t lane = lanes; lanes > 1 && lane-- > 0;) strip.y.label += look_of(points.seed(lane)).lane;
+    strip.legend = figure::Legend::box;
+    strip.share = 0.16;
+    return strip;
+}
+
+// A cloud for each start that is told apart.
+std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
+    const std::uint64_t count = points.seed(0) == SeedKind::random ? 1 : points.seeds();
+    std::vector<figure::Cloud> clouds;
+    for (std::uint64_t seed = 0; seed < count; ++seed)
+        clouds.push_back(
+            {count > 1 ? look_of(points.seed(seed)).label.in(points.lang) : "",
+             {},
+             {},
+             count > 1 ? rgb(kSeedColors[seed % std::size(kSeedColors)]).faded(seed > 0 ? 0.65 : 1) : rgb(0x000000)});
+    return clouds;
+}
+
+const char* exponent_words(Lang lang) {
+    return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite."
+                            : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
+}
+
+// Samples and exponents as clouds, one for each start that is told apart.
+struct Dots {
+    std::vector<figure::Cloud> samples, exponents;
+};
+Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<std::uint64_t>& order,
+             const Added& added) {
+    const std::size_t width = points.data.columns.size();
+    Dots out{clouds_of_starts(points), clouds_of_starts(points)};
+    for (const std::uint64_t k : order) {
+        if (!points.data.has(k)) continue;
+        const output::StoredPoint p = points.data.read(k);
+        const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
+        const double at = points.data.place(k)[0];
+        if (std::isfinite(p.exponent)) add(out.exponents[cloud], at, p.exponent), added(1, cloud, k);
+        if (!has_section(kind_of(p))) continue;
+        for (std::size_t i = column; i < p.samples.size(); i += width)
+            add(out.samples[cloud], at, drawn(points, column, p.samples[i])), added(0, cloud, k);
+    }
+    return out;
+}
+
+figure::Panel exponents_panel(std::vector<figure::Cloud> clouds) {
+    figure::Panel panel;
+    panel.clouds = std::move(clouds);
+    panel.name = "exponent";
+    panel.y = {.label = "$λ_1$ / s^{−1}"};
+    panel.rules = {{.at = 0}};
+    panel.legend = figure::Legend::none;
+    panel.share = 0.35;
+    return panel;
+}
+
+figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::vector<figure::Cloud> clouds) {
+    figure::Panel panel;
+    panel.clouds = std::move(clouds);
+    panel.name = points.data.columns[column].name;
+    panel.y = {.label = column_label(points, column)};
+    panel.legend = figure::Legend::box;
+    if (!all_empty(panel.clouds)) return panel;
+    panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
+    panel.legend = figure::Legend::none;
+    panel.share = 0.15;
+    return panel;
+}
+
+std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
+
+}  // namespace
+
+std::vector<std::uint64_t> as_numbered(const SweptPoints& points) {
+    std::vector<std::uint64_t> order(points.data.points());
+    std::iota(order.begin(), order.end(), std::uint64_t{0});
+    return order;
+}
+
+std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points) {
+    const std::vector<std::size_t> rank = ranks(points.axis(0).values);
+    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
+    std::vector<std::optional<std::size_t>> cells;
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) cells.push_back(strip_cell(points, rank, lanes, k));
+    return cells;
+}
+
+figure::Figure bifurcation(const SweptPoints& points, const std::string& value, const std::vector<std::uint64_t>& order,
+                           const Added& added) {
+    const std::size_t column = points.column(value.empty() ? usual_value(points) : value);
+    Dots dots = dots_of(points, column, order, added);
+    const bool empty = all_empty(dots.samples), known = !all_empty(dots.exponents);
+    figure::Figure out;
+    out.panels = {samples_panel(points, column, std::move(dots.samples))};
+    if (known) out.panels.push_back(exponents_panel(std::move(dots.exponents)));
+    out.panels.push_back(class_strip(points));
+    const std::vector<double> edges = out.panels.back().cells[0].x;
+    for (figure::Panel& each : out.panels)
+        each.x = {.label = label_of(points.axis(0)),
+                  .scale = points.scale(0),
+                  .from = edges.front(),
+                  .to = edges.back(),
+                  .tight = true};
+    out.stack = out.share_x = true;
+    out.aspect = empty ? 0.35 : known ? 1.05 : 0.8;
+    if (empty) out.caption = points.lang == Lang::en ? "No motion has a section to draw." : "没有可绘制的截面。";
+    if (known) out.caption += (empty ? " " : "") + std::string(exponent_words(points.lang));
+    return out;
+}
+
+}  // namespace beamcam::scenes

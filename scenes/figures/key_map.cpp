@@ -1,0 +1,125 @@
+#include "scenes/figures/key_map.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "render/base/error.hpp"
+#include "render/plot/style.hpp"
+
+namespace beamcam::scenes {
+
+namespace figure = render::figure;
+using render::Color;
+using render::rgb;
+using sim::AttractorClass;
+
+namespace {
+
+// For periods from one to five; beyond these the last.
+constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE1, 0xC6DBEF};
+// What stands in a cell of a map: periods apart from each other, other motions by their class.
+figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
+    if (kind_of(p) != AttractorClass::periodic) return {class_label(kind_of(p), lang), color_of(kind_of(p))};
+    const int most = static_cast<int>(std::size(kPeriodColors)), shown = std::min(p.period, most);
+    const char* text = lang == Lang::en ? shown == most ? "period {} and more" : "period {}"
+                       : shown == most  ? "周期 {} 及以上"
+                                        : "周期 {}";
+    return {filled(text, shown), rgb(kPeriodColors[shown - 1])};
+}
+
+constexpr const char* kMapValues[] = {"class", "exponent", "impacts_per_period"};
+
+// A number of the point, or the mean of a column of its samples; NaN: none.
+double map_value(const SweptPoints& points, const output::StoredPoint& p, const std::string& value) {
+    if (value == "exponent") return std::isfinite(p.exponent) ? p.exponent : sim::kNan;
+    if (value == "impacts_per_period") return p.impacts_per_period;
+    const std::size_t column = points.column(value), width = points.data.columns.size();
+    double sum = 0;
+    for (std::size_t i = column; i < p.samples.size(); i += width) sum += drawn(points, column, p.samples[i]);
+    return p.samples.empty() ? sim::kNan : sum / static_cast<double>(p.samples.size() / width);
+}
+
+std::string map_label(const SweptPoints& points, const std::string& value) {
+    const bool en = points.lang == Lang::en;
+    if (value == "exponent") return en ? "largest exponent / s^{−1}" : "最大 Lyapunov 指数 / s^{−1}";
+    if (value == "impacts_per_period") return en ? "impacts per period" : "每周期碰撞次数";
+    return (en ? "mean of " : "平均 ") + column_label(points, points.column(value));
+}
+
+void color_by_class(const SweptPoints& points, const std::vector<output::StoredPoint>& entries, figure::Panel& panel) {
+    std::map<std::pair<int, std::size_t>, figure::Swatch> swatches;  // in the order of classes, then of periods
+    for (const output::StoredPoint& p : entries) {
+        const figure::Swatch entry = map_entry(p, points.lang);
+        panel.cells[0].colors[p.point] = entry.color;
+        const auto period = static_cast<std::size_t>(std::max(p.period, 0));
+        swatches.emplace(std::pair(p.kind, std::min(period, std::size(kPeriodColors))), entry);
+    }
+    for (const auto& [order, entry] : swatches) panel.swatches.push_back(entry);
+    panel.legend = figure::Legend::box;
+}
+
+// Cells without a number stay white.
+void color_by_value(const SweptPoints& points, const std::vector<output::StoredPoint>& entries,
+                    const std::string& value, figure::Panel& panel) {
+    figure::Cells& cells = panel.cells[0];
+    cells.values.assign(cells.colors.size(), sim::kNan);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const output::StoredPoint& p : entries) {
+        const double number = cells.values[p.point] = map_value(points, p, value);
+        if (std::isnan(number)) continue;
+        low = std::min(low, number);
+        high = std::max(high, number);
+    }
+    if (!(low <= high))
+        throw render::PictureError(fmt::format("no point of this sweep has a number for \"{}\"", value));
+    if (low == high) low -= 0.5, high += 0.5;
+    for (std::size_t i = 0; i < cells.colors.size(); ++i)
+        if (!std::isnan(cells.values[i])) cells.colors[i] = figure::map_color((cells.values[i] - low) / (high - low));
+    panel.color_bar = figure::ColorBar{.label = map_label(points, value), .from = low, .to = high};
+    panel.legend = figure::Legend::none;
+}
+
+// What a map coloured by a number leaves white.
+std::string white_words(const SweptPoints& points, const std::string& value) {
+    const bool en = points.lang == Lang::en;
+    if (value == "class") return "";
+    if (value == "exponent")
+        return en ? "White: the exponent is not known, or −∞ where lasting contact forgets every difference."
+                  : "白色：指数未知，或持续接触使一切差异消失（−∞）。";
+    return en ? "White: no sample." : "白色：无样本。";
+}
+
+}  // namespace
+
+figure::Figure key_map(const SweptPoints& points, const std::string& asked) {
+    const std::string value = asked.empty() ? kMapValues[0] : asked;
+    figure::Panel panel;
+    panel.name = value;
+    const output::SweepAxis &across = points.axis(0), &up = points.axis(1);
+    const std::vector<std::size_t> column = ranks(across.values), row = ranks(up.values);
+    panel.cells.push_back({edges_around(across.values), edges_around(up.values), {}});
+    panel.cells[0].colors.assign(across.values.size() * up.values.size(), Color{0, 0, 0, 0});
+    std::vector<output::StoredPoint> entries;  // of the first start; `point` is the place of its cell
+    for (std::uint64_t k = 0; k < points.data.points(); k += points.seeds()) {
+        if (!points.data.has(k)) continue;
+        const std::uint64_t cell = k / points.seeds(), width = across.values.size();
+        entries.push_back(points.data.read(k));
+        entries.back().point = row[cell / width] * width + column[cell % width];
+    }
+    if (value == "class")
+        color_by_class(points, entries, panel);
+    else
+        color_by_value(points, entries, value, panel);
+    panel.x = {.label = label_of(across), .scale = points.scale(0), .tight = true};
+    panel.y = {.label = label_of(up), .scale = points.scale(1), .tight = true};
+    figure::Figure out;
+    out.panels = {std::move(panel)};
+    out.aspect = 0.9;
+    out.caption = white_words(points, value);
+    return out;
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,14 @@
+// A map over two keys: the class of each motion, or a number of it, as colours.
+#pragma once
+
+#include <string>
+
+#include "scenes/figures/swept_points.hpp"
+
+namespace beamcam::scenes {
+
+// `value`: "class", "exponent", "impacts_per_period" or a column of the samples, whose mean is shown; empty: the class.
+// Throws PictureError for another, or where no point has the number.
+render::figure::Figure key_map(const SweptPoints& points, const std::string& value);
+
+}  // namespace beamcam::scenes

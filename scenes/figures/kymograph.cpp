@@ -1,0 +1,114 @@
+// The deflection along the beam in time, as colours.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/plot/ticks.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/stretch.hpp"
+#include "sim/beam/modes.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+
+constexpr int kColumns = 600, kStations = 65;  // a printed column resolves no more
+constexpr int kMostLooks = 16;                 // at a column
+
+// How often a column is looked at, so that vibrations that are faster than columns are not mistaken for slow ones.
+std::size_t looks_at_column(const sim::Problem& problem, double column) {
+    const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
+    if (modes.empty() || !(modes.front().omega > 0)) return 1;
+    const double periods = column * modes.front().omega / (2 * std::numbers::pi);
+    return periods < 0.25 ? 1 : static_cast<std::size_t>(std::clamp(std::ceil(8 * periods), 2.0, double(kMostLooks)));
+}
+
+// Of each column and station the value that is farthest from none.
+std::vector<double> extremes(const std::vector<sim::Pose>& poses, std::size_t looks) {
+    std::vector<double> out(kColumns * kStations, 0);
+    for (std::size_t row = 0; row < poses.size(); ++row) {
+        const std::vector<double> v = sim::deflection(poses[row]);
+        for (std::size_t i = 0; i < kStations; ++i)
+            if (double& most = out[row / looks * kStations + i]; row % looks == 0 || std::abs(v[i]) > std::abs(most))
+                most = v[i];
+    }
+    return out;
+}
+
+// Deflections as colours, of each column and station.
+render::figure::Cells cells_of_deflection(const std::vector<double>& v, const Stretch& shown, double length,
+                                          double least, double range, double unit) {
+    render::figure::Cells cells;
+    for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
+    for (int i = 0; i <= kStations; ++i) cells.y.push_back(length * i / kStations);
+    for (std::size_t i = 0; i < kStations; ++i)
+        for (std::size_t k = 0; k < kColumns; ++k)
+            cells.colors.push_back(render::figure::map_color((v[k * kStations + i] - least) / range)),
+                cells.values.push_back(v[k * kStations + i] / unit);
+    return cells;
+}
+
+Panel kymograph_panel(const std::vector<double>& v, const Stretch& shown, double length) {
+    const auto [least, most] = std::ranges::minmax(v);
+    const render::Prefix prefix = render::prefix_for(std::max(-least, most));
+    const double range = most > least ? most - least : 1;
+    Panel panel;
+    panel.x.label = "$t$ / s";
+    panel.y.label = "$x$ / m";
+    panel.y.tight = true;
+    panel.legend = Legend::none;
+    panel.color_bar = render::figure::ColorBar{.label = fmt::format("$v$($x$, $t$) / {}m", prefix.symbol),
+                                               .from = least / prefix.factor,
+                                               .to = (least + range) / prefix.factor};
+    panel.cells.push_back(cells_of_deflection(v, shown, length, least, range, prefix.factor));
+    return panel;
+}
+
+FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
+    const std::size_t looks = looks_at_column(scene.problem, column);
+    const Stretch shown = stretch(scene, how, kColumns * static_cast<int>(looks), kStations, studies);
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const bool en = lang == Lang::en;
+        const sim::Result& result = *results[shown.study];
+        const std::vector<double> v = extremes(result.poses[shown.poses], looks);
+        Panel panel = kymograph_panel(v, shown, problem.beam.length);
+        int hits = 0;
+        for (const sim::Impact& hit : result.impacts)
+            if (hit.t_start >= shown.from && hit.t_start <= shown.to && strikes(problem, hit))
+                panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true}), ++hits;
+        Figure figure;
+        figure.name = "kymograph";
+        figure.title = en ? "Deflection along the beam in time" : "梁挠度的时空图";
+        figure.panels.push_back(std::move(panel));
+        figure.caption = filled(en ? "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
+                                     "time, a column each {} s. "
+                                   : "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
+                                number((shown.to - shown.from) / (kColumns - 1), 2));
+        if (looks > 1)
+            figure.caption += filled(en ? "The beam vibrates within a column, which has the largest deflection of {} "
+                                          "instants. "
+                                        : "一列之内梁多次振动，取 {} 个时刻中的最大挠度。",
+                                     looks);
+        if (hits > 0) figure.caption += en ? "Marks: impacts. " : "标记：冲击。";
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+std::optional<std::string> needs_bending(const Scene& scene) {
+    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
+    return "a rigid beam does not bend; choose another beam.model";
+}
+
+}  // namespace
+
+const Recipe kKymograph{
+    "kymograph", {"Deflection along the beam in time", "梁挠度的时空图"}, needs_bending, prepare_kymograph, true};
+}  // namespace beamcam::scenes

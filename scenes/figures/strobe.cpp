@@ -1,0 +1,150 @@
+// The mechanism at several instants, or a still picture of it at one, in lines.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/mechanism/exaggeration.hpp"
+#include "render/plot/ticks.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/stretch.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Figure;
+using render::figure::Panel;
+using render::figure::Shape;
+using sim::Vec2;
+
+constexpr int kShownPoses = 9, kPoseStations = 65;
+
+void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, std::vector<Shape>& out,
+              render::Bounds& extent) {
+    for (const Vec2 p : pose.centreline) extent.add(p);
+    if (problem.cam) extent.add(pose.disc_centre, problem.cam->radius);
+    out.push_back({.kind = Shape::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
+    if (!problem.cam) return;
+    out.push_back({.kind = Shape::Kind::circle,
+                   .centre = pose.disc_centre,
+                   .radius = problem.cam->radius,
+                   .color = color,
+                   .width = 0.9});
+    const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
+    out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = color, .width = 0.6});
+}
+
+// One instant: bodies to scale, and the force between them.
+void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<Shape>& out, render::Bounds& extent) {
+    const render::Color ink = render::rgb(0x000000), steel = render::rgb(0xE4E6EB), red = render::rgb(0xD55E00);
+    const auto body = [&](Shape shape) {
+        shape.color = steel;
+        out.push_back(shape);
+        shape.kind = shape.kind == Shape::Kind::area ? Shape::Kind::line : Shape::Kind::circle;
+        if (!shape.points.empty()) shape.points.push_back(shape.points.front());
+        shape.color = ink, shape.width = 0.8;
+        out.push_back(std::move(shape));
+    };
+    if (problem.cam) {
+        extent.add(pose.disc_centre, problem.cam->radius);
+        body({.kind = Shape::Kind::disc, .centre = pose.disc_centre, .radius = problem.cam->radius});
+        const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
+        out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = ink, .width = 0.6});
+    }
+    if (problem.hub.radius > 0) body({.kind = Shape::Kind::disc, .radius = problem.hub.radius});
+    const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, problem.beam.depth);
+    Shape outline{.kind = Shape::Kind::area};
+    for (std::size_t i = 0; i < beam.line.size(); ++i) outline.points.push_back(beam.face(i));
+    for (std::size_t i = beam.line.size(); i-- > 0;) outline.points.push_back(beam.back(i));
+    for (const Vec2 p : outline.points) extent.add(p);
+    body(std::move(outline));
+    if (!pose.nearest || !(pose.nearest->force > 0)) return;
+    // On the beam, from the disc.
+    const Vec2 at = pose.nearest->point, tip = at + 0.2 * problem.beam.length * pose.nearest->normal;
+    extent.add(tip);
+    out.push_back({.kind = Shape::Kind::arrow, .points = {at, tip}, .color = red, .width = 1});
+    out.push_back({.kind = Shape::Kind::label,
+                   .points = {tip},
+                   .color = red,
+                   .markup = "$F$ = " + render::quantity(pose.nearest->force, "N"),
+                   .shift = {-0.4, 0.2},
+                   .align = render::HAlign::right});
+}
+
+// Beyond the tip, where no other beam comes.
+void add_instant(const sim::Pose& pose, std::vector<Shape>& out) {
+    const Vec2 along = sim::unit(pose.theta);
+    const bool level = std::abs(along.x) > 0.5;
+    using render::figure::VAlign;
+    out.push_back({.kind = Shape::Kind::label,
+                   .points = {pose.centreline.back()},
+                   .color = render::rgb(0x000000),
+                   .markup = number(pose.t, 3) + " s",
+                   .shift = along * 0.5,
+                   .align = !level         ? render::HAlign::centre
+                            : along.x >= 0 ? render::HAlign::left
+                                           : render::HAlign::right,
+                   .valign = level         ? VAlign::middle
+                             : along.y > 0 ? VAlign::bottom
+                                           : VAlign::top});
+}
+
+Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
+    Panel panel;
+    const bool one = poses.size() == 1;
+    if (one) add_bodies(poses.front(), problem, panel.shapes, extent);
+    for (std::size_t k = 0; k < poses.size() && !one; ++k) {
+        const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
+        add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes, extent);
+    }
+    const render::Color ink = render::rgb(0x000000);
+    panel.shapes.push_back({.kind = Shape::Kind::disc, .radius_points = 2, .color = ink});
+    if (problem.hub.radius > 0 && !one)
+        panel.shapes.push_back({.kind = Shape::Kind::circle, .radius = problem.hub.radius, .color = ink, .width = 0.9});
+    if (problem.cam)
+        panel.shapes.push_back(
+            {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
+    // First and last; together they would stand on each other.
+    add_instant(poses.front(), panel.shapes);
+    constexpr double kApart = 0.12;  // [rad]
+    if (std::abs(poses.back().theta - poses.front().theta) > kApart) add_instant(poses.back(), panel.shapes);
+    return panel;
+}
+
+std::string strobe_caption(std::size_t count, const Stretch& shown, Lang lang) {
+    const bool en = lang == Lang::en;
+    return count == 1
+               ? filled(en ? "The mechanism at {} s, deflection to scale. " : "{} s 时的机构，挠度按比例。",
+                        number(shown.from, 4))
+               : filled(en ? "The mechanism at {} instants from {} s (pale) to {} s (dark), equally spaced, deflection "
+                             "to scale. "
+                           : "机构在 {} 个等距时刻的位置，自 {} s（浅）至 {} s（深），挠度按比例。",
+                        count, number(shown.from, 4), number(shown.to, 4));
+}
+
+FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const bool one = how.series.to && *how.series.to == how.series.from;
+    const Stretch shown = stretch(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+        const sim::Result& result = *results[shown.study];
+        std::vector<sim::Pose> poses = result.poses[shown.poses];
+        if (one) poses.resize(1);
+        render::Bounds extent;
+        Figure figure;
+        figure.name = "strobe";
+        figure.title = lang == Lang::en ? "The mechanism at several instants" : "机构的多时刻叠加";
+        figure.panels.push_back(strobe_panel(poses, problem, extent));
+        // As the shapes need it, with the room around them and for words beside them.
+        figure.aspect =
+            std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
+        figure.caption = strobe_caption(poses.size(), shown, lang) + facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, &result}}, lang);
+        return figure;
+    };
+}
+
+}  // namespace
+
+const Recipe kStrobe{
+    "strobe", {"The mechanism at several instants", "机构的多时刻叠加"}, no_refusal, prepare_strobe, true};
+}  // namespace beamcam::scenes

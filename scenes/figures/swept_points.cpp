@@ -1,0 +1,101 @@
+#include "scenes/figures/swept_points.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "render/base/error.hpp"
+#include "scenes/figures/key_label.hpp"
+
+namespace beamcam::scenes {
+
+namespace figure = render::figure;
+using render::Color;
+using sim::AttractorClass;
+
+namespace {
+
+// How each class is drawn and called.
+struct ClassLook {
+    AttractorClass kind;
+    std::uint32_t color;
+    const char* zh;
+};
+constexpr ClassLook kClasses[] = {
+    {AttractorClass::rest, 0xF2F2F2, "静止"},         {AttractorClass::following, 0xD0D0D0, "跟随"},
+    {AttractorClass::periodic, 0x0072B2, "周期"},     {AttractorClass::quasi_periodic, 0x009E73, "准周期"},
+    {AttractorClass::chaotic, 0xD55E00, "混沌"},      {AttractorClass::aperiodic, 0xE69F00, "非周期"},
+    {AttractorClass::over_the_top, 0x404040, "翻越"}, {AttractorClass::unsettled, 0xF0E442, "未定"},
+};
+const ClassLook& look_of(AttractorClass kind) { return *std::ranges::find(kClasses, kind, &ClassLook::kind); }
+
+constexpr StartLook kStarts[] = {
+    {SeedKind::same, {"same start", "相同初值"}, "= "},
+    {SeedKind::carry_up, {"carried up", "递增延续"}, "→ "},
+    {SeedKind::carry_down, {"carried down", "递减延续"}, "← "},
+    {SeedKind::random, {"random starts", "随机初值"}, ""},
+};
+constexpr std::string_view kApproach = "v_n_before";
+
+}  // namespace
+
+SweptPoints::SweptPoints(const Swept& swept, Lang how)
+    : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {}
+
+figure::Scale SweptPoints::scale(std::size_t i) const {
+    return scene.sweep->over[i].logarithmic ? figure::Scale::logarithmic : figure::Scale::linear;
+}
+
+std::size_t SweptPoints::column(const std::string& name) const {
+    std::vector<std::string> known;
+    for (std::size_t c = 0; c < data.columns.size(); ++c) {
+        if (data.columns[c].name == name) return c;
+        known.push_back(data.columns[c].name);
+    }
+    throw render::PictureError(fmt::format("the samples have no column {}: {}", name, fmt::join(known, ", ")));
+}
+
+Color color_of(AttractorClass kind) { return render::rgb(look_of(kind).color); }
+std::string class_label(AttractorClass kind, Lang lang) { return lang == Lang::en ? name(kind) : look_of(kind).zh; }
+
+const StartLook& look_of(SeedKind kind) { return *std::ranges::find(kStarts, kind, &StartLook::kind); }
+
+std::string column_label(const SweptPoints& points, std::size_t column) {
+    const bool en = points.lang == Lang::en;
+    const std::string &name = points.data.columns[column].name, &unit = points.data.columns[column].unit;
+    if (name == "cam_phase") return en ? "cam phase / turn" : "凸轮相位 / 转";
+    if (name == kApproach) return axis_label(kApproachSpeed.in(points.lang), unit);
+    return axis_label(symbol_of(name), unit);
+}
+
+double drawn(const SweptPoints& points, std::size_t column, double sample) {
+    return points.data.columns[column].name == kApproach ? -sample : sample;
+}
+
+std::string label_of(const output::SweepAxis& axis) { return axis_label(symbol_of(axis.name), axis.unit); }
+
+// Edges of cells around the values, half-way between neighbours.
+std::vector<double> edges_around(std::vector<double> values) {
+    std::ranges::sort(values);
+    if (values.size() == 1) return {values[0] - 0.5, values[0] + 0.5};
+    std::vector<double> edges{values[0] - 0.5 * (values[1] - values[0])};
+    for (std::size_t i = 1; i < values.size(); ++i) edges.push_back(0.5 * (values[i - 1] + values[i]));
+    edges.push_back(values.back() + 0.5 * (values.back() - values[values.size() - 2]));
+    return edges;
+}
+// By index the place of each value in ascending order.
+std::vector<std::size_t> ranks(const std::vector<double>& values) {
+    std::vector<std::size_t> order(values.size()), rank(values.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+    for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
+    return rank;
+}
+
+bool all_empty(const std::vector<figure::Cloud>& clouds) {
+    return std::ranges::all_of(clouds, [](const figure::Cloud& cloud) { return cloud.x.empty(); });
+}
+
+}  // namespace beamcam::scenes

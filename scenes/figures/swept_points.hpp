@@ -1,0 +1,63 @@
+// The points of a sweep as its figures read them, and how their classes, starts and columns are drawn and called.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "output/data/sweep_data.hpp"
+#include "render/plot/figure.hpp"
+#include "scenes/figures/caption.hpp"
+#include "scenes/figures/studies.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/sweep/attractor.hpp"
+
+namespace beamcam::scenes {
+
+class SweptPoints {
+  public:
+    SweptPoints(const Swept& swept, Lang how);
+    const output::SweepAxis& axis(std::size_t i) const { return data.axes.at(i); }
+    std::uint64_t seeds() const { return starts_.size(); }
+    SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
+    render::figure::Scale scale(std::size_t i) const;
+    // Of the samples; throws PictureError.
+    std::size_t column(const std::string& name) const;
+    bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }
+
+    const Scene& scene;
+    const output::SweepData& data;
+    const Lang lang;
+
+  private:
+    std::vector<SeedKind> starts_;
+};
+
+inline sim::AttractorClass kind_of(const output::StoredPoint& p) { return static_cast<sim::AttractorClass>(p.kind); }
+render::Color color_of(sim::AttractorClass kind);
+std::string class_label(sim::AttractorClass kind, Lang lang);
+
+struct StartLook {
+    SeedKind kind;
+    Words label;
+    const char* lane;  // beside the strip of classes, whose highest lane is the first start
+};
+const StartLook& look_of(SeedKind kind);
+
+// A column of samples along an axis. Figures draw the speed v_n before an impact as the approach speed −v_n.
+std::string column_label(const SweptPoints& points, std::size_t column);
+double drawn(const SweptPoints& points, std::size_t column, double sample);
+std::string label_of(const output::SweepAxis& axis);
+
+// Edges of cells around the values, half-way between neighbours.
+std::vector<double> edges_around(std::vector<double> values);
+// By index the place of each value in ascending order.
+std::vector<std::size_t> ranks(const std::vector<double>& values);
+
+inline void add(render::figure::Cloud& cloud, double x, double y) {
+    cloud.x.push_back(x);
+    cloud.y.push_back(y);
+}
+bool all_empty(const std::vector<render::figure::Cloud>& clouds);
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,55 @@
+#include "scenes/plan/figure_times.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "render/base/error.hpp"
+#include "scenes/figures/prefixes.hpp"
+#include "scenes/scene/time_map.hpp"
+
+namespace beamcam::scenes {
+
+void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& how) {
+    const Recipe* recipe = recipe_named(how.figure);
+    if (!recipe) throw std::logic_error("a figure that the reader does not know: " + how.figure);
+    Studies studies;
+    figure.make = [make = recipe->prepare(scene, how, studies), height = how.series.height](const Results& results) {
+        render::figure::Figure made = make(results);
+        choose_prefixes(made);
+        if (height) made.height = *height * 1e3;
+        return made;
+    };
+    figure.studies = studies.take();
+    const std::string own = Studies::key(scene.problem);
+    for (Study& study : figure.studies) study.of_scene = Studies::key(study.problem) == own;
+}
+
+const sim::Problem& counted_motion(const Scene& scene, const FigureOutput& how) {
+    return how.series.compare.empty() ? scene.problem : how.series.compare.front().problem;
+}
+
+bool looks_at_apexes(const FigureOutput& how) {
+    for (const auto& each : {how.series.from_event, how.series.to_event, how.series.at})
+        if (each && each->kind == Instant::Kind::apex) return true;
+    return false;
+}
+
+FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, double end_time) {
+    const auto words = [](const std::optional<Instant>& event, double t) {
+        return event ? fmt::format("{} at {:g} s", name_of(*event), t) : fmt::format("{:g} s", t);
+    };
+    const auto from_event = how.series.from_event, to_event = how.series.to_event;
+    SeriesKeys series = with_times(std::move(how.series), motion);
+    if (const auto at = std::exchange(series.at, {}))
+        series.from = at->kind == Instant::Kind::last ? end_time : instant_of(*at, motion), series.to = series.from;
+    const double end = series.to.value_or(end_time);
+    if (!(series.from < end) && !(how.figure == "strobe" && series.from == end))
+        throw render::PictureError(fmt::format("figure {}: its begin, {}, is not before its end, {}", how.figure,
+                                               words(from_event, series.from), words(to_event, end)));
+    how.series = std::move(series);
+    return how;
+}
+
+}  // namespace beamcam::scenes
