@@ -12,19 +12,20 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLabel = 60;  // from there on a label has a line to what it tells of [design px]
+constexpr double kFarLabel = 60, kFarLetter = 26;  // from there on a label has a line to its owner [design px]
 
-// One of the labels that keep their place, with a line to its owner, if that is wanted, where it is far.
-void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style,
-                std::optional<Vec2> owner = {}) {
+// One of the labels that keep their place, with a line to its owner where that is far. A moving camera that sees one of
+// them shows both: the label stays within the view.
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
+                double far = kFarLabel) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.at.label_box(label, s.view);
-    if (opacity <= 0 || !s.at.shows(box.centre())) return;
+    if (opacity <= 0 || !(s.at.shows(owner) || s.at.shows(s.px(label.middle)))) return;
     style.color = style.color.faded(opacity);
     if (!s.view) style.halo = s.at.palette.paper.faded(opacity);  // over a soft shadow it would only glow
-    const Vec2 to = owner.value_or(box.centre());
+    const Vec2 to = owner;
     const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
-    if (const double way = norm(to - edge); way > kFarLabel * s.at.unit) {
+    if (const double way = norm(to - edge); way > far * s.at.unit) {
         const Vec2 gap = (to - edge) * (6 * s.at.unit / way);
         s.canvas.move_to(edge + gap);
         s.canvas.line_to(to - gap);
@@ -82,7 +83,7 @@ void draw_angle_arc(const MechanismScene& s) {
     if (s.at.labels->angle)
         draw_label(s, *s.at.labels->angle, math("θ"),
                    {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
-                   s.on(o + Vec2{radius, 0}));
+                   s.on(o + Vec2{radius, 0}), kFarLetter);
 }
 
 // Outside the circle that the disc sweeps, on a side away from the beam; positive speed turns clockwise.
@@ -137,16 +138,18 @@ void draw_disc_letters(const MechanismScene& s) {
     if (!s.shape.disc) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
-    const double size = 22 * s.at.marks;
-    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
+    const double usual = 22 * s.at.marks;
+    if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
+    const double size = std::max(usual, std::min(least_letter(s.at), 22.0 / 60 * d.radius));
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
     s.canvas.text(s.on(d.centre + along * (20 * s.at.marks)) + Vec2{0, 7 * s.at.marks}, math("B"), style);
-    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands
-    // beside.
+    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim, where contacts
+    // and their rings are: it stands beside, a little inwards.
     const double off = d.bore + (s.view ? 24 : 16) * s.at.marks;
-    const Vec2 way = apart + off + 24 * s.at.marks <= d.radius ? along * -1 : Vec2{along.y, -along.x};
+    const Vec2 way =
+        apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
     s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * s.at.marks}, math("C"), style);
 }
 

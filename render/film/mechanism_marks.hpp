@@ -9,7 +9,7 @@
 
 namespace beamcam::render {
 
-inline constexpr double kReadable = 9;  // the least size of letters [px]
+inline constexpr double kReadable = 9;  // the least size of letters in any picture [px]
 
 // As its arc shows it: in the sense in which the hub has turned, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);

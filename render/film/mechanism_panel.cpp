@@ -97,7 +97,7 @@ void MechanismPanel::place_words(OccupancyGrid room) {
     }
     if (!has_bar()) return;
     const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
-                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = 17 * at_.unit}).w);
+                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = at_.facts.tick}).w);
     bar_ = choose({wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right);
 }
 
@@ -281,7 +281,7 @@ void MechanismPanel::scale_bar(Canvas& canvas, const MechanismView& at) const {
     canvas.stroke({at_.palette.muted, 1.6 * at_.unit, {}, Cap::butt});
     canvas.text(
         {middle, y - 9 * at_.unit}, quantity(scale_length(at), "m"),
-        {.size = 17 * at_.unit, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
+        {.size = at_.facts.tick, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
 }
 
 TextStyle MechanismPanel::label_style() const {
@@ -368,11 +368,11 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     }
     draw_cam_speed(s);
     if (style != Style::solid) bodies();
-    draw_disc_letters(s);
     if (!s.view && one) draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
+    draw_disc_letters(s);  // which a ring would make hard to read
     draw_force(s, push_of(pose, drawn, rings_.peak(frame)));
     if (at.member == 0) draw_captions(s);
 }
