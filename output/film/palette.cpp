@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kBits = 5, kSide = 1 << kBits, kFineBits = 6, kFineSide = 1 << kFineBits;
 constexpr std::size_t kColors = 256, kExact = 24;  // of them kept for the commonest colours as they are
+// The last few colours would cost more bytes than they are worth: equal pixels compress better.
+constexpr std::size_t kUsed = 232;
 
 struct PaletteColor {
     int r, g, b;
@@ -32,14 +34,15 @@ PaletteColor unpacked(std::uint32_t color) {
     return {static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255), static_cast<int>(color & 255)};
 }
 // By roughly what the eye tells apart.
+int distance(PaletteColor a, PaletteColor b) {
+    const int dr = a.r - b.r, dg = a.g - b.g, db = a.b - b.b;
+    return 2 * dr * dr + 4 * dg * dg + 3 * db * db;
+}
 std::size_t nearest(const std::vector<std::uint32_t>& colors, PaletteColor c) {
     std::size_t best = 0;
     int least = std::numeric_limits<int>::max();
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-        const PaletteColor p = unpacked(colors[i]);
-        const int dr = c.r - p.r, dg = c.g - p.g, db = c.b - p.b, d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;
-        if (d < least) least = d, best = i;
-    }
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        if (const int d = distance(c, unpacked(colors[i])); d < least) least = d, best = i;
     return best;
 }
 std::size_t cell_of(PaletteColor c, int bits) {
@@ -161,7 +164,7 @@ std::vector<std::uint32_t> PaletteMaker::colors() const {
     std::vector<std::uint32_t> out = frequent();
     if (items.empty()) return {0xff000000U};
     const std::size_t fixed = out.size();
-    std::ranges::copy(median_cut(std::move(items), kColors - fixed), std::back_inserter(out));
+    std::ranges::copy(median_cut(std::move(items), kUsed - fixed), std::back_inserter(out));
     refine(out, fixed);
     std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -188,17 +191,36 @@ void PaletteMaker::refine(std::vector<std::uint32_t>& colors, std::size_t fixed)
     }
 }
 
+// A colour can be the nearest to a place in a cell if it is no farther from the cell's centre than the nearest one and
+// twice the way from there to a corner.
 PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colors.begin(), colors.end()) {
     if (colors_.empty() || colors_.size() > kColors) throw std::logic_error("PaletteTable: 1 to 256 colours");
-    index_.resize(static_cast<std::size_t>(kFineSide) * kFineSide * kFineSide);
+    constexpr int kHalf = 1 << (7 - kFineBits);
+    const double corner = std::sqrt(distance({kHalf, kHalf, kHalf}, {0, 0, 0}));
+    cells_.reserve(static_cast<std::size_t>(kFineSide) * kFineSide * kFineSide);
+    std::vector<int> far(colors_.size());
     for (int r = 0; r < kFineSide; ++r)
         for (int g = 0; g < kFineSide; ++g)
-            for (int b = 0; b < kFineSide; ++b)
-                index_[static_cast<std::size_t>((r << 2 * kFineBits) | (g << kFineBits) | b)] =
-                    static_cast<std::uint8_t>(nearest(colors_, {4 * r + 2, 4 * g + 2, 4 * b + 2}));
-    // Colours of the palette map to themselves whatever their cell's centre is nearest to.
-    for (std::size_t i = 0; i < colors_.size(); ++i)
-        index_[cell_of(unpacked(colors_[i]), kFineBits)] = static_cast<std::uint8_t>(i);
+            for (int b = 0; b < kFineSide; ++b) {
+                const PaletteColor centre{2 * kHalf * r + kHalf, 2 * kHalf * g + kHalf, 2 * kHalf * b + kHalf};
+                for (std::size_t i = 0; i < far.size(); ++i) far[i] = distance(centre, unpacked(colors_[i]));
+                const double reach = std::sqrt(*std::ranges::min_element(far)) + 2 * corner;
+                const auto first = static_cast<std::uint32_t>(candidates_.size());
+                for (std::size_t i = 0; i < far.size(); ++i)
+                    if (far[i] <= reach * reach) candidates_.push_back(static_cast<std::uint8_t>(i));
+                cells_.push_back({first, static_cast<std::uint16_t>(candidates_.size() - first)});
+            }
+}
+
+std::uint8_t PaletteTable::index_of(std::uint32_t pixel) const {
+    const PaletteColor c = over_white(pixel);
+    const Cell& cell = cells_[cell_of(c, kFineBits)];
+    std::uint8_t best = candidates_[cell.first];
+    if (cell.count == 1) return best;
+    int least = std::numeric_limits<int>::max();
+    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i)
+        if (const int d = distance(c, unpacked(colors_[candidates_[i]])); d < least) least = d, best = candidates_[i];
+    return best;
 }
 
 void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
@@ -207,7 +229,8 @@ void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::pt
         for (int y = top; y < bottom; ++y) {
             const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
             std::uint8_t* out = to + y * stride;
-            for (int x = left; x < right; ++x) out[x] = index_[cell_of(over_white(row[x]), kFineBits)];
+            for (int x = left; x < right; ++x)
+                out[x] = x > left && row[x] == row[x - 1] ? out[x - 1] : index_of(row[x]);
         }
     });
 }

@@ -2,7 +2,8 @@
 //
 // The colours are found once, from a few frames, so that nothing flickers: by median cut on a histogram of 5 bits a
 // channel, in which rare colours weigh more than their area, then by Lloyd's steps to the means of their pixels; a
-// table of 64³ cells turns pixels into indices, one picture at a time. Transparent pixels show over white.
+// table of 64³ cells, with the few colours that are nearest to any place in each, turns pixels into the indices of
+// their nearest colours, one picture at a time. Transparent pixels show over white.
 #pragma once
 
 #include <array>
@@ -43,8 +44,14 @@ class PaletteTable {
     void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const;
 
   private:
+    std::uint8_t index_of(std::uint32_t pixel) const;
+    struct Cell {
+        std::uint32_t first = 0;  // in `candidates_`
+        std::uint16_t count = 0;
+    };
     std::vector<std::uint32_t> colors_;
-    std::vector<std::uint8_t> index_;  // 64³: by the upper 6 bits of each channel
+    std::vector<Cell> cells_;               // 64³: by the upper 6 bits of each channel
+    std::vector<std::uint8_t> candidates_;  // of each cell: the colours that are nearest to a place in it
 };
 
 }  // namespace beamcam::output

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -61,91 +62,86 @@ const char* container_of(std::string_view ending) {
     return "mp4";
 }
 
+struct PixelKind {
+    const char* name;
+    PixelLayout layout;
+};
+
+// One for each codec. The values "CRF" and "PRESET" are the film's own.
+struct EncoderRow {
+    Codec codec;
+    std::vector<std::string> encoders;  // the first that FFmpeg has
+    PixelKind opaque, transparent;
+    OptionList options, container_options = {};
+    OptionList opaque_options = {}, transparent_options = {};  // of such films, beside `options`
+};
+
+const std::vector<EncoderRow>& encoder_rows() {
+    using enum PixelLayout;
+    constexpr PixelKind k420{"yuv420p", yuv420}, kAlpha420{"yuva420p", yuva420}, k444{"yuva444p10le", yuva444p10},
+        kIndices{"pal8", indices}, kBgra{"bgra", bgra}, kBgr{"bgr0", bgra}, kRgba{"rgba", rgba}, kRgb{"rgb24", rgb};
+    static const std::vector<EncoderRow> rows{
+        // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
+        {Codec::h264,
+         {"libx264"},
+         k420,
+         k420,
+         {{"preset", "PRESET"}, {"crf", "CRF"}, {"x264-params", "cpu-independent=1"}}},
+        // One frame at a time: else the film depends on the number of processors.
+        {Codec::hevc,
+         {"libx265"},
+         k420,
+         kAlpha420,
+         {{"preset", "fast"}, {"crf", "CRF"}, {"x265-params", "log-level=none:frame-threads=1"}}},
+        // Columns of tiles may run on several threads; the picture does not depend on how many do. Films with alpha
+        // cannot have alternative reference frames.
+        {Codec::vp9,
+         {"libvpx-vp9"},
+         k420,
+         kAlpha420,
+         {{"crf", "CRF"}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}},
+         {},
+         {},
+         {{"auto-alt-ref", "0"}}},
+        {Codec::av1,
+         {"libsvtav1", "libaom-av1"},
+         k420,
+         k420,
+         {{"crf", "CRF"}, {"libsvtav1:preset", "8"}, {"libaom-av1:cpu-used", "6"}, {"libaom-av1:b", "0"}}},
+        {Codec::prores,
+         {"prores_ks"},
+         k444,
+         k444,
+         {{"profile", "4444"}, {"vendor", "apl0"}},
+         {},
+         {{"alpha_bits", "0"}},
+         {{"alpha_bits", "16"}}},
+        {Codec::ffv1, {"ffv1"}, kBgr, kBgra, {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}}},
+        {Codec::gif, {"gif"}, kIndices, kIndices, {}, {{"loop", "0"}}},
+        {Codec::apng, {"apng"}, kRgb, kRgba, {{"compression_level", "6"}, {"pred", "up"}}, {{"plays", "0"}}},
+        {Codec::webp,
+         {"libwebp_anim"},
+         kBgra,
+         kBgra,
+         {{"quality", "80"}, {"compression_level", "2"}},
+         {{"loop", "0"}}}};
+    return rows;
+}
+
 void add_encoder(Recipe& r, const VideoOptions& o) {
-    const std::string crf = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
-    switch (o.codec) {
-        case Codec::h264:
-            // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
-            r = {r.container,
-                 {"libx264"},
-                 "yuv420p",
-                 PixelLayout::yuv420,
-                 {{"preset", o.preset}, {"crf", crf}, {"x264-params", "cpu-independent=1"}},
-                 {},
-                 {}};
-            return;
-        case Codec::hevc:
-            // One frame at a time: else the film depends on the number of processors.
-            r = {r.container,
-                 {"libx265"},
-                 o.transparent ? "yuva420p" : "yuv420p",
-                 o.transparent ? PixelLayout::yuva420 : PixelLayout::yuv420,
-                 {{"preset", "fast"},
-                  {"crf", crf},
-                  {"x265-params",
-                   std::string("log-level=none:frame-threads=1") + (o.variable_rate ? ":bframes=0" : "")}},
-                 {},
-                 {}};
-            return;
-        case Codec::vp9:
-            // Columns of tiles may run on several threads; the picture does not depend on how many do.
-            r = {r.container,
-                 {"libvpx-vp9"},
-                 o.transparent ? "yuva420p" : "yuv420p",
-                 o.transparent ? PixelLayout::yuva420 : PixelLayout::yuv420,
-                 {{"crf", crf}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}},
-                 {},
-                 {}};
-            if (o.transparent) r.encoder_options.emplace_back("auto-alt-ref", "0");  // which alpha cannot have
-            return;
-        case Codec::av1:
-            r = {r.container,
-                 {"libsvtav1", "libaom-av1"},
-                 "yuv420p",
-                 PixelLayout::yuv420,
-                 {{"crf", crf}, {"libsvtav1:preset", "8"}, {"libaom-av1:cpu-used", "6"}, {"libaom-av1:b", "0"}},
-                 {},
-                 {}};
-            return;
-        case Codec::prores:
-            r = {r.container,
-                 {"prores_ks"},
-                 "yuva444p10le",
-                 PixelLayout::yuva444p10,
-                 {{"profile", "4444"}, {"vendor", "apl0"}, {"alpha_bits", o.transparent ? "16" : "0"}},
-                 {},
-                 {}};
-            return;
-        case Codec::ffv1:
-            r = {r.container,
-                 {"ffv1"},
-                 o.transparent ? "bgra" : "bgr0",
-                 PixelLayout::bgra,
-                 {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}},
-                 {},
-                 {}};
-            return;
-        case Codec::gif:
-            r = {r.container, {"gif"}, "pal8", PixelLayout::indices, {}, {{"loop", "0"}}, {}};
-            return;
-        case Codec::apng:
-            r = {r.container,
-                 {"apng"},
-                 o.transparent ? "rgba" : "rgb24",
-                 o.transparent ? PixelLayout::rgba : PixelLayout::rgb,
-                 {{"compression_level", "6"}, {"pred", "up"}},
-                 {{"plays", "0"}},
-                 {}};
-            return;
-        case Codec::webp:
-            r = {r.container,
-                 {"libwebp_anim"},
-                 "bgra",
-                 PixelLayout::bgra,
-                 {{"quality", "80"}, {"compression_level", "2"}},
-                 {{"loop", "0"}},
-                 {}};
-            return;
+    const EncoderRow& row = *std::ranges::find(encoder_rows(), o.codec, &EncoderRow::codec);
+    const PixelKind& pixels = o.transparent ? row.transparent : row.opaque;
+    r.encoders = row.encoders;
+    r.pixel_format = pixels.name;
+    r.layout = pixels.layout;
+    r.encoder_options = row.options;
+    std::ranges::copy(o.transparent ? row.transparent_options : row.opaque_options,
+                      std::back_inserter(r.encoder_options));
+    r.container_options = row.container_options;
+    for (auto& [key, value] : r.encoder_options) {
+        if (value == "PRESET") value = o.preset;
+        if (value == "CRF")
+            value = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
     }
 }
 
@@ -154,6 +150,8 @@ void keep_durations(Recipe& r, const VideoOptions& o) {
     const FrameRate fps = frame_rate(o.fps);
     // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
     if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
+    if (o.codec == Codec::hevc)
+        std::ranges::find(r.encoder_options, "x265-params", &OptionList::value_type::first)->second += ":bframes=0";
     // Else their last picture would last as long as the one before.
     if (o.codec == Codec::gif)
         r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));

@@ -16,7 +16,8 @@ class ChartPanel : public Panel {
 
   public:
     ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
-        : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit), facts.unit) {
+        : facts_(facts),
+          chart_(std::move(content), box, plot_area(box, facts.unit, facts.tick), facts.unit, facts.tick) {
         past_ = chart_.past(*facts.fonts);
     }
     void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }

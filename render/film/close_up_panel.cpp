@@ -19,7 +19,8 @@ class CloseUpPanel final : public Panel {
     CloseUpPanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
         const double u = facts.unit;
-        plot_ = {std::round(box_.x + 70 * u), std::round(box_.y + 46 * u), std::round(box_.w - 78 * u),
+        const double left = 70 * u + 2.4 * (facts.tick - 17 * u);  // as in plot_area
+        plot_ = {std::round(box_.x + left), std::round(box_.y + 46 * u), std::round(box_.w - left - 8 * u),
                  std::round(box_.h - 46 * u - 40 * u)};
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
         for (int k = 0; k < facts.frames(); ++k)
@@ -55,18 +56,18 @@ class CloseUpPanel final : public Panel {
         Ticks marks;
         for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
             marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
-        const TextStyle label{.size = 17 * u, .color = p.muted, .align = HAlign::right};
+        const TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.move_to({plot_.x - 6 * u, y});
             canvas.line_to({plot_.x, y});
             canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6 * u}, fixed(v, marks.decimals), label);
+            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * facts_.tick}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
         const std::string how =
             facts_.say(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
-        TextStyle note{.size = 16 * u, .color = p.muted};
+        TextStyle note{.size = 16.0 / 17 * facts_.tick, .color = p.muted};
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
         const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
         canvas.move_to({x1 - w, y - 4 * u});
@@ -75,12 +76,13 @@ class CloseUpPanel final : public Panel {
         canvas.line_to({x1, y - 4 * u});
         canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 20 * u}, length, {.size = 16 * u, .color = p.muted, .align = HAlign::right});
+        canvas.text({x1, y + 3 * u + facts_.tick}, length,
+                    {.size = 16.0 / 17 * facts_.tick, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         for (const std::string& words :
              {how, facts_.say(fmt::format("heights in {}m", unit_.symbol)), fmt::format("{}m", unit_.symbol)}) {
             if (canvas.measure(words, note).w > left) continue;
-            canvas.text({plot_.x, y + 14 * u}, words, note);
+            canvas.text({plot_.x, y - 3 * u + facts_.tick}, words, note);
             break;
         }
     }
@@ -161,7 +163,7 @@ class CloseUpPanel final : public Panel {
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
             canvas.text({x + 14 * u, plot_.y + 31 * u}, facts_.say("beam"),
-                        {.size = 17 * u, .color = p.motion, .weight = Weight::medium});
+                        {.size = facts_.tick, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
@@ -186,13 +188,13 @@ class CloseUpPanel final : public Panel {
         }
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
-        const TextStyle name{.size = 17 * u, .color = p.motion, .weight = Weight::medium};
+        const TextStyle name{.size = facts_.tick, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
             canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, facts_.say("beam"), name);
         if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
             canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, facts_.say("cam"),
-                        {.size = 17 * u, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+                        {.size = facts_.tick, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
 
@@ -229,8 +231,8 @@ class CloseUpPanel final : public Panel {
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
         const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
         const std::string count = counted(pose.t);
-        const double room = plot_.w - canvas.measure(facts_.say("beam"), {.size = 17 * u}).w - 40 * u;
-        TextStyle style{.size = 17 * u, .color = p.ink, .align = HAlign::right, .halo = behind};
+        const double room = plot_.w - canvas.measure(facts_.say("beam"), {.size = facts_.tick}).w - 40 * u;
+        TextStyle style{.size = facts_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;

@@ -85,7 +85,7 @@ class EnergyPanel final : public ChartPanel {
     // Beside the heading, closer and smaller where it would not find room; below it, whose energy this is.
     void legend(Canvas& canvas) const {
         const double u = facts_.unit;
-        const Box plot = plot_area(box_, u);
+        const Box plot = plot_area(box_, u, facts_.tick);
         std::vector<Part> shown = parts(facts_);
         std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
         const double first = plot.x +
@@ -131,7 +131,7 @@ class EnergyPanel final : public ChartPanel {
     void whose(Canvas& canvas) const {
         if (facts_.members() == 1) return;
         const double u = facts_.unit;
-        const Box plot = plot_area(box_, u);
+        const Box plot = plot_area(box_, u, facts_.tick);
         canvas.text({plot.x + 10 * u, plot.y + 24 * u}, facts_.labels[static_cast<std::size_t>(member_)],
                     {.size = 18 * u,
                      .color = facts_.palette->ink,

@@ -26,6 +26,7 @@ struct Film::Prepared {
     std::vector<Box> ground_texts;
     std::string widest_speed;  // of all frames
     bool steady = true;        // one speed throughout
+    bool title_cut = false;
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
         for (const PanelSlot& slot : facts.places.panels) {
@@ -56,7 +57,7 @@ struct Film::Prepared {
 
   private:
     void draw_ground();
-    void draw_header(Canvas& canvas) const;
+    void draw_header(Canvas& canvas);
     void draw_color_bars(Canvas& canvas) const;
 };
 
@@ -118,13 +119,14 @@ void Film::Prepared::draw_ground() {
     if (shows(LayerOf::charts)) draw_color_bars(canvas);
 }
 
-void Film::Prepared::draw_header(Canvas& canvas) const {
+void Film::Prepared::draw_header(Canvas& canvas) {
     const double u = facts.unit;
     const FilmSetup& setup = *facts.setup;
     const Layout& places = facts.places;
     if (places.logo) canvas.image_fitted(*setup.logo, *places.logo);
     if (const auto& b = places.title; b && !setup.title.empty()) {
         const FittedTitle title = fitted_title(canvas, setup.title, *b, u, facts.palette->ink);
+        title_cut = title.cut;
         for (const FittedTitle::Line& line : title.lines) canvas.text(line.baseline, line.markup, title.style);
     }
     std::vector<const sim::Problem*> problems;
@@ -136,7 +138,10 @@ void Film::Prepared::draw_header(Canvas& canvas) const {
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
         canvas.text({b->right(), b->y + 19 * u}, escape(facts.say(setup.accuracy_note)),
-                    {.size = 17 * u, .color = facts.palette->muted, .align = HAlign::right, .max_width = b->w});
+                    {.size = 17 * u + 0.4 * (facts.tick - 17 * u),
+                     .color = facts.palette->muted,
+                     .align = HAlign::right,
+                     .max_width = b->w});
 }
 
 void Film::Prepared::draw_color_bars(Canvas& canvas) const {
@@ -144,7 +149,8 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const double u = facts.unit;
     const Palette& palette = *facts.palette;
     const Box& b = *facts.places.scales;
-    const TextStyle small{.size = 16 * u, .color = palette.muted, .align = HAlign::centre};
+    const TextStyle small{
+        .size = 16 * u + 0.4 * (facts.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
     const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks,
                          std::array<double, 3> at) {
         const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
@@ -156,7 +162,8 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
-            canvas.text({strip.x + at[i] * strip.w, strip.bottom() + 19 * u}, marks[i], style);
+            canvas.text({strip.x + at[i] * strip.w, strip.bottom() + 19 * u + 0.3 * (facts.tick - 17 * u)}, marks[i],
+                        style);
         }
     };
     double right = b.right();
@@ -259,6 +266,7 @@ bool Film::yields() const {
         flexible = flexible || facts.motion(m).problem.beam.model != sim::ModelKind::rigid;
     return flexible && facts.factor < facts.setup->view.exaggeration.value_or(1);
 }
+bool Film::cuts_title() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
 

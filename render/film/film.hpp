@@ -196,6 +196,7 @@ class Film {
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
     bool yields() const;       // less than wanted, since the beam would enter the cam
+    bool cuts_title() const;   // it ends with an ellipsis, for want of room
     int empty_frames() const;  // in which the camera of the first mechanism sees no part of it
     const DrawingCounts& counts() const;
 

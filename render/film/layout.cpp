@@ -7,6 +7,8 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px: the least that reads
+// Letters at axes and scales: readable from the back of a room, where they have a fiftieth of the picture's height.
+constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 22;  // of the lesser side; [design px]
 
 Box whole(const Box& b) {
     const double x = std::round(b.x), y = std::round(b.y);
@@ -57,6 +59,7 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
     out.unit = shown.size * std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0)
                                                            : std::min(width, height) / 1240.0);
     const double u = out.unit, w = width, h = height;
+    out.tick = std::clamp(shown.size * kTickShare * std::min(w, h), kLeastTick * u, kMostTick * u);
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
@@ -211,8 +214,9 @@ const PanelSlot* Layout::first(PanelKind kind) const {
     return at == panels.end() ? nullptr : &*at;
 }
 
-Box plot_area(const Box& box, double u) {
-    return whole({box.x + 70 * u, box.y + 46 * u, box.w - 78 * u, box.h - 46 * u - 44 * u});
+Box plot_area(const Box& box, double u, double tick) {
+    const double more = tick - kLeastTick * u, left = 70 * u + 2.4 * more, below = 44 * u + more;
+    return whole({box.x + left, box.y + 46 * u, box.w - left - 8 * u, box.h - 46 * u - below});
 }
 
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,

@@ -53,6 +53,7 @@ struct PanelSlot {
 
 struct Layout {
     double unit = 1;           // [px] of one design pixel (1920×1080)
+    double tick = 17;          // size of letters at axes and scales [px]
     std::optional<Box> title;  // line boxes; text stands on `baseline(box)`
     std::optional<Box> parameters;
     std::optional<Box> clock;   // with the pills; with these alone where the time is not shown
@@ -87,8 +88,8 @@ Layout layout(int width, int height, const LayoutNode& wanted, const Shown& show
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);
 std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
 
-// The axes within a plot's box: room for a heading, labels and the name of the time; whole pixels.
-Box plot_area(const Box& box, double unit);
+// The axes within a plot's box: room for a heading, labels of size `tick` and the name of the time; whole pixels.
+Box plot_area(const Box& box, double unit, double tick);
 
 // ---- kinds of panels ---------------------------------------------------------------------------
 

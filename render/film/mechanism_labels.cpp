@@ -20,7 +20,12 @@ Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - si
 
 }  // namespace
 
-double angle_letter(const MechanismView& at) { return std::max(at.marks, kReadable / 21); }
+double least_letter(const MechanismView& at) {
+    constexpr double kOfTicks = 0.62;  // a single letter is found more easily than a number is read
+    return std::max(kReadable, kOfTicks * at.facts.tick);
+}
+
+double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
 std::string speed_label(const MechanismView& at) {
     return math("ω") + "\u2009=\u2009" + turning_speed(at.problem().cam->speed, at.facts.setup->units.rpm);
@@ -165,7 +170,8 @@ class LabelPlacer {
         const double clear = push_label(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
         const Vec2 tip = at.px(most.foot) + n * clear;
         const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
-        return place(room, {tip.x + (right ? 14 * u : -14 * u - width), tip.y - 14 * u, width, 28 * u});
+        const double gap = 14 * u + shrunk(width);
+        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - 14 * u, width, 28 * u});
     }
 
   private:
@@ -176,13 +182,15 @@ class LabelPlacer {
         const bool right = std::cos(way) > 0;
         const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
         const double base = std::min(to.y + 12 * u, at.box.bottom() - 34 * u);  // above the scale bar
-        return {to.x + (right ? 8 * u : -8 * u - width), base - 17.72 * u, width, 22 * u};
+        const double gap = 8 * u + shrunk(width);
+        return {to.x + (right ? gap : -gap - width), base - 17.72 * u, width, 22 * u};
     }
 
+    // The solid view is drawn smaller than the flat one, its words are not: so much they come nearer to their arrows.
+    double shrunk(double width) const { return at.facts.setup->view.style == Style::solid ? 0.07 * width : 0; }
+
     LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
-        // The solid view is drawn smaller than the flat one, its words are not.
-        const double grow = at.facts.setup->view.style == Style::solid ? 0.07 * wanted.w : 0;
-        const Box found = room.nearest_free(wanted.inset(-u - grow));
+        const Box found = room.nearest_free(wanted.inset(-u - shrunk(wanted.w)));
         LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;

@@ -70,6 +70,8 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
 // As they are written.
 std::string speed_label(const MechanismView& at);
 std::string force_label(const MechanismView& at, const Push& push);
+// The least size of the letters on a mechanism [px].
+double least_letter(const MechanismView& at);
 // Of a design pixel of the angle's letter [px].
 double angle_letter(const MechanismView& at);
 

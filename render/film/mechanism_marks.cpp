@@ -12,19 +12,20 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLabel = 60;  // from there on a label has a line to what it tells of [design px]
+constexpr double kFarLabel = 60, kFarLetter = 26;  // from there on a label has a line to its owner [design px]
 
-// One of the labels that keep their place, with a line to its owner, if that is wanted, where it is far.
-void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style,
-                std::optional<Vec2> owner = {}) {
+// One of the labels that keep their place, with a line to its owner where that is far. A moving camera that sees one of
+// them shows both: the label stays within the view.
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
+                double far = kFarLabel) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.at.label_box(label, s.view);
-    if (opacity <= 0 || !s.at.shows(box.centre())) return;
+    if (opacity <= 0 || !(s.at.shows(owner) || s.at.shows(s.px(label.middle)))) return;
     style.color = style.color.faded(opacity);
     if (!s.view) style.halo = s.at.palette.paper.faded(opacity);  // over a soft shadow it would only glow
-    const Vec2 to = owner.value_or(box.centre());
+    const Vec2 to = owner;
     const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
-    if (const double way = norm(to - edge); way > kFarLabel * s.at.unit) {
+    if (const double way = norm(to - edge); way > far * s.at.unit) {
         const Vec2 gap = (to - edge) * (6 * s.at.unit / way);
         s.canvas.move_to(edge + gap);
         s.canvas.line_to(to - gap);
@@ -79,10 +80,15 @@ void draw_angle_arc(const MechanismScene& s) {
         s.arc(o, radius, 0, angle);
         s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }
-    if (s.at.labels->angle)
-        draw_label(s, *s.at.labels->angle, math("θ"),
-                   {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
-                   s.on(o + Vec2{radius, 0}));
+    if (!s.at.labels->angle) return;
+    // Within the angle the letter needs no line; elsewhere one leads to where the arc begins.
+    const Vec2 letter = s.at.px(s.at.labels->angle->middle) - o;
+    const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
+    const double turned = way < 0 ? way + 2 * pi : way;
+    const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
+    draw_label(s, *s.at.labels->angle, math("θ"),
+               {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
+               s.on(o + down(foot) * radius), kFarLetter);
 }
 
 // Outside the circle that the disc sweeps, on a side away from the beam; positive speed turns clockwise.
@@ -137,16 +143,18 @@ void draw_disc_letters(const MechanismScene& s) {
     if (!s.shape.disc) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
-    const double size = 22 * s.at.marks;
-    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
+    const double usual = 22 * s.at.marks;
+    if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
+    const double size = std::max(usual, std::min(least_letter(s.at), 22.0 / 60 * d.radius));
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
     s.canvas.text(s.on(d.centre + along * (20 * s.at.marks)) + Vec2{0, 7 * s.at.marks}, math("B"), style);
-    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim: it stands
-    // beside.
+    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim, where contacts
+    // and their rings are: it stands beside, a little inwards.
     const double off = d.bore + (s.view ? 24 : 16) * s.at.marks;
-    const Vec2 way = apart + off + 24 * s.at.marks <= d.radius ? along * -1 : Vec2{along.y, -along.x};
+    const Vec2 way =
+        apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
     s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * s.at.marks}, math("C"), style);
 }
 
@@ -221,99 +229,6 @@ void draw_force(const MechanismScene& s, const std::optional<Push>& push) {
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
     if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
         draw_label(s, *s.at.labels->force, force_label(s.at, *push), force_style(s.at), tip);
-}
-
-// ---- the motions that it is compared with ------------------------------------------------------
-
-namespace {
-struct Outline {
-    std::vector<Vec2> edge, foot;  // [px]
-};
-
-// Out along the face and back, from where the beam leaves the hub; `foot`: along the hub, which stays in front.
-Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
-    const auto outside = [&](const auto& point) {
-        std::vector<Vec2> line;
-        for (std::size_t i = 0; i < beam.line.size(); ++i) {
-            const Vec2 p = s.at.px(point(i));
-            if (norm(p - s.shape.hinge) < s.shape.hub) continue;
-            if (line.empty() && i > 0) {  // where it crosses the hub's edge
-                Vec2 in = s.at.px(point(i - 1)), out = p;
-                for (int pass = 0; pass < 40; ++pass) {
-                    const Vec2 middle = (in + out) * 0.5;
-                    (norm(middle - s.shape.hinge) < s.shape.hub ? in : out) = middle;
-                }
-                line.push_back(out);
-            }
-            line.push_back(p);
-        }
-        return line;
-    };
-    Outline all{outside([&](std::size_t i) { return beam.face(i); }), {}};
-    const std::vector<Vec2> back = outside([&](std::size_t i) { return beam.back(i); });
-    all.edge.insert(all.edge.end(), back.rbegin(), back.rend());
-    if (all.edge.empty()) return all;
-    const Vec2 from = all.edge.back() - s.shape.hinge, to = all.edge.front() - s.shape.hinge;
-    const double begin = std::atan2(from.y, from.x), radius = norm(from);
-    const double turn = std::remainder(std::atan2(to.y, to.x) - begin, 2 * pi);
-    const int pieces = 1 + static_cast<int>(std::abs(turn) * std::sqrt(radius));  // within 1/8 px of the circle
-    for (int i = 1; i < pieces; ++i) {
-        const double a = begin + turn * i / pieces;
-        all.foot.push_back(s.shape.hinge + Vec2{std::cos(a), std::sin(a)} * radius);
-    }
-    for (std::vector<Vec2>* line : {&all.edge, &all.foot})
-        for (Vec2& p : *line) p = s.on(p);
-    return all;
-}
-
-}  // namespace
-
-// The other motions: outlines of their beams, and of their discs where those stand elsewhere.
-void draw_ghost_outlines(const MechanismScene& s) {
-    for (int m = 0; m < s.at.facts.members(); ++m) {
-        if (m == s.at.member) continue;
-        const DrawnBeam other = s.at.beam_of(m, s.frame);
-        const Color color = s.at.facts.member_color(m);
-        const sim::Pose& pose = s.at.facts.pose(m, s.frame);
-        const std::optional<sim::Cam>& cam = s.at.facts.motion(m).problem.cam;
-        if (cam && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
-            s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * pi);
-            s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
-        }
-        s.canvas.polyline(ghost_outline(s, other).edge);
-        s.canvas.stroke({color, 2.2 * s.at.unit});
-    }
-}
-
-// Under the first motion's beam, whose colours mean something.
-void draw_ghost_bodies(const MechanismScene& s) {
-    for (int m = 0; m < s.at.facts.members(); ++m) {
-        if (m == s.at.member) continue;
-        const Outline outline = ghost_outline(s, s.at.beam_of(m, s.frame));
-        s.canvas.polyline(outline.edge);
-        for (const Vec2& p : outline.foot) s.canvas.line_to(p);
-        s.canvas.fill(s.at.facts.member_color(m).faded(0.16));
-    }
-}
-
-// A straight beam at the hub's angle.
-void draw_measured_beams(const MechanismScene& s) {
-    for (std::size_t k = 0; k < s.at.facts.setup->data.size(); ++k) {
-        const double angle = s.at.facts.measured_angle(k, s.pose.t);
-        if (std::isnan(angle)) continue;
-        sim::Pose pose = s.pose;
-        pose.theta = angle;
-        pose.nearest.reset();
-        const sim::Problem& problem = s.at.problem();
-        const std::size_t last = pose.centreline.size() - 1;
-        for (std::size_t i = 0; i <= last; ++i)
-            pose.centreline[i] = sim::unit(angle) * (problem.hub.radius + problem.beam.length * static_cast<double>(i) /
-                                                                              static_cast<double>(last));
-        DrawnBeam beam = drawn_beam(problem, pose, 1, s.at.look.depth);
-        beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // the section lies as the beam's
-        s.canvas.polyline(ghost_outline(s, beam).edge);
-        s.canvas.stroke({s.at.facts.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
-    }
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// What is written on a mechanism: angle, speed of the cam, traces, force, words; and the motions it is compared with.
+// What is written on a mechanism: angle, speed of the cam, traces, force, words.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace beamcam::render {
 
-inline constexpr double kReadable = 9;  // the least size of letters [px]
+inline constexpr double kReadable = 9;  // the least size of letters in any picture [px]
 
 // As its arc shows it: in the sense in which the hub has turned, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);
@@ -29,10 +29,5 @@ std::optional<Push> push_of(const sim::Pose& pose, const DrawnBeam& beam, const 
 void draw_force(const MechanismScene& s, const std::optional<Push>& push);
 // A colour for each place around the disc, none where it was never touched.
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
-
-// The other motions: under the first one's beam, whose colours mean something, and over it.
-void draw_ghost_bodies(const MechanismScene& s);
-void draw_ghost_outlines(const MechanismScene& s);
-void draw_measured_beams(const MechanismScene& s);
 
 }  // namespace beamcam::render

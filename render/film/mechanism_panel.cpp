@@ -10,6 +10,7 @@
 #include "render/draw/smooth_path.hpp"
 #include "render/film/apart.hpp"
 #include "render/film/captions.hpp"
+#include "render/film/mechanism_ghosts.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -43,7 +44,7 @@ struct MechanismPanel::Threads final : Panel::State {
     Apart seen, exposed;  // what a moving camera sees; one of several exposures
 };
 
-MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot) {
+MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot), words_(at_) {
     at_.labels = &labels_;
     rings_.find(at_);
     const double cell = std::max(1.5, 2 * at_.unit);
@@ -52,60 +53,12 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : 
     pressed.add_fixed(), swept.add_fixed();
     const LabelNeeds needs = note_frames(swept, pressed);
     labels_ = place_labels(at_, needs, swept, pressed);
-    place_words(std::move(swept.room));
+    words_.place(std::move(swept.room));
     find_shots();
 }
 
 std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
     return std::make_unique<Threads>(at_.facts, at_.member, at_.look.camera.scale, at_.box);
-}
-
-std::vector<MechanismPanel::Entry> MechanismPanel::entries() const {
-    std::vector<Entry> out;
-    for (int m = 0; m < at_.facts.members() && at_.facts.members() > 1; ++m)
-        if (at_.ghosts || m == at_.member)
-            out.push_back({at_.facts.member_color(m), at_.facts.labels[static_cast<std::size_t>(m)]});
-    for (std::size_t k = 0; k < at_.facts.data_labels.size() && at_.member == 0; ++k)
-        if (at_.facts.setup->data[k].find({sim::ChannelKind::theta, 0}))
-            out.push_back({at_.facts.data_color(k), at_.facts.data_labels[k], true});
-    return out;
-}
-
-bool MechanismPanel::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
-bool MechanismPanel::has_bar() const {
-    return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
-           at_.facts.setup->view.style != Style::solid;
-}
-
-// In corners, or along edges, where nothing moving comes.
-void MechanismPanel::place_words(OccupancyGrid room) {
-    Image scratch(1, 1);
-    Canvas canvas(scratch, *at_.facts.fonts);
-    const double gap = std::min(4 * at_.unit, 0.1 * std::min(at_.box.w, at_.box.h));
-    const auto choose = [&](Vec2 size, Corner first) {
-        const Box place = room.choose(places_along(at_.box.inset(gap), size, first));
-        room.cover(place.inset(-gap), 1);
-        return place;
-    };
-    if (has_label()) {
-        double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
-        for (const auto* labels : {&at_.facts.labels, &at_.facts.data_labels})
-            for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style()).w);
-        const auto lines = static_cast<double>(entries().size());
-        label_ =
-            choose({std::min(46 * at_.unit + widest, at_.box.w - 2 * gap), 34 * at_.unit * lines}, Corner::top_left);
-    }
-    if (!has_bar()) return;
-    const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
-                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = 17 * at_.unit}).w);
-    bar_ = choose({wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right);
-}
-
-std::vector<Box> MechanismPanel::words() const {
-    std::vector<Box> out;
-    if (label_) out.push_back(*label_);
-    if (bar_) out.push_back(*bar_);
-    return out;
 }
 
 // How large an arc about `centre` over these angles can be within the box.
@@ -245,7 +198,7 @@ int MechanismPanel::empty_frames() const {
 void MechanismPanel::draw_ground(Canvas& canvas) const {
     if (!shots_.empty()) return;
     draw_still(canvas, at_);
-    draw_words(canvas, at_);
+    words_.draw(canvas, at_);
 }
 
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
@@ -255,54 +208,6 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
     canvas.line_to({at.box.right(), o.y});
     canvas.stroke({at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
     draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
-}
-
-void MechanismPanel::draw_words(Canvas& canvas, const MechanismView& at) const {
-    scale_bar(canvas, at);
-    label(canvas);
-}
-
-// A round length near a seventh of the view [m].
-double MechanismPanel::scale_length(const MechanismView& at) const {
-    return round_down_125(0.17 * at.box.w / at.look.camera.scale);
-}
-
-void MechanismPanel::scale_bar(Canvas& canvas, const MechanismView& at) const {
-    if (!bar_) return;
-    const double w = scale_length(at) * at.look.camera.scale;
-    double middle = bar_->x + bar_->w / 2;
-    if (at.moved) middle = std::clamp(middle, at.box.x + w / 2 + 4 * at.unit, at.box.right() - w / 2 - 4 * at.unit);
-    const double y = bar_->bottom() - 4 * at_.unit;
-    const double x = middle - w / 2;
-    canvas.move_to({x, y - 5 * at_.unit});
-    canvas.line_to({x, y});
-    canvas.line_to({x + w, y});
-    canvas.line_to({x + w, y - 5 * at_.unit});
-    canvas.stroke({at_.palette.muted, 1.6 * at_.unit, {}, Cap::butt});
-    canvas.text(
-        {middle, y - 9 * at_.unit}, quantity(scale_length(at), "m"),
-        {.size = 17 * at_.unit, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
-}
-
-TextStyle MechanismPanel::label_style() const {
-    return {.size = 24 * at_.unit, .color = at_.palette.ink, .weight = Weight::semibold, .halo = at_.palette.paper};
-}
-
-void MechanismPanel::label(Canvas& canvas) const {
-    if (!label_) return;
-    double y = label_->y + 24 * at_.unit;
-    TextStyle style = label_style();
-    style.max_width = label_->w - 44 * at_.unit;
-    for (const Entry& entry : entries()) {
-        const double x = label_->x + 2 * at_.unit;
-        canvas.move_to({x, y - 8 * at_.unit});
-        canvas.line_to({x + 30 * at_.unit, y - 8 * at_.unit});
-        std::vector<double> dash;
-        if (entry.dashed) dash = {9 * at_.unit, 5 * at_.unit};
-        canvas.stroke({entry.color, (entry.dashed ? 3 : 6) * at_.unit, dash, Cap::butt});
-        canvas.text({x + 42 * at_.unit, y}, entry.text, style);
-        y += 34 * at_.unit;
-    }
 }
 
 // ---- what moves ------------------------------------------------------------------------------
@@ -340,7 +245,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
         draw_still(inside, at);
         draw_moving(inside, at, frame, style, threads);
-        draw_words(inside, at);
+        words_.draw(inside, at);
     });
 }
 
@@ -368,11 +273,11 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     }
     draw_cam_speed(s);
     if (style != Style::solid) bodies();
-    draw_disc_letters(s);
     if (!s.view && one) draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
+    draw_disc_letters(s);  // which a ring would make hard to read
     draw_force(s, push_of(pose, drawn, rings_.peak(frame)));
     if (at.member == 0) draw_captions(s);
 }

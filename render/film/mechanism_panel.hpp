@@ -7,6 +7,7 @@
 #include "render/draw/growing.hpp"
 #include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
+#include "render/film/mechanism_words.hpp"
 #include "render/plot/placement.hpp"
 
 namespace beamcam::render {
@@ -23,7 +24,7 @@ class MechanismPanel final : public Panel {
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
     // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
-    std::vector<Box> words() const;
+    std::vector<Box> words() const { return words_.boxes(); }
     // Where the angle, the speed and the force are written in a frame of the flat view, which is drawn for it [px].
     std::vector<Box> labels(Canvas& canvas, int frame) const;
     const Camera& camera(int frame) const {
@@ -37,7 +38,6 @@ class MechanismPanel final : public Panel {
     Perspective view_of(const MechanismView& at, int frame) const;
     void find_shots();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
-    void draw_words(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, Threads& threads) const;
     void draw_exposures(const MechanismScene& s, Style style, Threads& threads) const;
     void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads,
@@ -45,29 +45,15 @@ class MechanismPanel final : public Panel {
 
     void note_survey(SweptRegion& swept) const;
     LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
-    // Which motion this is, where there are several, with ghosts all of them; and data that are drawn as a beam.
-    struct Entry {
-        Color color;
-        std::string text;
-        bool dashed = false;
-    };
-    std::vector<Entry> entries() const;
-    bool has_label() const;
-    bool has_bar() const;
-    void place_words(OccupancyGrid room);
     void note_path();
-    void scale_bar(Canvas& canvas, const MechanismView& at) const;
-    void label(Canvas& canvas) const;
-    double scale_length(const MechanismView& at) const;
-    TextStyle label_style() const;
 
     bool view_strobes() const { return at_.facts.setup->view.strobe; }
     bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
     void trail(const MechanismScene& s) const;
 
     MechanismView at_;
-    std::optional<Box> label_, bar_;  // where they stand
-    Box lit_box_;                     // what the lit mechanism ever covers, shadows included; whole pixels
+    MechanismWords words_;
+    Box lit_box_;  // what the lit mechanism ever covers, shadows included; whole pixels
     MechanismLabels labels_;
     std::vector<Vec2> tips_;  // drawn tip of every frame [px]
     std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing

@@ -58,7 +58,13 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
 
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view) const {
     const Vec2 middle = seen(px(label.middle), view);
-    return {middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
+    Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
+    if (moved) {
+        const Box within = box.inset(4 * unit);
+        place.x = std::max(within.x, std::min(place.x, within.right() - place.w));
+        place.y = std::max(within.y, std::min(place.y, within.bottom() - place.h));
+    }
+    return place;
 }
 
 void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {

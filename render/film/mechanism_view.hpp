@@ -40,6 +40,7 @@ struct MechanismView {
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, facts.pose(whose, frame)); }
+    // Where a label is written; a moving camera keeps it within the view.
     Box label_box(const LabelPlace& label, const Perspective* view) const;
 
   private:

@@ -99,6 +99,7 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight, shown);
     unit = places.unit;
+    tick = places.tick;
     if (setup->logo) place_logo();
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
@@ -111,14 +112,19 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
 }
 
-// As high as the clock's line, and at most a third as wide.
+// As high as the clock's line, and at most a third as wide; in the picture's corner, where the colour scales make room.
 void FilmFacts::place_logo() {
     if (!places.clock) return;
     Box& line = *places.clock;
     double wide = line.h * setup->logo->width / setup->logo->height, high = line.h;
     if (wide > line.w / 3) high *= line.w / 3 / wide, wide = line.w / 3;
-    places.logo = Box{line.right() - wide, line.y + (line.h - high) / 2, wide, high};
-    line.w -= wide + 24 * unit;
+    double right = line.right();
+    if (places.scales && places.scales->y == line.y) {
+        right = places.scales->right();
+        places.scales->x -= wide + 40 * unit;
+    }
+    places.logo = Box{right - wide, line.y + (line.h - high) / 2, wide, high};
+    line.w -= wide + (places.scales ? 40 : 24) * unit;
 }
 
 double FilmFacts::shown_factor(Channel channel) const {

@@ -28,7 +28,8 @@ struct FilmFacts {
     const Palette* palette = nullptr;  // of these
     bool cjk = false;
     Layout places;
-    double unit = 1;  // [px] of one design pixel
+    double unit = 1;   // [px] of one design pixel
+    double tick = 17;  // size of letters at axes and scales [px]
     TimeFormat time;
     double factor = 1;                              // of exaggeration, the same for all motions
     double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none

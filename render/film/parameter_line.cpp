@@ -56,7 +56,7 @@ void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
 TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
 
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
-    constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55};  // of the full size
+    constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55, 0.48, 0.4};  // of the full size
     FittedTitle out;
     out.style = title_style(u, color);
     const std::string whole = words(canvas, title);

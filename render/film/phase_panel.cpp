@@ -30,7 +30,7 @@ struct Layers final : Panel::State {
 class PhasePanel final : public Panel {
   public:
     PhasePanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit)) {
+        : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
         double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
         for (int m = 0; m < facts.members(); ++m) {
             const sim::Table& table = facts.motion(m).chart;
@@ -68,9 +68,9 @@ class PhasePanel final : public Panel {
         const std::string named = label_of(ChannelKind::theta_dot).heading(facts_.setup->view.lang) + symbol;
         const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
         draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
-        TextStyle label{.size = 17 * u, .color = p.muted, .align = HAlign::centre};
+        TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::centre};
         const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
-        draw_levels(canvas, p, y_, plot_, u);
+        draw_levels(canvas, p, y_, plot_, u, facts_.tick);
         const std::string name = x_.name(math("θ"));
         const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
         for (double mark : x_.marks().values) {
@@ -80,10 +80,10 @@ class PhasePanel final : public Panel {
             canvas.stroke(grid);
             const std::string text = fixed(mark, x_.marks().decimals);
             if (at + canvas.measure(text, label).w / 2 < room)
-                canvas.text({at, plot_.bottom() + 26.5 * u}, text, label);
+                canvas.text({at, plot_.bottom() + 9.5 * u + facts_.tick}, text, label);
         }
         label.align = HAlign::right;
-        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 26.5 * u}, name, label);
+        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 9.5 * u + facts_.tick}, name, label);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};

@@ -46,7 +46,7 @@ class CollisionPanel final : public Panel {
 
   public:
     CollisionPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, facts.unit)) {
+        : facts_(facts), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
         for (const sim::Impact& i : facts.motion(0).impacts) {
             if (i.t_start > facts.span.high) break;
             const double end = std::min(i.t_end.value_or(facts.span.high), facts.span.high);
@@ -146,7 +146,7 @@ class CollisionPanel final : public Panel {
                 curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
             c.curves.push_back(std::move(curve));
         }
-        return Chart(std::move(c), box_, plot_, facts_.unit);
+        return Chart(std::move(c), box_, plot_, facts_.unit, facts_.tick);
     }
 
     const FilmFacts& facts_;

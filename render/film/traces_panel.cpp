@@ -45,10 +45,10 @@ class TracesPanel final : public Panel {
         canvas.fill(p.steel_edge);
         canvas.rounded(beam_, 3 * u);
         canvas.fill(p.tint(p.motion, 0.35));
-        const TextStyle end{.size = 16 * u, .color = p.muted};
-        canvas.text({beam_.x, beam_.bottom() + 20 * u}, facts_.say("root"), end);
-        canvas.text({beam_.right(), beam_.bottom() + 20 * u}, facts_.say("tip"),
-                    {.size = 16 * u, .color = p.muted, .align = HAlign::right});
+        const TextStyle end{.size = 16.0 / 17 * facts_.tick, .color = p.muted};
+        canvas.text({beam_.x, beam_.bottom() + 3 * u + facts_.tick}, facts_.say("root"), end);
+        canvas.text({beam_.right(), beam_.bottom() + 3 * u + facts_.tick}, facts_.say("tip"),
+                    {.size = 16.0 / 17 * facts_.tick, .color = p.muted, .align = HAlign::right});
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {

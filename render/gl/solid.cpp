@@ -166,6 +166,47 @@ class ShadowedWall {
     std::array<std::array<bool, kCells>, kCells> shadowed_{};
 };
 
+// Whether the eye is on the outside of a triangle, where its normals point.
+bool faces_eye(const SolidVertex* corners, const Perspective& view) {
+    const auto vec = [](const std::array<float, 3>& a) { return Vec3{a[0], a[1], a[2]}; };
+    const auto to = [](Vec3 a, Vec3 b) { return Vec3{b.x - a.x, b.y - a.y, b.z - a.z}; };
+    const Vec3 a = vec(corners[0].place), b = vec(corners[1].place), c = vec(corners[2].place), u = to(a, b),
+               v = to(a, c);
+    const Vec3 plane{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    const double outside =
+        dot3(plane, vec(corners[0].normal)) + dot3(plane, vec(corners[1].normal)) + dot3(plane, vec(corners[2].normal));
+    const double eye = dot3(plane, to(a, view.axes[2] * view.distance));
+    return outside == 0 || (outside > 0) == (eye >= 0);
+}
+
+// The eye sees the fronts of closed bodies alone. The nearest bodies, which were built last, come first: they spare the
+// shading of what they hide. Returns how many vertices the fronts have.
+std::size_t append_front_first(const std::vector<SolidVertex>& bodies, const Perspective& view,
+                               std::vector<SolidVertex>& out) {
+    const std::size_t begin = out.size();
+    std::size_t fronts = 0;
+    for (const bool front : {true, false}) {
+        for (std::size_t i = bodies.size(); i >= 3; i -= 3)
+            if (faces_eye(&bodies[i - 3], view) == front)
+                out.insert(out.end(), bodies.begin() + std::ptrdiff_t(i) - 3, bodies.begin() + std::ptrdiff_t(i));
+        if (front) fronts = out.size() - begin;
+    }
+    return fronts;
+}
+
+// Where the picture shows anything of the scene; all of it where a body comes as near as OpenGL cuts off.
+Box seen_part(const SolidScene& scene, const Box& picture) {
+    constexpr double kNearest = 0.25;  // of the distance to the eye; the shader cuts off at 0.2
+    constexpr double kAround = 2;      // rounding of the projection [px]
+    Bounds seen;
+    for (const SolidVertex& vertex : scene.triangles) {
+        const Vec3 p{vertex.place[0], vertex.place[1], vertex.place[2]};
+        if (dot3(scene.view.axes[2], p) > (1 - kNearest) * scene.view.distance) return picture;
+        seen.add(scene.view.to_pixels(p), kAround);
+    }
+    return {seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0};
+}
+
 }  // namespace
 
 Perspective Perspective::looking(Vec2 centre, double distance, double zoom, double yaw, double pitch) {
@@ -219,7 +260,8 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     Mesh behind(scene.triangles);
     wall.build(behind);
     scene.wall = scene.triangles.size();
-    scene.triangles.insert(scene.triangles.end(), bodies.begin(), bodies.end());
+    scene.front = scene.wall + append_front_first(bodies, view, scene.triangles);
+    scene.seen = seen_part(scene, {0, 0, box.w, box.h});
     return scene;
 }
 

@@ -42,8 +42,10 @@ struct SolidScene {
     Perspective view;
     std::vector<SolidVertex> triangles;  // three each, outside counter-clockwise or not: both sides are lit
     std::size_t wall = 0;                // of them, the first vertices: where shadows may fall on the wall behind
+    std::size_t front = 0;               // where those end which face the eye; the rest only casts shadows
     double reach = 1;                    // everything lies within this distance of the origin [px]
     double shadow = 0.3;                 // opacity
+    Box seen;                            // the picture is transparent elsewhere: there is nothing to draw or read [px]
 };
 
 // `wide`: of the beam across the plane of motion [px]. `rim`: a colour for places around the disc, counter-clockwise

@@ -55,22 +55,23 @@ std::string RoundAxis::name(const std::string& symbol) const {
     return fmt::format("{} / {}", text, unit);
 }
 
-void draw_levels(Canvas& canvas, const Palette& p, const RoundAxis& axis, const Box& plot, double u) {
+void draw_levels(Canvas& canvas, const Palette& p, const RoundAxis& axis, const Box& plot, double u, double tick) {
     for (double mark : axis.marks().values) {
         const double at = std::round(plot.bottom() - axis.along(plot.h, axis.value(mark))) + 0.5;
         canvas.move_to({plot.x, at});
         canvas.line_to({plot.right(), at});
         canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
-        canvas.text({plot.x - 12 * u, at + 6 * u}, fixed(mark, axis.marks().decimals),
-                    {.size = 17 * u, .color = p.muted, .align = HAlign::right});
+        canvas.text({plot.x - 12 * u, at + 6.0 / 17 * tick}, fixed(mark, axis.marks().decimals),
+                    {.size = tick, .color = p.muted, .align = HAlign::right});
     }
 }
 
-Chart::Chart(ChartContent content, Box box, Box plot, double unit)
+Chart::Chart(ChartContent content, Box box, Box plot, double unit, double tick)
     : c_(std::move(content)),
       box_(box),
       plot_(plot),
       unit_(unit),
+      tick_(tick),
       axis_(c_.value.low, c_.value.high, c_.unit, std::clamp(static_cast<int>(plot.h / (45 * unit)), 2, 5)),
       digits_(std::clamp(2 - static_cast<int>(std::floor(std::log10(axis_.marks().step) + 1e-9)), 0, 6)) {}
 
@@ -98,7 +99,7 @@ void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) c
     const double u = unit_, axis = plot_.bottom() + 0.5;
     const Ticks marks =
         ticks(view.from / c_.time_unit, view.to / c_.time_unit, std::clamp(static_cast<int>(plot_.w / (75 * u)), 2, 7));
-    const Box unit = canvas.measure(c_.time_label, {.size = 17 * u});
+    const Box unit = canvas.measure(c_.time_label, {.size = tick_});
     for (double at : marks.values) {
         if (windowed() && at < c_.time.low / c_.time_unit - 1e-9) continue;  // nothing was before the film
         double x = view.x(plot_, at * c_.time_unit);
@@ -107,13 +108,13 @@ void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) c
         canvas.line_to({x, axis + 6 * u});
         canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
         const std::string text = fixed(at, marks.decimals);
-        const double half = canvas.measure(text, {.size = 17 * u}).w / 2;
+        const double half = canvas.measure(text, {.size = tick_}).w / 2;
         if (x + half < plot_.right() + 8 * u - unit.w - 10 * u &&  // the axis' name stands at the end of this line
             (!windowed() || x - half > plot_.x - 20 * u))
-            canvas.text({x, axis + 26 * u}, text, {.size = 17 * u, .color = p.muted, .align = HAlign::centre});
+            canvas.text({x, axis + 9 * u + tick_}, text, {.size = tick_, .color = p.muted, .align = HAlign::centre});
     }
-    canvas.text({plot_.right() + 8 * u, axis + 26 * u}, c_.time_label,
-                {.size = 17 * u, .color = p.muted, .align = HAlign::right});
+    canvas.text({plot_.right() + 8 * u, axis + 9 * u + tick_}, c_.time_label,
+                {.size = tick_, .color = p.muted, .align = HAlign::right});
 }
 
 // The readings stand beside it.
@@ -244,7 +245,7 @@ void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
     const double axis = plot_.bottom() + 0.5;
     draw_heading(canvas, p);
     if (c_.instead.empty())
-        draw_levels(canvas, p, axis_, plot_, unit_);
+        draw_levels(canvas, p, axis_, plot_, unit_, tick_);
     else
         canvas.text(plot_.centre() + Vec2{0, 6 * unit_}, c_.instead,
                     {.size = 19 * unit_, .color = p.muted, .align = HAlign::centre, .max_width = plot_.w});

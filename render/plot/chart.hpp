@@ -44,8 +44,10 @@ class RoundAxis {
     Range ends_;
     Ticks marks_;
 };
-// A line across the plot at every mark, its label at the left. `unit`: [px] of a design pixel.
-void draw_levels(Canvas& canvas, const Palette& palette, const RoundAxis& axis, const Box& plot, double unit);
+// A line across the plot at every mark, its label at the left. `unit`: [px] of a design pixel;
+// `tick`: size of the labels [px].
+void draw_levels(Canvas& canvas, const Palette& palette, const RoundAxis& axis, const Box& plot, double unit,
+                 double tick);
 
 struct Curve {
     std::vector<double> t, v;  // [s], SI units; may be empty
@@ -93,7 +95,7 @@ struct ChartContent {
 
 class Chart {
   public:
-    Chart(ChartContent content, Box box, Box plot, double unit);
+    Chart(ChartContent content, Box box, Box plot, double unit, double tick);
 
     void draw_ground(Canvas& canvas, const Palette& palette) const;  // axes, labels, what is to come
     // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
@@ -126,7 +128,7 @@ class Chart {
     double y(double v) const;
     ChartContent c_;
     Box box_, plot_;
-    double unit_;
+    double unit_, tick_;
     RoundAxis axis_;
     int digits_ = 0;  // decimals of the reading
 };

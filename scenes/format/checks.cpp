@@ -107,11 +107,23 @@ void judge_view(ObjectReader& r, const View& view) {
             fmt::format("{} needs a \"shutter\" or \"strobe\" to be exposed for", r.path("exposures")));
 }
 
+// Beyond these shapes a logo as high as the clock's line, or a third of it wide, is a hairline.
+static constexpr int kWidestLogo = 10, kTallestLogo = 5;
+
 static void read_logo(ObjectReader& r, Picture& picture) {
-    if (picture.logo.empty() || r.findings().failed(r.path("logo"))) return;
+    if (!r.has("logo") || r.findings().failed(r.path("logo"))) return;
+    if (picture.logo.empty())
+        return r.fail(r.place("logo"), "logo",
+                      fmt::format("{} is empty; name a .png file, or remove the key", r.path("logo")));
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / picture.logo;
     try {
         const output::Raster raster = output::read_png(path);
+        if (raster.width > kWidestLogo * raster.height || raster.height > kTallestLogo * raster.width)
+            return r.fail(r.place("logo"), "logo",
+                          fmt::format("{} = {} has {} × {} pixels; a logo is at most {} times as wide as high and {} "
+                                      "times as high as wide",
+                                      r.path("logo"), shown(r.place("logo")), raster.width, raster.height, kWidestLogo,
+                                      kTallestLogo));
         picture.logo_digest = output::digest(raster);
         picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
     } catch (const output::IoError& error) {

@@ -194,6 +194,9 @@ void SceneRun::write_pictures(std::size_t picture) {
             "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
             "far from where it touches\n",
             p.file, film.exaggeration(), *wanted);
+    if (film.cuts_title())
+        context_.say("warning: {} shows only the beginning of the title: {}\n", p.file,
+                     no_room_to_write(p.picture.size));
     if (const int empty = film.empty_frames(); empty > 0)
         context_.say(
             "warning: {} shows nothing of the mechanism in {} of {}: the camera looks past it; change \"follow\" or "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <vector>
 
 #include "output/data/sweep_data.hpp"
 #include "output/files/interrupt.hpp"
@@ -170,6 +171,20 @@ void put(const render::Image& part, const render::Box& box, render::Image& whole
                     whole.pixels.begin() + std::ptrdiff_t(row + int(box.y)) * whole.width + std::ptrdiff_t(box.x));
 }
 
+constexpr render::Shown kShown{.clock = false, .legend = false};  // beside the beam
+
+// What a film of this size has no room to write beside the beam; empty: nothing.
+std::string without_room(const Size& size) {
+    const render::Box beam = halves_of(size).beam;
+    const render::Layout places =
+        render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, kShown);
+    std::vector<std::string> missing;
+    if (!places.title) missing.emplace_back("the value and its class");
+    if (!places.parameters) missing.emplace_back("the line of parameters");
+    if (!places.note) missing.emplace_back("the speed");
+    return fmt::format("{}", fmt::join(missing, ", "));
+}
+
 class SweepFilm {
   public:
     SweepFilm(const SweepFilmOutput& how, const Scene& scene, const output::SweepData& data)
@@ -239,7 +254,7 @@ class SweepFilm {
         setup.view.lang = how_.lang;
         setup.view.paper = 0xffffff;
         setup.view.exaggeration = factor_ ? factor_ : how_.exaggeration;
-        setup.view.show = {.clock = false, .legend = false};
+        setup.view.show = kShown;
         setup.layout = render::LayoutNode{};
         setup.units = scene_.units;
         setup.poses = shot.poses;
@@ -313,6 +328,9 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
         std::min(film.size.width, film.size.height) < kShortSide)
         refuse("size", fmt::format("{}x{} is too small for a diagram beside the beam: at least {}x{}", film.size.width,
                                    film.size.height, kLongSide, kShortSide));
+    if (const std::string missing = without_room(film.size); !missing.empty())
+        r.findings().warning(r.has("size") ? r.place("size").place : r.node()->place,
+                             fmt::format("{} leaves no room to write {}; a larger \"size\" would", r.what(), missing));
     refuse("fps", output::rate_problem(codec, film.fps.value()));
     if (film.crf && !output::quality_scale(codec)) refuse("crf", "this codec has no quality to choose; remove it");
 }

@@ -117,30 +117,42 @@ void main() {
     lit_at = vec3(dot(light_right, place), dot(light_up, place), -dot(light_near, place)) / reach * 0.5 + 0.5;
 })";
 
-// Shadows are the mean of 3 × 3 comparisons, each filtered over two texels a side, two texels apart: of 6 × 6 texels.
+// Shared by the wall and the bodies. A shadow is the mean of `taps` × `taps` comparisons, each filtered over two texels
+// a side, two texels apart. Comparisons cost more than all the rest of a pixel: the wall has 3 × 3, over 6 × 6 texels,
+// since long edges show every step of the map there; bodies have 2 × 2.
+inline constexpr const char* kSoftShadow = R"(
+in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
+uniform sampler2DShadow depths; uniform vec3 light_near; uniform float texel;
+float light_that_arrives(float facing, int taps) {
+    float bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0)), seen = 0.0;
+    for (int y = 1 - taps; y < taps; y += 2)
+        for (int x = 1 - taps; x < taps; x += 2)
+            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * texel, lit_at.z - bias));
+    return seen / float(taps * taps);
+}
+)";
+
 // A smooth normal may point away at a limb that is seen: only one that is seen from behind is turned.
 // Light from the sky above, from the floor below and from the wall behind stands for what bounces around the room.
-inline constexpr const char* kSolidFragment = R"(#version 330 core
-in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
-uniform sampler2DShadow depths; uniform vec3 light_near; uniform float opacity, apart; uniform vec2 size;
+inline constexpr const char* kSolidFragment = R"(
+float power_48(float x) { x *= x; x *= x; x *= x; x *= x; return x * x * x; }
 void main() {
     vec3 n = normalize(normal), eye = normalize(eye_dir);
     if (dot(n, eye) < -0.2) n = -n;
-    float facing = dot(n, light_near), bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0));
-    float seen = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * apart, lit_at.z - bias));
-    seen /= 9.0;
-    if (paint.a == 0.0) {  // fading out before the panel ends
-        vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
-        color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
-        return;
-    }
+    float facing = dot(n, light_near), seen = light_that_arrives(facing, 2);
     float diffuse = max(facing, 0.0) * seen, sky = 0.5 + 0.5 * n.y, front = max(n.z, 0.0);
-    float spot = pow(max(dot(n, normalize(light_near + eye)), 0.0), 48.0) * seen;
+    float spot = power_48(max(dot(n, normalize(light_near + eye)), 0.0)) * seen;
     vec3 c = paint.rgb * paint.rgb * (0.20 + 0.22 * sky + 0.16 * front + 0.72 * diffuse) + vec3(0.16 * spot);
     color = vec4(sqrt(clamp(c, 0.0, 1.0)), 1.0);
+})";
+
+// The wall shows shadows and nothing else, fading out before the panel ends.
+inline constexpr const char* kWallFragment = R"(
+uniform float opacity; uniform vec2 size;
+void main() {
+    float seen = light_that_arrives(dot(normalize(normal), light_near), 3);
+    vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
+    color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
 })";
 
 inline constexpr const char* kDepthVertex = R"(#version 330 core

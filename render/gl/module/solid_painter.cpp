@@ -1,6 +1,7 @@
 #include "render/gl/module/solid_painter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "render/gl/module/shaders.hpp"
@@ -25,7 +26,9 @@ void draw_triangles(std::size_t first, std::size_t end) {
 }  // namespace
 
 SolidPainter::SolidPainter(int width, int height) : width_(width), height_(height) {
-    bodies_ = link_program({kSolidVertex}, {kSolidFragment});
+    constexpr const char* kVersion = "#version 330 core\n";
+    bodies_ = link_program({kSolidVertex}, {kVersion, kSoftShadow, kSolidFragment});
+    wall_ = link_program({kSolidVertex}, {kVersion, kSoftShadow, kWallFragment});
     depths_ = link_program({kDepthVertex}, {kDepthFragment});
     glGenVertexArrays(1, &vertices_);
     glGenBuffers(1, &buffer_);
@@ -72,22 +75,21 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.triangles.size() * sizeof(SolidVertex)),
                  scene.triangles.data(), GL_STREAM_DRAW);
+    const Part part = part_of(scene);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     draw_depths(scene);
-    draw_bodies(scene);
+    draw_scene(scene, part);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, resolved_);
-    glPixelStorei(GL_PACK_ROW_LENGTH, width_);
-    glReadPixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, out.pixels.data());
+    read(part, out);
     require_no_error();
-    // OpenGL's first row is the lowest.
-    const auto row = [&](int y) { return out.pixels.begin() + std::ptrdiff_t(y) * width_; };
-    for (int y = 0; y < height_ / 2; ++y) std::swap_ranges(row(y), row(y + 1), row(height_ - 1 - y));
+}
+
+SolidPainter::Part SolidPainter::part_of(const SolidScene& scene) const {
+    const auto whole = [](double at, int most) { return static_cast<int>(std::clamp<double>(at, 0, most)); };
+    return {whole(std::floor(scene.seen.x), width_), whole(std::floor(height_ - scene.seen.bottom()), height_),
+            whole(std::ceil(scene.seen.right()), width_), whole(std::ceil(height_ - scene.seen.y), height_)};
 }
 
 // What the light sees. The wall casts no shadow.
@@ -101,27 +103,48 @@ void SolidPainter::draw_depths(const SolidScene& scene) {
 }
 
 // What the eye sees.
-void SolidPainter::draw_bodies(const SolidScene& scene) {
+void SolidPainter::draw_scene(const SolidScene& scene, const Part& part) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     glViewport(0, 0, width_, height_);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part.left, part.low, part.right - part.left, part.high - part.low);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glUseProgram(bodies_);
-    set_light(bodies_, scene.reach);
-    set_view(scene.view);
-    set(bodies_, "opacity", float(scene.shadow));
-    set(bodies_, "apart", 2.0F / kShadowSize);
-    draw_triangles(scene.wall, scene.triangles.size());
+    glDisable(GL_SCISSOR_TEST);
+    use_program(bodies_, scene);
+    draw_triangles(scene.wall, scene.front);
+    use_program(wall_, scene);
+    set(wall_, "opacity", float(scene.shadow));
     draw_triangles(0, scene.wall);  // behind them: where they hide it, it costs nothing
 }
 
-void SolidPainter::set_view(const Perspective& view) {
-    set(bodies_, "right", view.axes[0]);
-    set(bodies_, "up", view.axes[1]);
-    set(bodies_, "near", view.axes[2]);
-    set(bodies_, "size", Vec2{double(width_), double(height_)});
-    set(bodies_, "centre", view.centre);
-    set(bodies_, "distance", float(view.distance));
-    set(bodies_, "zoom", float(view.zoom));
+void SolidPainter::use_program(GLuint program, const SolidScene& scene) {
+    const Perspective& view = scene.view;
+    glUseProgram(program);
+    set_light(program, scene.reach);
+    set(program, "right", view.axes[0]);
+    set(program, "up", view.axes[1]);
+    set(program, "near", view.axes[2]);
+    set(program, "size", Vec2{double(width_), double(height_)});
+    set(program, "centre", view.centre);
+    set(program, "distance", float(view.distance));
+    set(program, "zoom", float(view.zoom));
+    set(program, "texel", 1.0F / kShadowSize);
+}
+
+// The mean of the samples. OpenGL's first row is the lowest.
+void SolidPainter::read(const Part& part, Image& out) const {
+    std::ranges::fill(out.pixels, 0);
+    if (part.left >= part.right || part.low >= part.high) return;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
+    glBlitFramebuffer(part.left, part.low, part.right, part.high, part.left, part.low, part.right, part.high,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, resolved_);
+    glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+    const int first = height_ - part.high, rows = part.high - part.low, columns = part.right - part.left;
+    const auto row = [&](int y) { return out.pixels.begin() + std::ptrdiff_t(first + y) * width_ + part.left; };
+    glReadPixels(part.left, part.low, columns, rows, GL_BGRA, GL_UNSIGNED_BYTE, &*row(0));
+    for (int y = 0; y < rows / 2; ++y) std::swap_ranges(row(y), row(y) + columns, row(rows - 1 - y));
 }
 
 }  // namespace beamcam::render

@@ -12,13 +12,18 @@ class SolidPainter {
     void draw(const SolidScene& scene, Image& out);
 
   private:
+    struct Part {  // of a frame buffer, half open [px]
+        int left = 0, low = 0, right = 0, high = 0;
+    };
     void make_shadow_target();
+    Part part_of(const SolidScene& scene) const;
     void draw_depths(const SolidScene& scene);
-    void draw_bodies(const SolidScene& scene);
-    void set_view(const Perspective& view);
+    void draw_scene(const SolidScene& scene, const Part& part);
+    void use_program(GLuint program, const SolidScene& scene);
+    void read(const Part& part, Image& out) const;
 
     int width_, height_;
-    GLuint bodies_ = 0, depths_ = 0;  // programs
+    GLuint bodies_ = 0, wall_ = 0, depths_ = 0;  // programs
     GLuint vertices_ = 0, buffer_ = 0, target_ = 0, resolved_ = 0, shadow_target_ = 0;
 };
 

@@ -166,5 +166,27 @@ TEST(Exposures, TheStrobeShowsWhereTheBeamWas) {
     EXPECT_NE(drawn(film, 14), drawn(without, 14));
 }
 
+// Labels have places by the whole mechanism; near, they would stand outside the view.
+TEST(Camera, LabelsOfWhatItSeesStandWithinTheView) {
+    FilmSetup setup = test::synthetic_film({.duration = 1});
+    setup.width = 960, setup.height = 540;
+    setup.view.style = Style::flat;
+    setup.layout = LayoutNode{};
+    setup.view.shot = {.zoom = 5, .follow = {Anchor::Kind::contact, {}}};
+    Film film(std::move(setup));
+    int labels = 0;
+    for (int k = 0; k < film.frames(); k += 3) {
+        const FrameGeometry g = film.geometry(k);
+        const Box& view = g.layout.first(PanelKind::mechanism)->box;
+        for (const Box& label : g.labels) {
+            EXPECT_TRUE(label.x >= view.x && label.right() <= view.right() && label.y >= view.y &&
+                        label.bottom() <= view.bottom())
+                << "frame " << k << ": " << label.x << ", " << label.y;
+            ++labels;
+        }
+    }
+    EXPECT_GT(labels, 0);
+}
+
 }  // namespace
 }  // namespace beamcam::render

@@ -51,7 +51,7 @@ TEST_P(AnySize, PlotsStandWithinTheirSlots) {
     const Layout l = layout(GetParam().w, GetParam().h, kAll);
     for (const PanelSlot& c : l.panels) {
         if (c.spec.kind == PanelKind::mechanism) continue;
-        const Box plot = plot_area(c.box, l.unit);
+        const Box plot = plot_area(c.box, l.unit, l.tick);
         EXPECT_TRUE(c.box.contains(plot, 1));
         EXPECT_GT(plot.h, 40);
         EXPECT_GT(plot.w, 100);
@@ -81,6 +81,18 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
                                          Size{3840, 2160}, Size{640, 360}, Size{321, 241}, Size{1001, 777},
                                          Size{1600, 400}, Size{500, 1500}, Size{200, 200}, Size{64, 48}, Size{16, 16},
                                          Size{1, 1}));
+
+TEST(Layout, LettersAtAxesHaveAFiftiethOfTheHeight) {
+    for (const auto& [w, h] : {std::pair{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {854, 480}, {640, 360}})
+        EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * h) << w << "x" << h;
+    const Layout usual = layout(1920, 1080, std::vector<PanelSpec>{}),
+                 large = layout(1920, 1080, std::vector<PanelSpec>{}, 1, {}, {.size = 1.3});
+    EXPECT_NEAR(large.tick, 1.3 * usual.tick, 1e-9);
+    // They take their room from the plot, not from each other.
+    const Box box{0, 0, 600, 300};
+    EXPECT_LT(plot_area(box, 1, 22).w, plot_area(box, 1, 17).w);
+    EXPECT_LT(plot_area(box, 1, 22).bottom(), plot_area(box, 1, 17).bottom());
+}
 
 TEST(Layout, FullSizeShowsEverything) {
     const Layout l = layout(1920, 1080, kAll);

@@ -582,16 +582,17 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
         const std::size_t last = setup.poses.size() - 1;
         setup.poses[last].t = end;
         Film film(std::move(setup));
-        const Box box = film.geometry(0).layout.first(PanelKind::strip)->box;
+        const Layout places = film.geometry(0).layout;
+        const Box box = places.first(PanelKind::strip)->box, plot = plot_area(box, places.unit, places.tick);
         const Image image = drawn(film, 0);
-        const double u = film.geometry(0).layout.unit;
+        const double u = places.unit;
         for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
-            for (int x = int(box.x + 74 * u); x < int(box.right()); ++x) {
+            for (int x = int(plot.x + 4 * u); x < int(box.right()); ++x) {
                 const std::uint32_t p = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
                 if (std::abs((p >> 16 & 255) / 255.0 - faint.r) + std::abs((p >> 8 & 255) / 255.0 - faint.g) +
                         std::abs((p & 255) / 255.0 - faint.b) <
                     0.03)
-                    return (plot_area(box, u).bottom() - y) / plot_area(box, u).h;
+                    return (plot.bottom() - y) / plot.h;
             }
         return 0.0;
     };
@@ -633,7 +634,7 @@ FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
 double highest_past(Film& film, int frame) {
     const FrameGeometry g = film.geometry(frame);
     const double u = g.layout.unit;
-    const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, u);
+    const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, u, g.layout.tick);
     const Color past = palette(Theme::light).contact;
     const Image image = drawn(film, frame);
     for (int y = int(plot.y); y < int(plot.bottom()); ++y)
@@ -655,7 +656,7 @@ TEST(ForceStrip, WithoutContactHasNoInventedAxis) {
         setup.layout = leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::contact_x, 0}}});
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(2);
-        const Box plot = plot_area(g.layout.panels.front().box, g.layout.unit);
+        const Box plot = plot_area(g.layout.panels.front().box, g.layout.unit, g.layout.tick);
         return std::ranges::count_if(g.texts, [&](const Box& text) {
             return text.right() < plot.x && text.bottom() < plot.bottom() - 12 && text.y > plot.y;
         });
@@ -685,7 +686,7 @@ TEST(ForceStrip, TellsTheForceAsItsLabelDoes) {
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(0);
         const Box box = g.layout.first(PanelKind::strip)->box;
-        const double u = g.layout.unit, right = plot_area(box, u).right();
+        const double u = g.layout.unit, right = plot_area(box, u, g.layout.tick).right();
         for (const Box& text : g.texts)
             if (std::abs(text.right() - right - 8 * u) < 4 * u && text.y < box.y + 30 * u) return text.w;
         return 0.0;
@@ -779,8 +780,8 @@ TEST(CloseUp, HasTwoMarksHoweverLow) {
         const FrameGeometry g = film.geometry(0);
         const Box box = g.layout.first(PanelKind::close_up)->box;
         const auto marks = std::ranges::count_if(g.texts, [&](const Box& b) {
-            return b.right() < box.x + 62 * g.layout.unit && b.y > box.y + 30 * g.layout.unit &&
-                   b.bottom() < box.bottom() - 30 * g.layout.unit;
+            return b.right() < plot_area(box, g.layout.unit, g.layout.tick).x - 8 * g.layout.unit &&
+                   b.y > box.y + 30 * g.layout.unit && b.bottom() < box.bottom() - 30 * g.layout.unit;
         });
         EXPECT_GE(marks, 2) << height;
     }

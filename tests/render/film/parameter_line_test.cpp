@@ -103,8 +103,9 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     EXPECT_EQ(tiny.back(), "colour scales");
     const std::string essay =
         "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");  // on two lines
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay, {&problem}).front(), "the end of the title");
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");          // on two lines
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay, {&problem}).front(), "colour scales");  // in small letters
+    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay + essay, {&problem}).front(), "the end of the title");
     EXPECT_TRUE(without_room(1920, 1080, {}, 1, essay, {&problem}).empty());
     EXPECT_EQ(without_room(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(plain(math("K") + "\u2009=\u2009" + power_text(1e8) + "\u00A0N\u2009m<sup>−1.5</sup>"),

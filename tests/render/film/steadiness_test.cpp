@@ -203,7 +203,7 @@ void static_parts_stay(FilmSetup setup) {
         // The axes of values and their headings' beginnings, left of the plots and above them.
         for (const PanelSlot& slot : places.panels) {
             if (slot.spec.kind != PanelKind::strip) continue;
-            const Box plot = plot_area(slot.box, places.unit);
+            const Box plot = plot_area(slot.box, places.unit, places.tick);
             EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, plot.x - 8 - slot.box.x, slot.box.h})) << k;
             EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y}))
                 << k;

@@ -60,6 +60,62 @@ TEST(SolidScene, TheWallIsWhereverAShadowFallsAndNotMuchMore) {
     EXPECT_LT(area, 0.25 * 960 * 720);
 }
 
+// What the eye cannot see is left out of the picture, not of the shadows; the picture is empty outside `seen`.
+TEST(SolidScene, WhatFacesTheEyeComesFirstAndLiesWithinThePartThatIsSeen) {
+    const SolidScene scene = example();
+    ASSERT_GT(scene.front, scene.wall);
+    ASSERT_LT(scene.front, scene.triangles.size());
+    ASSERT_EQ((scene.front - scene.wall) % 3, 0U);
+    const double share = double(scene.front - scene.wall) / double(scene.triangles.size() - scene.wall);
+    EXPECT_LT(share, 0.8);
+    for (const SolidVertex& vertex : scene.triangles) {
+        const Vec2 at = scene.view.to_pixels({vertex.place[0], vertex.place[1], vertex.place[2]});
+        ASSERT_TRUE(at.x > scene.seen.x && at.x < scene.seen.right() && at.y > scene.seen.y &&
+                    at.y < scene.seen.bottom());
+    }
+}
+
+TEST(SolidScene, ABodyAtTheEyeIsSeenEverywhere) {
+    MechanismShape shape;
+    for (const double x : {100.0, 300.0}) {
+        shape.face.push_back({x, 200}), shape.back.push_back({x, 205});
+        shape.colors.push_back({0.5, 0.5, 0.5, 1});
+    }
+    shape.hinge = {100, 200}, shape.hub = 20, shape.pin = 6;
+    const Box box{0, 0, 400, 400};
+    const Perspective near = Perspective::looking(box.centre(), 30, 1, 0, 0);
+    EXPECT_EQ(solid_scene(shape, palette(Theme::light), box, near, 60, 1, {}).seen.w, 400);
+}
+
+// A renderer keeps its picture from one scene to the next: what the first showed is gone.
+TEST(GlSolid, ASmallSceneAfterALargeOneLeavesNothingOfIt) {
+    SKIP_WITHOUT_GL();
+    SolidScene large = example(), small = example();
+    small.triangles.resize(small.wall + 3);
+    small.front = small.wall + 3;
+    small.seen = {400, 300, 10, 10};
+    const auto renderer = make_lit_renderer(960, 720), fresh = make_lit_renderer(960, 720);
+    Image after, alone;
+    renderer->draw(large, after);
+    renderer->draw(small, after);
+    fresh->draw(small, alone);
+    EXPECT_TRUE(after == alone);
+}
+
+// Only the fronts are shaded: with the backs drawn too the picture is the same but for its silhouette.
+TEST(GlSolid, TheBacksOfBodiesAreNotMissed) {
+    SKIP_WITHOUT_GL();
+    SolidScene scene = example();
+    const auto renderer = make_lit_renderer(960, 720);
+    Image fronts, all;
+    renderer->draw(scene, fronts);
+    scene.front = scene.triangles.size();
+    renderer->draw(scene, all);
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) differ += all.pixels[i] != fronts.pixels[i] ? 1 : 0;
+    EXPECT_LE(differ, 20U);  // of samples on the silhouette, where front and back meet
+}
+
 // The limb of a disc towards the light: pixels that were shaded by a normal turned away stood there like stitches.
 TEST(GlSolid, TheLitLimbOfADiscHasNoDarkPixels) {
     SKIP_WITHOUT_GL();

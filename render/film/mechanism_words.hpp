@@ -1,0 +1,43 @@
+// What stands beside a mechanism without moving: which motion it is, where there are several, and the scale bar.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/draw/canvas.hpp"
+#include "render/draw/geometry.hpp"
+#include "render/plot/placement.hpp"
+
+namespace beamcam::render {
+
+struct MechanismView;
+
+class MechanismWords {
+  public:
+    explicit MechanismWords(const MechanismView& at) : at_(at) {}  // which outlives it
+
+    void place(OccupancyGrid room);  // in corners, or along edges, where nothing moving comes
+    void draw(Canvas& canvas, const MechanismView& at) const;
+    std::vector<Box> boxes() const;  // where they stand [px]
+
+  private:
+    // Which motion this is, with ghosts all of them; and data that are drawn as a beam.
+    struct Entry {
+        Color color;
+        std::string text;
+        bool dashed = false;
+    };
+    std::vector<Entry> entries() const;
+    bool has_label() const;
+    bool has_bar() const;
+    void scale_bar(Canvas& canvas, const MechanismView& at) const;
+    void label(Canvas& canvas) const;
+    double scale_length(const MechanismView& at) const;
+    TextStyle label_style() const;
+
+    const MechanismView& at_;
+    std::optional<Box> label_, bar_;
+};
+
+}  // namespace beamcam::render
