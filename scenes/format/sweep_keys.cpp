@@ -171,8 +171,8 @@ Form seed_form(SweepSeeds& seeds) {
         return all;
     };
     return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",
-            R"({"anyOf": [{"type": "string", "pattern": "^((same|carry-up|carry-down)(,(same|carry-up|carry-down))*))"
-            R"(|random:[0-9]+)$"}, {"type": "array", "minItems": 1, )"
+            R"({"anyOf": [{"enum": ["same", "carry-up", "carry-down", "carry-up,carry-down"]}, )"
+            R"({"type": "string", "pattern": "^random:[1-9][0-9]*$"}, {"type": "array", "minItems": 1, )"
             R"("uniqueItems": true, "items": {"enum": ["same", "carry-up", "carry-down"]}}]})",
             read, write};
 }
