@@ -114,9 +114,9 @@ void add_simulate(Grammar& grammar) {
     app.option("--impacts", &args->impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
     app.option("--summary", &args->summary, "FILE", "Counts, extremes, energy balance, .json; - is standard output");
-    app.flag(
-        "--horizon", args->horizon,
-        "Report in the summary the intervals in which the motion is reproducible (a second run, by another method)");
+    app.flag("--horizon", args->horizon,
+             "Report in the summary the intervals in which the motion is reproducible (further runs, tighter and by "
+             "another method)");
     add_work(app, args->common);
     app.bind(args, act);
 }

@@ -9,8 +9,9 @@ namespace beamcam::scenes {
 
 void SummaryOutput::visit(SceneVisitor& v) {
     v.form("file", file_form(file, {".json"}), "Name of the file; the scene's name with -summary.json when left out.");
-    v.truth("horizon", horizon,
-            "State during which intervals the motion is reproducible; costs a second run, by another method.");
+    v.truth(
+        "horizon", horizon,
+        "State during which intervals the motion is reproducible; costs further runs, tighter and by another method.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, "-summary.json"); });
 }
 

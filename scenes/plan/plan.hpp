@@ -53,7 +53,7 @@ struct Simulation {
     std::string until_because;  // the output that looks furthest: "fall.mp4"
     // Pictures that end before the run: each tells of impacts and energy as if the run ended with it.
     std::vector<double> ends;  // [s], distinct
-    bool horizon = false;      // somebody asks until when it is reproducible: a second run
+    bool horizon = false;      // somebody asks until when it is reproducible: further runs
     bool from_cache = false;   // a kept trajectory goes far enough
     bool keep = false;         // for later runs
     std::optional<Cost> cost;

@@ -91,7 +91,7 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
                             : fmt::format("{}; the initial state only, nothing to integrate", model_words(problem));
     if (simulation.from_cache) words += "; kept from an earlier run";
     if (simulation.keep) words += "; kept for later runs, unless it is short";
-    if (simulation.horizon) words += "; a second run finds until when it is reproducible";
+    if (simulation.horizon) words += "; further runs find until when it is reproducible";
     return words + motion_cost(simulation.cost);
 }
 

@@ -250,7 +250,7 @@ void Planner::note_skipped() {
         skip("OpenGL", "every view is flat");
     if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
     if (!plan_.simulation->request.turning_points) skip("extrema and turning points", "no output is a summary");
-    if (!plan_.simulation->horizon) skip("second run for the reproducible horizon", "nothing asks for it");
+    if (!plan_.simulation->horizon) skip("further runs for the reproducible horizon", "nothing asks for it");
 }
 
 void Planner::note_unread_channels() {

@@ -519,7 +519,7 @@ TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
     EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the keyframe before it"));
 }
 
-// A second run alone knows where the motion is not reproducible: nobody pays for it who does not ask.
+// Further runs alone know where the motion is not reproducible: nobody pays for it who does not ask.
 TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
     const Folder folder;
     const auto still = [&](const char* keys) {
@@ -537,7 +537,7 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
     EXPECT_THAT(still(R"(, "horizon": true)"), HasSubstr(" integrations=3 "));
     EXPECT_NE(digest(), plain);
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out,
-                HasSubstr("a second run finds until when it is reproducible"));
+                HasSubstr("further runs find until when it is reproducible"));
 }
 
 // A logo is an input: another picture in the file makes another film.

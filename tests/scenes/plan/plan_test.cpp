@@ -114,7 +114,7 @@ TEST(PlanText, AFilm) {
 skipped
   20 of 24 channels: no output reads them
   extrema and turning points: no output is a summary
-  second run for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -132,7 +132,7 @@ skipped
   pictures, fonts and OpenGL: no output is a picture
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  second run for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -147,7 +147,7 @@ skipped
   OpenGL: every view is flat
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  second run for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: nothing asks for it
 )");
 }
 
@@ -168,7 +168,7 @@ TEST(PlanText, EveryOutputAtOnce) {
         text_of(
             R"({"beam": {"model": "exact", "modes": 6}, "outputs": [{"type": "frames", "fps": 30, "from": 0.5}, {"type": "trajectory"}, {"type": "impacts"}, {"type": "summary", "horizon": true}]})"),
         R"(to do
-  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, because of scene-####.png; a second run finds until when it is reproducible
+  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, because of scene-####.png; further runs find until when it is reproducible
   frames    scene-####.png: 30 frames of 0.5 s to 1.46667 s at 30 a second, 1920 × 1080, lit
   table     scene.csv: 1501 rows of 29 channels
   impacts   scene-impacts.json
@@ -207,7 +207,7 @@ skipped
   OpenGL: every view is flat
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  second run for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: nothing asks for it
 )");
     known.kept_until = 0.4;  // too short
     EXPECT_THAT(text_with(known), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
