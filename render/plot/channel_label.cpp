@@ -11,11 +11,11 @@ namespace {
 
 using sim::ChannelKind;
 
-struct Row {
+struct LabelRow {
     ChannelKind kind;
     ChannelLabel label;
 };
-constexpr Row kLabels[] = {
+constexpr LabelRow kLabels[] = {
     {ChannelKind::t, {"Time", "时间", "t"}},
     {ChannelKind::theta, {"Hub angle", "转角", "θ"}},
     {ChannelKind::theta_dot, {"Hub speed", "角速度", "θ", "", true}},
@@ -53,7 +53,7 @@ std::string ChannelLabel::below(sim::Channel channel) const {
 }
 
 const ChannelLabel& label_of(ChannelKind kind) {
-    for (const Row& row : kLabels)
+    for (const LabelRow& row : kLabels)
         if (row.kind == kind) return row.label;
     throw std::logic_error("a channel without a label");
 }

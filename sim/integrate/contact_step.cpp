@@ -243,7 +243,8 @@ void ContactStep::linearize(const StepTable& table) {
 double ContactStep::error(double h) {
     const double smooth = step_.forcing_error(h, &load);
     double force = quadrature_error(load.force, force_rounding_);
-    if (load.rough) force = std::max(force, quadrature_error(load.friction, force_rounding_));
+    if (load.rough) force = std::max(quadrature_error(load.friction, force_rounding_), force);
+    if (!std::isfinite(force)) return force;  // a maximum of several would hide it
     return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
                                      force * mobility_hub_ / step_.scale_theta_dot});
 }

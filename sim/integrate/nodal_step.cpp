@@ -24,7 +24,8 @@ double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951
 LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
     const auto& legendre = Collocation::get().legendre;
     const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
-    const double last = std::max(0.0, std::max(size(6), size(7)) - rounding), before = std::max(size(4), size(5));
+    // In this order of arguments: what is no number stays so, and no step is taken with it.
+    const double last = std::max(std::max(size(6), size(7)) - rounding, 0.0), before = std::max(size(4), size(5));
     return {last, last == 0 ? 0 : std::min(1.0, last / before)};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/inertia_forces.hpp"
 #include "sim/integrate/lane_kernels.hpp"
+#include "sim/integrate/nodal_step.hpp"
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
 
@@ -131,6 +133,15 @@ TEST(Oscillators, SideBySideTheyAnswerAsAlone) {
             }
         }
     }
+}
+
+// A step whose forces are no numbers must not pass for an exact one.
+TEST(NodalErrors, OfWhatIsNoNumberAreNoNumbers) {
+    Lanes nodal = Lanes{} + 1;
+    nodal[3] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(interpolation_error(nodal)));
+    for (const double rounding : {0.0, 1.0}) EXPECT_TRUE(std::isnan(quadrature_error(nodal, rounding)));
+    EXPECT_EQ(quadrature_error(Lanes{} + 1, 1e-12), 0);
 }
 
 TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
