@@ -270,8 +270,9 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
     const Perspective perspective = view_of(at, frame);
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr,
-                           labels};
+    const Perspective* view = style == Style::solid ? &perspective : nullptr;
+    const std::optional<Push> push = push_of(pose, drawn, rings_.peak(frame));
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, push, labels};
     trail(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
@@ -292,7 +293,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
     draw_disc_letters(s);  // which a ring would make hard to read
-    draw_force(s, push_of(pose, drawn, rings_.peak(frame)));
+    draw_force(s);
     if (at.member == 0) draw_captions(s);
 }
 
