@@ -22,6 +22,7 @@ std::string part(char kind, std::string_view first, std::string_view second) {
 // fraction stands, what is left free beside lines, their width, and that of a root's sign.
 constexpr double kSmall = 0.72, kOver = 0.64, kRaise = 0.36, kLower = 0.17, kAxis = 0.27, kGap = 0.09, kLine = 0.055,
                  kSign = 0.55;
+constexpr double kApartAbove = 0.06, kApartBelow = 0.07;  // so much further are scripts of one letter that has both
 
 }  // namespace
 
@@ -80,7 +81,9 @@ Box Canvas::formula(Vec2 at, const std::string& markup, const TextStyle& style, 
     };
     for (const FormulaPart& one : formula_parts(markup)) {
         if (one.kind == 's') {
-            const Vec2 below{x, kLower * size}, above{x + 0.06 * size, -kRaise * size};
+            const bool both = !one.first.empty() && !one.second.empty();
+            const Vec2 below{x, (kLower + (both ? kApartBelow : 0)) * size},
+                above{x + 0.06 * size, -(kRaise + (both ? kApartAbove : 0)) * size};
             x += std::max(one.first.empty() ? 0 : put(below, one.first, small).w,
                           one.second.empty() ? 0 : 0.06 * size + put(above, one.second, small).w);
         } else if (one.kind == 'f') {
@@ -94,6 +97,7 @@ Box Canvas::formula(Vec2 at, const std::string& markup, const TextStyle& style, 
             small.size = kSmall * size;
         } else if (one.kind == 'r') {
             const double sign = kSign * size;
+            if (x > 0) x += gap;  // its sign begins low, where what is before it may end
             const Box inside = put({x + sign, 0}, one.first, plain);
             const double top = std::min(inside.y, -0.7 * size) - gap, bottom = std::max(inside.bottom(), 0.0);
             rule({{x, -0.3 * size},

@@ -1,13 +1,16 @@
 #include "render/draw/smooth_path.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace beamcam::render {
 namespace {
 
 constexpr double kMostSteps = 64;
-constexpr double kSame = 1e-9;  // [px]
+constexpr double kMostTurningSteps = 4096;  // some turns of a large picture; what turns more often is a ring anyhow
+constexpr double kSame = 1e-9;              // [px]
 
 // The next point that differs from points[i], going by `way`.
 std::optional<Vec2> beyond(std::span<const Vec2> points, std::size_t i, int way) {
@@ -46,6 +49,23 @@ std::vector<Vec2> smooth_piece(std::span<const Vec2> points, std::size_t i, doub
         out.push_back(blend(blend(ab, bc, 0, t2, t), blend(bc, cd, t1, t3, t), t1, t2, t));
     }
     out.push_back(c);
+    return out;
+}
+
+std::vector<Vec2> turning_piece(Vec2 centre, Vec2 from, Vec2 to, double turn, double step) {
+    const Vec2 first = from - centre, last = to - centre;
+    const double start = std::atan2(-first.y, first.x), end = std::atan2(-last.y, last.x);
+    // The places themselves tell the angle but for whole turns.
+    const double angle = turn + std::remainder(end - start - turn, 2 * std::numbers::pi);
+    const double length = std::abs(angle) * std::max(norm(first), norm(last));
+    const int steps = std::max(1, static_cast<int>(std::min(std::ceil(length / step), kMostTurningSteps)));
+    std::vector<Vec2> out{from};
+    for (int k = 1; k < steps; ++k) {
+        const double part = double(k) / steps, at = start + part * angle;
+        const double distance = norm(first) + part * (norm(last) - norm(first));
+        out.push_back(centre + Vec2{std::cos(at), -std::sin(at)} * distance);
+    }
+    out.push_back(to);
     return out;
 }
 

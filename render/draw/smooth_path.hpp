@@ -17,4 +17,9 @@ namespace beamcam::render {
 // points.size().
 std::vector<Vec2> smooth_piece(std::span<const Vec2> points, std::size_t i, double step);
 
+// The way of a point that turns about `centre` by `turn` [rad], counterclockwise as it is seen, from one place to
+// another: its distance changes in proportion to the angle. For what turns further between two frames than a spline
+// through their places can tell, whole turns included.
+std::vector<Vec2> turning_piece(Vec2 centre, Vec2 from, Vec2 to, double turn, double step);
+
 }  // namespace beamcam::render

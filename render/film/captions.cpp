@@ -29,8 +29,11 @@ class Captions {
   public:
     explicit Captions(const MechanismScene& scene) : s(scene), u(scene.at.unit), box(scene.at.box) {
         style = {.size = 22 * u, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * box.w};
-        for (const auto* label : {&s.at.labels->speed, &s.at.labels->angle, &s.at.labels->force})
+        const MechanismLabels& placed = *s.at.labels;
+        for (const auto* label : {&placed.speed, &placed.angle})
             if (*label) labels.push_back(s.at.label_box(**label, s.view));
+        if (placed.force)
+            labels.push_back(s.at.label_box(*placed.force, s.view, s.push ? s.push->foot : placed.force->base));
     }
 
     void draw() const {

@@ -14,6 +14,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kLabelFade = 0.2;           // how long a label without a free place takes to go or come [s]
+constexpr double kFarthestLetter = 90;       // of the angle from its arc [design px of the letter]
 constexpr std::size_t kMeasuredPushes = 60;  // whose numbers tell how wide the label of the force becomes
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
@@ -132,7 +133,11 @@ class LabelPlacer {
             arc.push_back(o + down((below ? needs.angles.low : needs.angles.high) * i / 64) * radius);
         room.cover(arc, 1);
         const Vec2 middle = o + down((below ? -0.5 : 0.5) * least_angle()) * (radius - 17 * letter);
-        return place(room, about(middle, {13 * letter, 17 * letter}));
+        LabelPlace out = place(room, about(middle, {13 * letter, 17 * letter}), o);
+        const Vec2 way = at.px(out.middle) - o;
+        if (std::abs(norm(way) - radius) > kFarthestLetter * letter) return std::nullopt;
+        out.base = at.look.camera.to_world(o + way * (radius / norm(way)));
+        return out;
     }
 
     // Beside its arrow, which takes the first side that the beams leave to both.
@@ -145,7 +150,8 @@ class LabelPlacer {
         }
         OccupancyGrid taken = room;
         each_of_arrow(way, [&](const Box& box) { taken.cover(box, 1); });
-        return place(taken, speed_box(way, width));
+        const double edge = speed_radius(at) - speed_gap(at);
+        return place(taken, speed_box(way, width), at.px(at.problem().cam->centre) + down(way) * edge);
     }
 
     template <class Visit>
@@ -171,7 +177,7 @@ class LabelPlacer {
         const Vec2 tip = at.px(most.foot) + n * clear;
         const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
         const double gap = 14 * u + shrunk(width);
-        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - 14 * u, width, 28 * u});
+        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - 14 * u, width, 28 * u}, at.px(most.foot));
     }
 
   private:
@@ -189,9 +195,10 @@ class LabelPlacer {
     // The solid view is drawn smaller than the flat one, its words are not: so much they come nearer to their arrows.
     double shrunk(double width) const { return at.facts.setup->view.style == Style::solid ? 0.07 * width : 0; }
 
-    LabelPlace place(const OccupancyGrid& room, const Box& wanted) const {
+    LabelPlace place(const OccupancyGrid& room, const Box& wanted, Vec2 base) const {
         const Box found = room.nearest_free(wanted.inset(-u - shrunk(wanted.w)));
-        LabelPlace out{at.look.camera.to_world(found.centre()), {wanted.w, wanted.h}, {}};
+        const Camera& camera = at.look.camera;
+        LabelPlace out{camera.to_world(found.centre()), {wanted.w, wanted.h}, camera.to_world(base), {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;
     }

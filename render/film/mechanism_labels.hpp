@@ -1,6 +1,6 @@
 // Where the letters and numbers of a mechanism stand: each keeps one place over the whole film, the nearest to what it
-// belongs to that nothing moving ever meets. One that stands far off gets a line to what it belongs to; where no place
-// is free, it fades while something moves through it.
+// belongs to that nothing moving ever meets. One that stands far off gets a line to what it belongs to, unless it is
+// the letter of the angle, which is left out; where no place is free, it fades while something moves through it.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ struct Push {
 };
 
 struct LabelPlace {
-    Vec2 middle, size;           // [m], [px]; the middle moves with the camera, the size does not
+    Vec2 middle, size;           // [m], [px]; where a camera that shows all has it
+    Vec2 base;                   // what it stands beside, at the same distance in pixels however near the camera is [m]
     std::vector<float> opacity;  // of each frame; empty: always 1
 
     double opacity_at(int frame) const { return opacity.empty() ? 1 : opacity[static_cast<std::size_t>(frame)]; }

@@ -14,13 +14,13 @@ namespace {
 using std::numbers::pi;
 constexpr double kFarLabel = 60, kFarLetter = 26;  // from there on a label has a line to its owner [design px]
 
-// One of the labels that keep their place, with a line to its owner where that is far. A moving camera that sees one of
-// them shows both: the label stays within the view.
+// One of the labels that keep their place, with a line to its owner where that is far. A moving camera shows those
+// whose base it sees.
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
-                double far = kFarLabel) {
+                Vec2 base, double far = kFarLabel) {
     const double opacity = label.opacity_at(s.frame);
-    const Box box = s.at.label_box(label, s.view);
-    if (opacity <= 0 || !(s.at.shows(owner) || s.at.shows(s.px(label.middle)))) return;
+    const Box box = s.at.label_box(label, s.view, base);
+    if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
     if (!s.view) style.halo = s.at.palette.paper.faded(opacity);  // over a soft shadow it would only glow
     const Vec2 to = owner;
@@ -40,8 +40,10 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
 
 double speed_radius(const MechanismView& at) {
     const sim::Cam& cam = *at.problem().cam;
-    return (cam.radius + cam.eccentricity) * at.look.camera.scale + 20 * at.unit;
+    return (cam.radius + cam.eccentricity) * at.look.camera.scale + speed_gap(at);
 }
+
+double speed_gap(const MechanismView& at) { return 20 * at.unit; }
 
 double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
 
@@ -88,7 +90,7 @@ void draw_angle_arc(const MechanismScene& s) {
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
     draw_label(s, *s.at.labels->angle, math("θ"),
                {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
-               s.on(o + down(foot) * radius), kFarLetter);
+               s.on(o + down(foot) * radius), s.at.labels->angle->base, kFarLetter);
 }
 
 // Outside the circle that the disc sweeps, on a side away from the beam; positive speed turns clockwise.
@@ -108,7 +110,7 @@ void draw_cam_speed(const MechanismScene& s) {
                        {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
     draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = 21 * s.at.unit, .color = s.at.palette.muted},
-               s.on(axis + down(middle) * radius));
+               s.on(axis + down(middle) * radius), s.at.labels->speed->base);
 }
 
 // The straight line that deflection is drawn about.
@@ -217,18 +219,19 @@ std::optional<Push> push_of(const sim::Pose& pose, const DrawnBeam& beam, const 
     return Push{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
 }
 
-void draw_force(const MechanismScene& s, const std::optional<Push>& push) {
-    if (!push) return;
-    const Vec2 flat = s.at.px(push->foot), foot = s.on(flat), n{push->normal.x, -push->normal.y};
+void draw_force(const MechanismScene& s) {
+    if (!s.push) return;
+    const Push& push = *s.push;
+    const Vec2 flat = s.at.px(push.foot), foot = s.on(flat), n{push.normal.x, -push.normal.y};
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
     // Where the force is too small for an arrow, the dot and the number tell of it.
-    const double length = arrow_length(s.at, *push);
+    const double length = arrow_length(s.at, push);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
     if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
-        draw_label(s, *s.at.labels->force, force_label(s.at, *push), force_style(s.at), tip);
+        draw_label(s, *s.at.labels->force, force_label(s.at, push), force_style(s.at), tip, push.foot);
 }
 
 }  // namespace beamcam::render

@@ -21,7 +21,8 @@ using sim::Pose;
 using std::numbers::pi;
 constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kArcStep = 6;  // of what is drawn of the tip's path [design px]
+constexpr double kArcStep = 6;    // of what is drawn of the tip's path [design px]
+constexpr double kFarTurn = 0.5;  // of the hub between places of the tip: further, a spline errs by half a pixel [rad]
 
 }  // namespace
 
@@ -97,6 +98,7 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
         needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
+        turned_.push_back(pose.theta);
         followed_.push_back({at_.look.camera.to_world(tips_.back()),
                              drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tips_.back()),
                              at_.problem().cam ? pose.cam_centre : Vec2{}});
@@ -121,8 +123,7 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
         moved_.push_back(moved);
     }
     for (std::size_t k = 0; k + 1 < tips_.size(); ++k)
-        for (SweptRegion* each : {&swept, &pressed})
-            each->room.cover(smooth_piece(tips_, k, kArcStep * at_.unit), 1);  // the trail
+        for (SweptRegion* each : {&swept, &pressed}) each->room.cover(tip_piece(tips_, turned_, k), 1);  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
     if (at_.facts.setup->view.tip_path) note_path();
@@ -130,29 +131,42 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
     return needs;
 }
 
+// The way of the tip from one of its places to the next, between which the hub turns from one angle to the next [rad].
+std::vector<Vec2> MechanismPanel::tip_piece(std::span<const Vec2> tips, std::span<const double> angles,
+                                            std::size_t k) const {
+    const double turn = angles[k + 1] - angles[k], step = kArcStep * at_.unit;
+    if (std::abs(turn) < kFarTurn) return smooth_piece(tips, k, step);
+    return turning_piece(at_.px({0, 0}), tips[k], tips[k + 1], turn, step);
+}
+
 // Through the motion's survey and the frames. A piece of the path is there when the instant at its end is.
 void MechanismPanel::note_path() {
     struct Tip {
         double t;
         Vec2 at;
+        double angle;  // of the hub [rad]
     };
     std::vector<Tip> tips;
     const double now = at_.facts.at(at_.member, at_.facts.frames() - 1);
     for (int k = 0; k < at_.facts.frames(); ++k)
-        tips.push_back({at_.facts.at(at_.member, k), tips_[static_cast<std::size_t>(k)]});
-    for (std::size_t k = 0; at_.motion().survey && k < at_.motion().surveyed(); ++k)
-        if (const DrawnBeam b = at_.drawn(at_.member, at_.motion().surveyed(k)); at_.motion().survey->time(k) <= now)
-            tips.push_back(
-                {at_.motion().survey->time(k), at_.px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5)});
+        tips.push_back(
+            {at_.facts.at(at_.member, k), tips_[static_cast<std::size_t>(k)], turned_[static_cast<std::size_t>(k)]});
+    for (std::size_t k = 0; at_.motion().survey && k < at_.motion().surveyed(); ++k) {
+        if (at_.motion().survey->time(k) > now) continue;
+        const Pose pose = at_.motion().surveyed(k);
+        const DrawnBeam b = at_.drawn(at_.member, pose);
+        tips.push_back({at_.motion().survey->time(k),
+                        at_.px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5), pose.theta});
+    }
     std::ranges::stable_sort(tips, {}, &Tip::t);
     tips.erase(std::unique(tips.begin(), tips.end(), [](const Tip& a, const Tip& b) { return a.t == b.t; }),
                tips.end());
     std::vector<Vec2> all, inside;
-    std::vector<double> times;
-    for (const Tip& tip : tips) all.push_back(tip.at);
+    std::vector<double> times, angles;
+    for (const Tip& tip : tips) all.push_back(tip.at), angles.push_back(tip.angle);
     for (std::size_t k = 0; k < all.size(); ++k) {
         std::vector<Vec2> piece{all[k]};
-        if (k > 0) piece = smooth_piece(all, k - 1, kArcStep * at_.unit), piece.erase(piece.begin());
+        if (k > 0) piece = tip_piece(all, angles, k - 1), piece.erase(piece.begin());
         for (Vec2 p : piece) {
             times.push_back(tips[k].t);
             inside.push_back(p - Vec2{at_.box.x, at_.box.y});
@@ -256,8 +270,9 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
     const Perspective perspective = view_of(at, frame);
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, style == Style::solid ? &perspective : nullptr,
-                           labels};
+    const Perspective* view = style == Style::solid ? &perspective : nullptr;
+    const std::optional<Push> push = push_of(pose, drawn, rings_.peak(frame));
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, push, labels};
     trail(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
@@ -278,7 +293,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
     draw_disc_letters(s);  // which a ring would make hard to read
-    draw_force(s, push_of(pose, drawn, rings_.peak(frame)));
+    draw_force(s);
     if (at.member == 0) draw_captions(s);
 }
 
@@ -337,7 +352,7 @@ void MechanismPanel::trail(const MechanismScene& s) const {
         const double age = (moved_[now] - moved_[k]) / (kTrail * at_.facts.setup->fps);
         if (age > 1) break;
         if (moved_[k + 1] == moved_[k]) continue;
-        std::vector<Vec2> piece = smooth_piece(tips_, k, kArcStep * at_.unit);
+        std::vector<Vec2> piece = tip_piece(tips_, turned_, k);
         for (Vec2& p : piece) p = on(p);
         s.canvas.polyline(piece);
         s.canvas.stroke({at_.palette.motion.faded(0.55 * (1 - age)), 2 * at_.unit, {}, Cap::butt});

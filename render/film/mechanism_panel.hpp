@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/draw/growing.hpp"
@@ -46,6 +47,7 @@ class MechanismPanel final : public Panel {
     void note_survey(SweptRegion& swept) const;
     LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
     void note_path();
+    std::vector<Vec2> tip_piece(std::span<const Vec2> tips, std::span<const double> angles, std::size_t k) const;
 
     bool view_strobes() const { return at_.facts.setup->view.strobe; }
     bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
@@ -55,9 +57,10 @@ class MechanismPanel final : public Panel {
     MechanismWords words_;
     Box lit_box_;  // what the lit mechanism ever covers, shadows included; whole pixels
     MechanismLabels labels_;
-    std::vector<Vec2> tips_;  // drawn tip of every frame [px]
-    std::vector<int> moved_;  // of every frame: how many before it moved, so that a freeze costs the trail nothing
-    GrowingPath path_;        // the same in the panel's box
+    std::vector<Vec2> tips_;      // drawn tip of every frame [px]
+    std::vector<double> turned_;  // the hub's angle at every frame [rad]
+    std::vector<int> moved_;      // of every frame: how many before it moved, so that a freeze costs the trail nothing
+    GrowingPath path_;            // the same in the panel's box
     ImpactRings rings_;
     std::vector<Followed> followed_;  // of every frame
     std::vector<Sighting> shots_;     // of every frame; empty: always all of it

@@ -1,6 +1,9 @@
 // Where and how large a mechanism is drawn in a film, and one frame of it as it is being drawn.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
 #include "render/gl/solid.hpp"
@@ -40,8 +43,9 @@ struct MechanismView {
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, facts.pose(whose, frame)); }
-    // Where a label is written; a moving camera keeps it within the view.
-    Box label_box(const LabelPlace& label, const Perspective* view) const;
+    // Where a label is written. A moving camera keeps it as near to its base, or to this one [m], as the camera that
+    // shows all does, and within the view; in perspective, the end of it that is nearest to its base keeps its place.
+    Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {}) const;
 
   private:
     void place_camera();
@@ -56,6 +60,7 @@ struct MechanismScene {
     const MechanismShape& shape;
     const MechanismView& at;
     const Perspective* view;             // of the solid view; null: as it is
+    std::optional<Push> push = {};       // the arrow of force that it shows
     std::vector<Box>* labels = nullptr;  // where each label was drawn is added here
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }

@@ -119,8 +119,10 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
         written_if(picture.view.colors != render::OwnColors{}, "palette"),
         [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.colors); },
         "Colours in place of the theme's.", nullptr);
-    v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
-           "A PNG picture, from the scene's folder, that stands at the right end of the clock's line.");
+    v.text(
+        written_if(!picture.logo.empty(), "logo"), picture.logo,
+        "A PNG picture, from the scene's folder, in the lower right corner: at the clock's height, right of the colour "
+        "scales or, where these stand below the clock, above them.");
     v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
              {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
              "What is drawn of the picture, at its place: the mechanism alone, or all but it; with a transparent "

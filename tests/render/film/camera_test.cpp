@@ -188,5 +188,30 @@ TEST(Camera, LabelsOfWhatItSeesStandWithinTheView) {
     EXPECT_GT(labels, 0);
 }
 
+// However near the camera is: no line across the picture leads to a label that the zoom has moved away.
+TEST(Camera, TheForceIsWrittenAsNearToItsArrow) {
+    FilmSetup setup = test::synthetic_film({.duration = 2});
+    setup.impacts.clear();  // whose peaks would be held where they were
+    setup.width = 960, setup.height = 540;
+    setup.view.style = Style::flat;
+    setup.layout = LayoutNode{};
+    Film far(setup);
+    setup.view.shot = {.zoom = 8, .follow = {Anchor::Kind::contact, {}}};
+    Film near(setup);
+    int compared = 0;
+    for (int k = 0; k < near.frames(); ++k) {
+        if (!(setup.poses[std::size_t(k)].nearest->force > 0)) continue;
+        const FrameGeometry wide = far.geometry(k), close = near.geometry(k);
+        ASSERT_EQ(wide.labels.size(), 3u);
+        ASSERT_EQ(close.labels.size(), 1u);  // the hub and the lower half of the disc are out of view
+        const Vec2 foot = wide.beam.contact->on_disc;
+        const Vec2 from_far = wide.labels.back().centre() - wide.camera.to_pixels(foot),
+                   from_near = close.labels.back().centre() - close.camera.to_pixels(foot);
+        EXPECT_LT(norm(from_far - from_near), 1) << k;
+        ++compared;
+    }
+    EXPECT_GT(compared, 5);
+}
+
 }  // namespace
 }  // namespace beamcam::render

@@ -10,6 +10,7 @@
 #include "render/draw/growing.hpp"
 #include "render/draw/tiles.hpp"
 #include "render/film/film.hpp"
+#include "render/film/mechanism_view.hpp"
 #include "render/gl/solid.hpp"
 #include "render/plot/labels.hpp"
 #include "tests/render/drawing.hpp"
@@ -1057,6 +1058,25 @@ TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
     const Vec2 nearer = front.to_pixels({120, 50, 400});  // at four fifths of the distance
     EXPECT_NEAR(nearer.x, 400 + 150, 1e-9);
     EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
+}
+
+// Seen from the side, distances shrink and words do not: they still stand beside what they belong to.
+TEST(Perspective, LabelsStandBesideTheirArrows) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.1});
+    setup.width = 1280, setup.height = 720;
+    const FilmFacts facts(std::make_shared<const FilmSetup>(setup));
+    const MechanismView at(facts, *facts.places.first(PanelKind::mechanism));
+    const Vec2 base = at.box.centre() + Vec2{30, 40};
+    for (const double side : {-1.0, 1.0})
+        for (const double yaw : {-0.9, 0.0, 0.5}) {
+            const Vec2 size{120, 20}, middle = base + Vec2{side * 80, 0};  // 20 px between base and label
+            const auto view = Perspective::looking(at.box.centre(), 2.4 * at.box.w, 0.9, yaw, 0.2);
+            const LabelPlace label{at.look.camera.to_world(middle), size, at.look.camera.to_world(base), {}};
+            const Box box = at.label_box(label, &view);
+            const double gap = side > 0 ? box.x - at.seen(base, &view).x : at.seen(base, &view).x - box.right();
+            EXPECT_NEAR(gap, 20 * 0.9 * std::cos(yaw), 2) << side << ", " << yaw;
+            EXPECT_NEAR(box.w, 120, 1e-9);
+        }
 }
 
 TEST(Perspective, AxesAreOrthonormal) {

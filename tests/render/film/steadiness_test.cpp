@@ -94,7 +94,7 @@ TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
         }
         return setup;
     };
-    labels_keep_clear(turned(1.2, -40), 2, "fast beam");
+    labels_keep_clear(turned(1.2, -40), 1, "fast beam");  // no place near its arc is free for the angle's letter
     labels_keep_clear(turned(0.05, -0.1), 2, "small angle");
     labels_keep_clear(turned(-0.2, 4), 2, "through the horizontal");
     FilmSetup tall = film_of(Style::flat, {.duration = 2});
@@ -319,6 +319,44 @@ TEST(SmoothPath, PassesThroughThePlacesAndKeepsToACircle) {
         const bool inner = i > 0 && i + 2 < places.size();
         for (Vec2 p : piece) EXPECT_NEAR(norm(p), 370, inner ? 0.02 : 0.8);  // chords: 0.78 px
     }
+}
+
+TEST(SmoothPath, WhatTurnsFarKeepsToItsCircle) {
+    const Vec2 centre{400, 300};
+    const auto on_circle = [&](double angle) { return centre + Vec2{std::cos(angle), -std::sin(angle)} * 200; };
+    for (const double turn : {0.5, -2.0, 4.0, -9.0}) {
+        const std::vector<Vec2> piece = turning_piece(centre, on_circle(1), on_circle(1 + turn), turn, 6);
+        EXPECT_EQ(piece.front(), on_circle(1));
+        EXPECT_EQ(piece.back(), on_circle(1 + turn));
+        double length = 0;
+        for (std::size_t i = 1; i < piece.size(); ++i) {
+            EXPECT_NEAR(norm(piece[i] - centre), 200, 1e-9);
+            length += norm(piece[i] - piece[i - 1]);
+        }
+        EXPECT_NEAR(length, 200 * std::abs(turn), 1e-3 * length) << turn;  // chords of 0.03 rad
+    }
+    const std::vector<Vec2> outwards = turning_piece({0, 0}, {100, 0}, {0, -200}, 0.5 * 3.14159265358979, 2);
+    EXPECT_NEAR(norm(outwards[outwards.size() / 2]), 150, 2);
+}
+
+// A rod that turns two radians from frame to frame.
+TEST(Steadiness, TheTrailOfAFastTurnIsRound) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = 10, .cam = false});
+    for (sim::Pose& pose : setup.poses) {
+        pose.theta = 20 * pose.t;
+        const double last = double(pose.centreline.size() - 1);
+        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+            pose.centreline[i] = sim::unit(pose.theta) * (setup.problem.beam.length * double(i) / last);
+    }
+    Film film(setup);
+    const Image image = drawn(film, 6);
+    const FrameGeometry g = film.geometry(6);
+    const double length = norm((g.beam.face(g.beam.line.size() - 1) + g.beam.back(g.beam.line.size() - 1)) * 0.5);
+    for (double part = 0.1; part < 1; part += 0.1)
+        EXPECT_NE(at(image, g.camera.to_pixels(sim::unit(20 * 0.5 + 2 * part) * length)),
+                  opaque(palette(Theme::light).paper))
+            << part;
+    EXPECT_TRUE(g.labels.empty());  // there is no place for the letter of the angle that is not far from its arc
 }
 
 TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {

@@ -58,6 +58,10 @@ TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
                     std::max(canvas_.measure("1", {.size = 28.8}).w, 2.4 + canvas_.measure("2", {.size = 28.8}).w),
                 1e-9);
     EXPECT_GT(width(root(fraction("1", "2"))), width(fraction("1", "2")));
+    // Two scripts of one letter, and a root behind a fraction, do not touch.
+    const double script = canvas_.measure("1", {.size = 28.8}).h;
+    EXPECT_GT(canvas_.measure(scripts("1", "1"), style_).h, 2 * script + 0.1 * 40);
+    EXPECT_NEAR(width(fraction("1", "2") + root("a")), width(fraction("1", "2")) + width(root("a")) + 0.09 * 40, 1e-9);
     EXPECT_EQ(canvas_.text({200, 50}, fraction("1", "2"), {.size = 40, .align = HAlign::right}).right(), 200);
 }
 
