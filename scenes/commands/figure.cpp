@@ -91,10 +91,8 @@ Node note_node(const std::string& text) {
     return note;
 }
 
-// The keys of the figure's own that options name, read as if the scene said so.
-FigureOutput with_keys(const FigureArguments& args, Scene scene) {
-    if (args.figure == "series" && args.channels.empty())
-        throw UsageError("figure series: name its --channels, for example theta,contact_force");
+// The output as a scene would write it.
+Node output_node(const FigureArguments& args) {
     Node output = object_node();
     add(output, "type", text_node(FigureOutput::kType));
     add(output, "figure", text_node(args.figure));
@@ -120,10 +118,16 @@ FigureOutput with_keys(const FigureArguments& args, Scene scene) {
         for (const std::string& note : args.notes) notes.items.push_back(note_node(note));
         add(output, "notes", std::move(notes));
     }
+    return output;
+}
 
+// The keys of the figure's own that options name, read as if the scene said so.
+FigureOutput with_keys(const FigureArguments& args, Scene scene) {
+    if (args.figure == "series" && args.channels.empty())
+        throw UsageError("figure series: name its --channels, for example theta,contact_force");
     SceneFiles files;
     std::vector<Message> messages;
-    if (!read_only_output(output, args.scene, "--", files, scene, messages))
+    if (!read_only_output(output_node(args), args.scene, "--", files, scene, messages))
         throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
     for (const Message& warning : messages)
         if (!args.common.quiet) output::tell("{}: warning: {}\n", args.scene, warning.text);
@@ -205,6 +209,61 @@ int act(const FigureArguments& given) {
     return 0;
 }
 
+// How every figure is printed, and what stands beside it.
+void add_print_options(Command& app, FigureArguments& args) {
+    app.option("--column", &args.column, "COLUMN", "Width and letters of a journal's column")
+        .one_of(render::figure::column_names());
+    app.option("--width", &args.width, "W", "Another width than the column's, for example 120mm");
+    app.option("--lang", &args.lang, "LANG", "Language of labels and caption: en or zh").one_of({"en", "zh"});
+    app.option("--dpi", &args.dpi, "N", "Dots per inch of a .png or .tif (default: 300, 600)").range(50, 2400);
+    app.option("--text", &args.text, "HOW", "Letters of an .svg: outlines or editable")
+        .one_of({"outlines", "editable"});
+    app.option("--font", &args.font, "FONT", "Letters: sans, or serif as in text set by LaTeX")
+        .one_of({"sans", "serif"});
+    app.option("--theme", &args.theme, "THEME", "Colours: light, of white paper, or dark, of a slide")
+        .one_of({"light", "dark"});
+    app.option("--data", &args.data, "FILE", "Write the plotted numbers too, .csv");
+    app.option("--caption", &args.caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
+}
+
+void add_series_options(Command& app, FigureArguments& args) {
+    app.option("--channels", &args.channels, "A,B,…",
+               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit; of "
+               "spectrogram one")
+        .separated_by(',');
+    app.option("--right", &args.right, "A,B,…", "Of series: channels of another unit, on an axis at the right")
+        .separated_by(',');
+    app.option("--compare", &args.compare, "SCENE,…", "Of series: the same channels of these scenes too")
+        .separated_by(',');
+    app.option("--x", &args.against, "CHANNEL",
+               "Of series: against what; t, turns or phase (of the cam), frequency or a channel");
+    app.option("--x-low", &args.x_low, "V", "Of series: lower end of that axis, in SI units");
+    app.option("--x-high", &args.x_high, "V", "Of series: its upper end");
+    app.option("--low", &args.low, "V", "Of series of one panel: lower end of the axis at the left, in SI units");
+    app.option("--high", &args.high, "V", "Of series of one panel: its upper end");
+    app.option("--title", &args.title, "WORDS", "Of series of one panel: above it; $θ$ is mathematics");
+    app.option("--note", &args.notes, "AT=WORDS", "Of series: a line at an instant, impact:1=touch (repeatable)");
+}
+
+// Keys that several figures have.
+void add_stretch_options(Command& app, FigureArguments& args) {
+    app.option("--from", &args.from, "T",
+               "Of series and of figures of a stretch such as kymograph: from this instant: a time, impact:2, …");
+    app.option("--to", &args.to, "T", "Of these: until this instant");
+    app.option("--at", &args.at, "T",
+               "Of strobe, which needs no FIGURE then: this instant alone: a time, impact:2, apex:1, last");
+    app.option("--height", &args.height, "H", "Its height, for example 60mm");
+    app.option("--window", &args.window, "T", "Of spectrogram: length of its windows");
+    app.option("--collision", &args.collision, "N", "Of collision: which one, counted from 1");
+}
+
+void add_series_flags(Command& app, FigureArguments& args) {
+    app.flag("--panels", args.apart, "Of series with --compare: each motion in panels of its own");
+    app.flag("--log", args.logarithmic, "Of series: logarithmic axes of values");
+    app.flag("--impacts", args.impacts, "Of series: lines where impacts begin");
+    app.flag("--residuals", args.residuals, "Of series: panels with what measured data differ by");
+}
+
 }  // namespace
 
 void add_figure(Grammar& grammar) {
@@ -214,47 +273,10 @@ void add_figure(Grammar& grammar) {
     add_scene(app, args->scene, args->common);
     app.positional("FIGURE", &args->figure, "Which figure; none: list those of the scene");
     app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
-    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
-        .one_of(render::figure::column_names());
-    app.option("--width", &args->width, "W", "Another width than the column's, for example 120mm");
-    app.option("--lang", &args->lang, "LANG", "Language of labels and caption: en or zh").one_of({"en", "zh"});
-    app.option("--dpi", &args->dpi, "N", "Dots per inch of a .png or .tif (default: 300, 600)").range(50, 2400);
-    app.option("--text", &args->text, "HOW", "Letters of an .svg: outlines or editable")
-        .one_of({"outlines", "editable"});
-    app.option("--font", &args->font, "FONT", "Letters: sans, or serif as in text set by LaTeX")
-        .one_of({"sans", "serif"});
-    app.option("--theme", &args->theme, "THEME", "Colours: light, of white paper, or dark, of a slide")
-        .one_of({"light", "dark"});
-    app.option("--data", &args->data, "FILE", "Write the plotted numbers too, .csv");
-    app.option("--caption", &args->caption, "FILE", "Write the caption too, plain and LaTeX, .txt or .tex");
-    app.option("--channels", &args->channels, "A,B,…",
-               "Of the figure series, which needs no FIGURE then: these channels, a panel for each unit; of "
-               "spectrogram one")
-        .separated_by(',');
-    app.option("--right", &args->right, "A,B,…", "Of series: channels of another unit, on an axis at the right")
-        .separated_by(',');
-    app.option("--compare", &args->compare, "SCENE,…", "Of series: the same channels of these scenes too")
-        .separated_by(',');
-    app.option("--x", &args->against, "CHANNEL",
-               "Of series: against what; t, turns or phase (of the cam), frequency or a channel");
-    app.option("--x-low", &args->x_low, "V", "Of series: lower end of that axis, in SI units");
-    app.option("--x-high", &args->x_high, "V", "Of series: its upper end");
-    app.option("--low", &args->low, "V", "Of series of one panel: lower end of the axis at the left, in SI units");
-    app.option("--high", &args->high, "V", "Of series of one panel: its upper end");
-    app.option("--title", &args->title, "WORDS", "Of series of one panel: above it; $θ$ is mathematics");
-    app.option("--note", &args->notes, "AT=WORDS", "Of series: a line at an instant, impact:1=touch (repeatable)");
-    app.option("--from", &args->from, "T",
-               "Of series and of figures of a stretch such as kymograph: from this instant: a time, impact:2, …");
-    app.option("--to", &args->to, "T", "Of these: until this instant");
-    app.option("--at", &args->at, "T",
-               "Of strobe, which needs no FIGURE then: this instant alone: a time, impact:2, apex:1, last");
-    app.option("--height", &args->height, "H", "Its height, for example 60mm");
-    app.option("--window", &args->window, "T", "Of spectrogram: length of its windows");
-    app.option("--collision", &args->collision, "N", "Of collision: which one, counted from 1");
-    app.flag("--panels", args->apart, "Of series with --compare: each motion in panels of its own");
-    app.flag("--log", args->logarithmic, "Of series: logarithmic axes of values");
-    app.flag("--impacts", args->impacts, "Of series: lines where impacts begin");
-    app.flag("--residuals", args->residuals, "Of series: panels with what measured data differ by");
+    add_print_options(app, *args);
+    add_series_options(app, *args);
+    add_stretch_options(app, *args);
+    add_series_flags(app, *args);
     add_work(app, args->common);
     app.bind(args, act);
 }

@@ -102,51 +102,54 @@ Instant instant_argument(const char* option, const std::string& text) {
     return {.kind = Instant::Kind::time, .t = seconds_argument(option, text)};
 }
 
-void apply_render_options(const RenderArguments& args, VideoOutput& film) {
-    if (args.size) {
-        const auto size = parse_size(*args.size);
-        if (!size)
-            throw UsageError(fmt::format(
-                "--size {}: write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720", *args.size));
-        film.size = *size;
-    }
+void apply_picture_size(const std::string& text, VideoOutput& film) {
+    const auto size = parse_size(text);
+    if (!size)
+        throw UsageError(
+            fmt::format("--size {}: write WIDTHxHEIGHT in pixels, 16 to 16384 each, for example 1280x720", text));
+    film.size = *size;
+}
+
+// Which instants of the motion the film shows, and how fast.
+void apply_span(const RenderArguments& args, FrameSpan& span) {
     if (args.fps) {
         const auto fps = parse_frame_rate(*args.fps);
         if (!fps)
             throw UsageError(fmt::format("--fps {}: write frames a second, for example 60 or 30000/1001", *args.fps));
-        film.span.fps = *fps;
+        span.fps = *fps;
     }
     if (args.from) {
         std::optional<double> from;
-        take_bound(instant_argument("--from", *args.from), from, film.span.from_event);
-        film.span.from = from.value_or(0);
+        take_bound(instant_argument("--from", *args.from), from, span.from_event);
+        span.from = from.value_or(0);
     }
-    if (args.to) take_bound(instant_argument("--to", *args.to), film.span.to, film.span.to_event);
-    if (args.speed) apply_speed(*args.speed, film.span.speed), film.span.duration.reset();
+    if (args.to) take_bound(instant_argument("--to", *args.to), span.to, span.to_event);
+    if (args.speed) apply_speed(*args.speed, span.speed), span.duration.reset();
     if (args.speed && args.duration) throw UsageError("--speed and --duration exclude each other; keep one");
     if (args.duration) {
-        film.span.speed = {};
-        film.span.duration = seconds_argument("--duration", *args.duration);
-        if (!(*film.span.duration > 0)) throw UsageError("--duration must be positive");
+        span.speed = {};
+        span.duration = seconds_argument("--duration", *args.duration);
+        if (!(*span.duration > 0)) throw UsageError("--duration must be positive");
     }
-    if (args.background) {
-        if (!take_background(*args.background, film.view))
-            throw UsageError(
-                fmt::format("--background {}: write paper, transparent or a colour such as #f4f1ea", *args.background));
-    }
+}
+
+void apply_view(const RenderArguments& args, render::View& view) {
+    if (args.background && !take_background(*args.background, view))
+        throw UsageError(
+            fmt::format("--background {}: write paper, transparent or a colour such as #f4f1ea", *args.background));
     if (args.show) {
-        const double size = film.view.show.size;
-        film.view.show = *shown_preset(*args.show);
-        film.view.show.size = size;
+        const double size = view.show.size;
+        view.show = *shown_preset(*args.show);
+        view.show.size = size;
     }
     if (args.style)
-        film.view.style = *args.style == "flat"    ? render::Style::flat
-                          : *args.style == "solid" ? render::Style::solid
-                                                   : render::Style::lit;
+        view.style = *args.style == "flat"    ? render::Style::flat
+                     : *args.style == "solid" ? render::Style::solid
+                                              : render::Style::lit;
     if (args.theme)
-        film.view.theme = *args.theme == "dark"    ? render::Theme::dark
-                          : *args.theme == "print" ? render::Theme::print
-                                                   : render::Theme::light;
+        view.theme = *args.theme == "dark"    ? render::Theme::dark
+                     : *args.theme == "print" ? render::Theme::print
+                                              : render::Theme::light;
 }
 
 void refuse_options(std::initializer_list<std::pair<const std::optional<std::string>*, const char*>> options,
@@ -183,6 +186,45 @@ FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) 
     return figure;
 }
 
+Output still(const RenderArguments& args, const VideoOutput& film, bool numbered) {
+    if (ending_of(args.file) != ".png" || numbered)
+        throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
+    if (args.from || args.to || args.fps || args.speed)
+        throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
+    return StillOutput{film, args.file, instant_argument("--at", *args.at)};
+}
+
+// A page or a moving model, which play the motion themselves.
+Output played(const RenderArguments& args, VideoOutput film) {
+    const std::string ending = ending_of(args.file);
+    if (!args.others.empty()) throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
+    refuse_options({{&args.size, "--size"},
+                    {&args.speed, "--speed"},
+                    {&args.codec, "--codec"},
+                    {&args.comparison, "--comparison"},
+                    {&args.frames, "--frames"},
+                    {&args.shard, "--shard"},
+                    {&args.poster, "--poster"},
+                    {&args.duration, "--duration"}},
+                   fmt::format("belongs to films and pictures; -o {} is none", args.file));
+    film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
+    film.compare.clear();
+    if (ending == ".glb") return ModelOutput{film, args.file, film.span};
+    PageOutput page{film, args.file, film.span};
+    if (!args.fps) page.span.fps = PageOutput().span.fps;
+    return page;
+}
+
+Output sequence(const RenderArguments& args, const VideoOutput& film, bool numbered) {
+    if (!numbered)
+        throw UsageError(fmt::format(
+            "-o {}: name the instant with --at for one picture, or put #### in the name for a sequence", args.file));
+    if (std::string problem = problem_with_numbering(args.file); !problem.empty())
+        throw UsageError(fmt::format("-o {}: {}", args.file, problem));
+    return FramesOutput{film, args.file, film.span};
+}
+
+// By the file's ending; `film` has what the options say.
 Output render_output(const RenderArguments& args, VideoOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
@@ -193,40 +235,9 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     if (args.poster && ending == ".png")
         throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
-    if (args.at) {
-        if (ending != ".png" || numbered)
-            throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
-        if (args.from || args.to || args.fps || args.speed)
-            throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
-        return StillOutput{film, args.file, instant_argument("--at", *args.at)};
-    }
-    if (ending == ".html" || ending == ".glb") {  // they play the motion itself
-        if (!args.others.empty()) throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
-        refuse_options({{&args.size, "--size"},
-                        {&args.speed, "--speed"},
-                        {&args.codec, "--codec"},
-                        {&args.comparison, "--comparison"},
-                        {&args.frames, "--frames"},
-                        {&args.shard, "--shard"},
-                        {&args.poster, "--poster"},
-                        {&args.duration, "--duration"}},
-                       fmt::format("belongs to films and pictures; -o {} is none", args.file));
-        film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
-        film.compare.clear();
-        if (ending == ".glb") return ModelOutput{film, args.file, film.span};
-        PageOutput page{film, args.file, film.span};
-        if (!args.fps) page.span.fps = PageOutput().span.fps;
-        return page;
-    }
-    if (ending == ".png") {
-        if (!numbered)
-            throw UsageError(
-                fmt::format("-o {}: name the instant with --at for one picture, or put #### in the name for a sequence",
-                            args.file));
-        if (std::string problem = problem_with_numbering(args.file); !problem.empty())
-            throw UsageError(fmt::format("-o {}: {}", args.file, problem));
-        return FramesOutput{film, args.file, film.span};
-    }
+    if (args.at) return still(args, film, numbered);
+    if (ending == ".html" || ending == ".glb") return played(args, std::move(film));
+    if (ending == ".png") return sequence(args, film, numbered);
     if (numbered)
         throw UsageError(fmt::format("-o {}: '#' numbers .png files; choose another name for a film", args.file));
     apply_format(args, film);
@@ -280,7 +291,9 @@ void require_poster_inside(const FrameSpan& span, double end_time) {
 int act(const RenderArguments& args) {
     Scene scene = read_or_refuse(args.scene, args.common);
     VideoOutput film = film_to_imitate(scene);
-    apply_render_options(args, film);
+    if (args.size) apply_picture_size(*args.size, film);
+    apply_span(args, film.span);
+    apply_view(args, film.view);
     compare_scenes(args, scene, film);
     if (args.poster) film.span.poster = instant_argument("--poster", *args.poster);
     if (!args.at)
@@ -292,6 +305,24 @@ int act(const RenderArguments& args) {
     options.ask = asked_part(args, scene);
     run_or_plan({&scene, 1}, options, args.common);
     return 0;
+}
+
+// How the pictures look, how fast the film is and how it is coded.
+void add_look_options(Command& app, RenderArguments& args) {
+    app.option("--size", &args.size, "WxH", "Pixels, for example 1280x720");
+    app.option("--fps", &args.fps, "RATE", "Frames a second, for example 60 or 30000/1001");
+    app.option("--style", &args.style, "STYLE", "lit or solid (OpenGL; in perspective), or flat")
+        .one_of({"lit", "flat", "solid"});
+    app.option("--theme", &args.theme, "THEME", "light, dark or print").one_of({"light", "dark", "print"});
+    app.option("--speed", &args.speed, "S", "Of time, 1 is real; or impacts: slow motion around them");
+    app.option("--duration", &args.duration, "T", "How long the film is to last, in place of --speed");
+    app.option("--codec", &args.codec, "CODEC",
+               "h264, hevc, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
+    app.option("--background", &args.background, "WHAT", "paper, transparent, or a colour such as #f4f1ea");
+    app.option("--show", &args.show, "PRESET", "What stands around the panels: all, talk, paper or clean")
+        .one_of({"all", "talk", "paper", "clean"});
+    app.option("--comparison", &args.comparison, "HOW", "Several scenes as panels, or as ghosts in one")
+        .one_of({"panels", "ghosts"});
 }
 
 }  // namespace
@@ -310,20 +341,7 @@ void add_render(Grammar& grammar) {
         "One picture of this instant: seconds, with a unit, or impact:N, collision:N, apex:N, touch, release, last");
     app.option("--from", &args->from, "T", "First instant of the film, as for --at");
     app.option("--to", &args->to, "T", "Last instant of the film, as for --at");
-    app.option("--size", &args->size, "WxH", "Pixels, for example 1280x720");
-    app.option("--fps", &args->fps, "RATE", "Frames a second, for example 60 or 30000/1001");
-    app.option("--style", &args->style, "STYLE", "lit or solid (OpenGL; in perspective), or flat")
-        .one_of({"lit", "flat", "solid"});
-    app.option("--theme", &args->theme, "THEME", "light, dark or print").one_of({"light", "dark", "print"});
-    app.option("--speed", &args->speed, "S", "Of time, 1 is real; or impacts: slow motion around them");
-    app.option("--duration", &args->duration, "T", "How long the film is to last, in place of --speed");
-    app.option("--codec", &args->codec, "CODEC",
-               "h264, hevc, vp9, av1, prores, ffv1, gif, apng or webp (default: by the ending)");
-    app.option("--background", &args->background, "WHAT", "paper, transparent, or a colour such as #f4f1ea");
-    app.option("--show", &args->show, "PRESET", "What stands around the panels: all, talk, paper or clean")
-        .one_of({"all", "talk", "paper", "clean"});
-    app.option("--comparison", &args->comparison, "HOW", "Several scenes as panels, or as ghosts in one")
-        .one_of({"panels", "ghosts"});
+    add_look_options(app, *args);
     app.option("--frames", &args->frames, "A:B",
                "Only these frames of the film, by number, the last one not included: 30:60. Scales and camera are "
                "those of the whole film");

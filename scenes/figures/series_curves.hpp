@@ -1,10 +1,9 @@
-// Values along the axes of a series: their units, their zero, their turns.
+// Values along the axes of a series: their units and their zero.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "render/plot/figure.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
@@ -21,8 +20,5 @@ std::vector<double> above_zero(std::vector<double> values, sim::Channel channel)
 
 bool has_values(const sim::Table& table);           // of its last channel
 double largest(const std::vector<double>& values);  // magnitude; 0: there is no finite one
-
-// Angles along x become phases of a turn, 0…1; a line begins anew with each turn.
-void fold_turns(render::figure::Series& curve);
 
 }  // namespace beamcam::scenes

@@ -7,9 +7,13 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_rules.hpp"
+#include "scenes/figures/series_spectrum.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+using render::figure::Figure;
 
 std::string words_of(const sim::Channel& channel, Lang lang) {
     const render::ChannelLabel& label = render::label_of(channel.kind);
@@ -18,7 +22,90 @@ std::string words_of(const sim::Channel& channel, Lang lang) {
     return fmt::format("{} {}", text, render::print_symbol(channel));
 }
 
+// "12 impacts", "no impact" until `end` [s].
+std::string impacts_words(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
+    const auto count = std::ranges::count_if(
+        result.impacts, [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
+    if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
+    return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
+}
+
+// The facts of all motions where they differ by the cam's speed alone, else those of the first.
+std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang) {
+    const SeriesMotion& first = motions.front();
+    const bool alike = first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
+                           sim::Problem other = each.problem;
+                           if (other.cam) other.cam->speed = first.problem.cam->speed;
+                           return Studies::key(other) == Studies::key(first.problem);
+                       });
+    if (motions.size() == 1 || alike) return facts(first.problem, lang, {.cam_speed = motions.size() > 1});
+    return filled(lang == Lang::en ? "Of {}: " : "{}：", first.label) + facts(first.problem, lang);
+}
+
+// Of a motion with panels of its own: "(c)", the first of them. A panel of differences follows those of the motion with
+// data.
+std::string first_panel(const SeriesPlan& plan, std::size_t motion, const Figure& figure) {
+    const std::size_t differences = figure.panels.size() - plan.panels.size(),
+                      first = motion * plan.keys.panels.size() + (motion > plan.measured_motion ? differences : 0);
+    return fmt::format("({})", panel_letter(first));
+}
+
+// What each motion is called where it is told apart from others.
+std::string motion_name(const SeriesPlan& plan, std::size_t motion, const Figure& figure) {
+    return plan.keys.apart ? first_panel(plan, motion, figure) : plan.motions[motion].label;
+}
+
+// ": (a) ω = 0, no impact; (b) …"; empty: the only motion has no name.
+std::string motions_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+    const bool en = plan.lang == Lang::en;
+    std::vector<std::string> labels;
+    for (std::size_t k = 0; k < plan.motions.size(); ++k) {
+        const SeriesMotion& motion = plan.motions[k];
+        if (plan.keys.apart)
+            labels.push_back(filled(en ? "{} {}, {}" : "{} {}，{}", first_panel(plan, k, figure), motion.label,
+                                    impacts_words(motion.problem, *results[motion.study], plan.end, plan.lang)));
+        else if (!motion.label.empty())
+            labels.push_back(motion.label);
+    }
+    return labels.empty() ? "" : filled(en ? ": {}" : "：{}", fmt::join(labels, en ? "; " : "；"));
+}
+
+std::string dashed_lines_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+    if (!plan.keys.impacts || figure.panels.front().rules.empty()) return "";
+    const bool en = plan.lang == Lang::en;
+    return marks_collisions(*results[plan.motions.front().study], plan.keys.from, plan.end)
+               ? (en ? "Dashed lines: series of impacts begin. " : "虚线：冲击序列开始。")
+               : (en ? "Dashed lines: impacts begin. " : "虚线：冲击开始。");
+}
+
+// Data that hold what the panels show, but not what it is drawn against.
+std::string undrawn_words(const SeriesPlan& plan) {
+    std::string text;
+    for (const Measured& each : plan.measured)
+        if (!plan.abscissa.of(each.data, plan.motion_with_data().problem))
+            text +=
+                filled(plan.lang == Lang::en ? "Data “{}” do not hold {} and are not drawn. " : "{}：不含 {}，未绘出。",
+                       each.data.label, render::print_symbol(*plan.abscissa.channel()));
+    return text;
+}
+
+// How far the curves can be relied on, and what data are held against them.
+std::string trust_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+    const double from = plan.keys.from;
+    if (plan.abscissa.is_frequency())
+        return spectrum_words(plan.motions.front().problem, from, plan.end, plan.lang) +
+               measured_spectrum_words(plan.measured, plan.lang);
+    std::vector<std::pair<std::string, const sim::Result*>> runs;
+    for (std::size_t k = 0; k < plan.motions.size(); ++k)
+        runs.emplace_back(motion_name(plan, k, figure), results[plan.motions[k].study]);
+    const SeriesMotion& motion = plan.motion_with_data();
+    return horizon_words(runs, from, plan.end, plan.lang) + undrawn_words(plan) +
+           agreement_words(plan.measured, *results[motion.study], motion.problem, plan.lang);
+}
+
 }  // namespace
+
+std::string panel_letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
 
 std::string series_subject(const SeriesKeys& keys, Lang lang) {
     const bool en = lang == Lang::en;
@@ -34,22 +121,11 @@ std::string series_subject(const SeriesKeys& keys, Lang lang) {
     return all + filled(en ? " against {}" : "随{}的变化", words_of(*against, lang));
 }
 
-std::string impacts_words(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
-    const auto count = std::ranges::count_if(
-        result.impacts, [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
-    if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
-    return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
-}
-
-std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang) {
-    const SeriesMotion& first = motions.front();
-    const bool alike = first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
-                           sim::Problem other = each.problem;
-                           if (other.cam) other.cam->speed = first.problem.cam->speed;
-                           return Studies::key(other) == Studies::key(first.problem);
-                       });
-    if (motions.size() == 1 || alike) return facts(first.problem, lang, {.cam_speed = motions.size() > 1});
-    return filled(lang == Lang::en ? "Of {}: " : "{}：", first.label) + facts(first.problem, lang);
+std::string series_caption(const SeriesPlan& plan, const std::string& subject, const Figure& figure,
+                           const Results& results) {
+    return fmt::format("{}{}{}", subject, motions_words(plan, figure, results), plan.lang == Lang::en ? ". " : "。") +
+           dashed_lines_words(plan, figure, results) + trust_words(plan, figure, results) +
+           common_facts(plan.motions, plan.lang);
 }
 
 }  // namespace beamcam::scenes

@@ -2,23 +2,20 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scenes/figures/caption.hpp"
+#include "scenes/figures/series_plan.hpp"
 
 namespace beamcam::scenes {
 
-struct SeriesMotion {
-    std::string label;
-    sim::Problem problem;
-    std::size_t study = 0;
-};
+// "(a)" is the panel 0.
+std::string panel_letter(std::size_t panel);
 
 // The channels that it shows, and against what.
 std::string series_subject(const SeriesKeys& keys, Lang lang);
-// "12 impacts", "no impact" until `end` [s].
-std::string impacts_words(const sim::Problem& problem, const sim::Result& result, double end, Lang lang);
-// The facts of all motions where they differ by the cam's speed alone, else those of the first.
-std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang);
+
+// `subject`: what the figure shows, without a full stop. `figure` has its panels.
+std::string series_caption(const SeriesPlan& plan, const std::string& subject, const render::figure::Figure& figure,
+                           const Results& results);
 
 }  // namespace beamcam::scenes

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <vector>
 
 #include "output/data/sweep_data.hpp"
@@ -19,10 +18,9 @@
 #include "scenes/figures/sweep_words.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
+#include "scenes/outputs/sweep_shots.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/version.hpp"
-#include "scenes/sweep/make_points.hpp"
-#include "sim/sweep/sweep_point.hpp"
 
 namespace beamcam::scenes {
 
@@ -31,8 +29,6 @@ using sim::between, sim::kPositive, sim::required, sim::written_if;
 
 namespace {
 
-constexpr double kShotLength = 1;       // of the film, at one value, about [s]
-constexpr double kGrowingShare = 0.35;  // of the time at one value
 constexpr double kGrowthRate = 10;      // pictures of the diagram in a second of the film
 constexpr double kDiagramShare = 0.56;  // of a wide picture's width; a tall one is halved
 constexpr double kMargin = 18;          // around the diagram, at the design size [px]
@@ -41,107 +37,6 @@ constexpr double kDiagramResolution = 234;  // at the design size: letters of 8 
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kNarrowestDiagram = 80, kLowestDiagram = 96;  // in which axes, numbers and legends have room [mm]
 constexpr int kLongSide = 640, kShortSide = 360;               // of the smallest picture whose words can be read [px]
-
-// The order in which the points come: up through the values, and down where motions were carried so.
-struct Passage {
-    std::vector<std::uint64_t> beams;  // the point whose beam moves, at each place of the order
-    std::vector<std::size_t> place;    // of each point
-};
-Passage passage(const SweepGrid& grid) {
-    const std::vector<double>& values = grid.axes().front().values;
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
-    Passage out;
-    out.place.resize(grid.points());
-    for (const bool down : {false, true}) {
-        std::vector<std::uint64_t> seeds;
-        for (std::uint64_t s = 0; s < grid.seeds(); ++s)
-            if ((grid.seed(s) == SeedKind::carry_down) == down) seeds.push_back(s);
-        if (seeds.empty()) continue;
-        for (std::size_t r = 0; r < order.size(); ++r) {
-            const std::uint64_t first = order[down ? order.size() - 1 - r : r] * grid.seeds();
-            for (const std::uint64_t seed : seeds) out.place[first + seed] = out.beams.size();
-            out.beams.push_back(first + seeds.front());
-        }
-    }
-    return out;
-}
-
-// Frames at one value.
-struct Shot {
-    int first = 0, end = 0;
-    std::size_t from = 0, last = 0;  // places by which the diagram grows meanwhile
-    std::uint64_t point = 0;         // whose beam is seen
-    sim::Problem problem;
-    std::vector<sim::Pose> poses;
-    std::vector<sim::Impact> impacts;
-
-    // The diagram grows to the value whose beam is seen, and waits there.
-    double growth_at(int frame) const {
-        return std::min(1.0, double(frame + 1 - first) / (end - first) / kGrowingShare);
-    }
-    // By whole steps of `hold` frames, so that few diagrams are drawn.
-    std::size_t grown(int frame, int hold) const {
-        const int seen = std::min(end - 1, first + (frame - first) / hold * hold + hold - 1);
-        return from + static_cast<std::size_t>(std::floor(growth_at(seen) * double(last - from)));
-    }
-};
-
-int frames_of(const SweepFilmOutput& how) {
-    return std::max(1, static_cast<int>(std::lround(how.duration * how.fps.value())));
-}
-
-std::vector<Shot> shots_of(const SweepFilmOutput& how, const SweepGrid& grid, const Passage& order) {
-    const int frames = frames_of(how);
-    const std::size_t places = order.beams.size(),
-                      count = std::clamp<std::size_t>(std::lround(how.duration / kShotLength), 1, places);
-    std::vector<Shot> shots(std::min<std::size_t>(count, static_cast<std::size_t>(frames)));
-    for (std::size_t i = 0; i < shots.size(); ++i) {
-        Shot& shot = shots[i];
-        shot.first = static_cast<int>(i * static_cast<std::size_t>(frames) / shots.size());
-        shot.end = static_cast<int>((i + 1) * static_cast<std::size_t>(frames) / shots.size());
-        shot.from = i * places / shots.size();
-        shot.last = (i + 1) * places / shots.size() - 1;
-        shot.point = order.beams[shot.last];
-        shot.problem = grid.problem(shot.point);
-    }
-    return shots;
-}
-
-// The cam turns evenly through all shots: each begins where it stands then.
-void follow(const SweepFilmOutput& how, const output::StoredPoint& point, Shot& shot) {
-    const double period = cam_period(shot.problem), turns = how.turns / how.fps.value();
-    const double before = std::floor(shot.first * turns);
-    sim::Request request;
-    request.turning_points = false;
-    request.poses.emplace_back();
-    for (int frame = shot.first; frame < shot.end; ++frame)
-        request.poses.back().times.push_back((frame * turns - before) * period);
-    request.end_time = request.poses.back().times.back();
-    const auto goes_on = [](double) { return !output::interrupted(); };
-    const std::optional<sim::InitialState> end = end_of(point);
-    sim::Result result = end ? sim::motion_from(shot.problem, *end, request, goes_on)
-                             : sim::simulate(shot.problem, request, goes_on);  // from its own start: it came to no end
-    shot.poses = std::move(result.poses.front());
-    shot.impacts = std::move(result.impacts);
-}
-
-// All poses of the film, by which scales and camera are chosen.
-class AllPoses final : public render::PoseStore {
-  public:
-    explicit AllPoses(const std::vector<Shot>& shots) : shots_(shots) {
-        for (std::size_t i = 0; i < shots.size(); ++i)
-            for (std::size_t k = 0; k < shots[i].poses.size(); ++k) places_.emplace_back(i, k);
-    }
-    std::size_t size() const override { return places_.size(); }
-    double time(std::size_t k) const override { return pose(k).t; }
-    sim::Pose pose(std::size_t k) const override { return shots_[places_[k].first].poses[places_[k].second]; }
-
-  private:
-    const std::vector<Shot>& shots_;
-    std::vector<std::pair<std::size_t, std::size_t>> places_;
-};
 
 // Where the two halves of a picture stand.
 struct Halves {
@@ -192,8 +87,8 @@ class SweepFilm {
           scene_(scene),
           data_(data),
           grid_(scene),
-          order_(passage(grid_)),
-          shots_(shots_of(how, grid_, order_)),
+          order_(sweep_order(grid_)),
+          shots_(sweep_shots(how, grid_, order_)),
           halves_(halves_of(how.size)),
           figure_(figure_output()),
           diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
@@ -205,13 +100,13 @@ class SweepFilm {
             follow(how_, data_.read(shots_[i].point), shots_[i]);
             progress.reach(static_cast<double>(i + 1));
         }
-        setup_.survey = std::make_shared<AllPoses>(shots_);
+        setup_.survey = std::make_shared<SweepPoses>(shots_);
         factor_ = smallest_factor();
         output::VideoWriter film(file, options());
         render::Image picture(how_.size.width, how_.size.height);
         std::ranges::fill(picture.pixels, 0xffffffffu);
         progress.begin("frames", frames_of(how_), "frames");
-        for (const Shot& shot : shots_) {
+        for (const SweepShot& shot : shots_) {
             draw(shot, picture, film);
             progress.reach(shot.end);
         }
@@ -244,7 +139,7 @@ class SweepFilm {
         return options;
     }
 
-    render::FilmSetup setup_of(const Shot& shot) const {
+    render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
         setup.title = words_of_point({&grid_.scene(), &data_}, shot.point, how_.lang);
@@ -264,7 +159,7 @@ class SweepFilm {
         setup.accuracy_note = notes(shot, speed);
         return setup;
     }
-    std::string notes(const Shot& shot, double speed) const {
+    std::string notes(const SweepShot& shot, double speed) const {
         std::string text = render::speed_text(speed, true);
         if (factor_ && *factor_ > 1 && shot.problem.beam.model != sim::ModelKind::rigid)
             text += fmt::format("{}{} ×{:g}", text.empty() ? "" : " · ", how_.lang == Lang::en ? "deflection" : "挠度",
@@ -274,7 +169,7 @@ class SweepFilm {
     // Every shot has the same: that which none has to yield.
     std::optional<double> smallest_factor() const {
         std::optional<double> least;
-        for (const Shot& shot : shots_) {
+        for (const SweepShot& shot : shots_) {
             if (shot.problem.beam.model == sim::ModelKind::rigid) continue;
             render::FilmSetup setup = setup_of(shot);
             setup.view.style = render::Style::flat;
@@ -284,7 +179,7 @@ class SweepFilm {
         return least;
     }
 
-    void draw(const Shot& shot, render::Image& picture, output::VideoWriter& film) const {
+    void draw(const SweepShot& shot, render::Image& picture, output::VideoWriter& film) const {
         render::Film beam(setup_of(shot));
         const int hold = std::max(1, static_cast<int>(std::lround(how_.fps.value() / kGrowthRate)));
         for (int frame = shot.first; frame < shot.end; ++frame) {
@@ -303,8 +198,8 @@ class SweepFilm {
     const Scene& scene_;
     const output::SweepData& data_;
     const SweepGrid grid_;
-    const Passage order_;
-    std::vector<Shot> shots_;
+    const SweepOrder order_;
+    std::vector<SweepShot> shots_;
     const Halves halves_;
     const FigureOutput figure_;
     const GrowingDiagram diagram_;

@@ -1,0 +1,117 @@
+#include "scenes/figures/series_abscissa.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "render/plot/channel_label.hpp"
+#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_curves.hpp"
+
+namespace beamcam::scenes {
+
+using render::figure::Figure;
+using render::figure::Panel;
+using render::figure::Series;
+using sim::Channel;
+using sim::ChannelKind;
+
+namespace {
+
+constexpr double kShort = 0.05;  // a stretch with milliseconds on its axis [s]
+constexpr double kAir = 0.03;    // beside the curves, of their extent
+
+// Angles along x become phases, 0…1.
+void fold_turns(Series& curve) {
+    const Series whole = std::exchange(curve, {});
+    curve = whole;
+    curve.x.clear(), curve.y.clear();
+    const auto add = [&](double x, double y) { curve.x.push_back(x), curve.y.push_back(y); };
+    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
+    for (std::size_t i = 0; i < whole.x.size(); ++i) {
+        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
+        if (whole.line && std::floor(now) != std::floor(before)) {
+            const double edge =
+                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
+            const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
+            const bool forward = now > before;
+            add(forward, y), add(std::nan(""), std::nan("")), add(!forward, y);
+        }
+        add(now - std::floor(now), whole.y[i]);
+    }
+}
+
+}  // namespace
+
+SeriesAbscissa::SeriesAbscissa(const SeriesKeys& keys, Lang lang)
+    : against_(keys.against), low_(keys.x_low), high_(keys.x_high), lang_(lang) {
+    if (const auto named = sim::channel_named(against_); named && named->kind != ChannelKind::t) channel_ = *named;
+    if (is_phase()) channel_ = Channel{ChannelKind::cam_angle, 0};
+}
+
+std::vector<double> SeriesAbscissa::of(const sim::Table& table, const sim::Problem& problem) const {
+    if (channel_) return table.values[1];
+    return scaled(table.values[0], per_second(problem));
+}
+
+std::optional<std::vector<double>> SeriesAbscissa::of(const Measurement& data, const sim::Problem& problem) const {
+    if (!channel_) return scaled(data.times, per_second(problem));
+    if (const std::vector<double>* held = data.find(*channel_)) return *held;
+    if (channel_->kind != ChannelKind::cam_angle || !problem.cam) return std::nullopt;
+    std::vector<double> angles;
+    for (const double t : data.times) angles.push_back(problem.cam->phase - problem.cam->speed * t);
+    return angles;
+}
+
+double SeriesAbscissa::per_second(const sim::Problem& problem) const {
+    if (!is_turns()) return 1;
+    return problem.cam ? std::abs(problem.cam->speed) / (2 * std::numbers::pi) : 0;
+}
+
+void SeriesAbscissa::fold(Series& curve) const {
+    if (is_phase()) fold_turns(curve);
+}
+
+// Without the air that `share` adds.
+SeriesAbscissa::Extent SeriesAbscissa::extent(const Figure& figure) const {
+    Extent out;
+    out.low = std::numeric_limits<double>::infinity(), out.high = -out.low;
+    for (const Panel& each : figure.panels)
+        for (const Series& curve : each.series)
+            for (const double x : curve.x)
+                if (std::isfinite(x))
+                    out.largest = std::max(out.largest, std::abs(x)), out.low = std::min(out.low, x),
+                    out.high = std::max(out.high, x);
+    return out;
+}
+
+void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
+    Extent range = extent(figure);
+    // A logarithmic panel leaves out what is not positive; its axis stays that of the others.
+    const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;
+    // Seconds, as in print, unless a stretch is short.
+    if (!channel_ && range.high - range.low >= kShort) range.largest = 1;
+    if (is_phase()) range.low = 0, range.high = 1;
+    if (low_) range.low = *low_ + air;
+    if (high_) range.high = *high_ - air;
+    const Channel channel = channel_.value_or(Channel{});
+    const bool en = lang_ == Lang::en;
+    Measure measure = measure_of(unit(channel, problem), range.largest);
+    std::string symbol = render::print_symbol(channel);
+    if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
+    if (is_phase()) measure = {1, "(2π)"}, symbol = en ? "phase of the cam" : "凸轮相位";
+    if (is_turns()) measure = {1, ""}, symbol = en ? "turns of the cam" : "凸轮转数";
+    for (Panel& each : figure.panels) {
+        each.x.label = axis_label(symbol, measure.unit);
+        if (range.high > range.low)
+            each.x.from = (range.low - air) * measure.factor, each.x.to = (range.high + air) * measure.factor;
+        for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);
+        for (auto& rule : each.rules)
+            if (rule.vertical) rule.at *= measure.factor;
+    }
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,231 @@
+#include "scenes/figures/series_panels.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "render/base/error.hpp"
+#include "render/plot/channel_label.hpp"
+#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_curves.hpp"
+#include "scenes/figures/series_rules.hpp"
+#include "scenes/figures/series_spectrum.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::Axis;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Series;
+using sim::Channel;
+
+// One axis of a panel: its curves, and how they are written.
+struct Side {
+    const std::vector<SeriesCurve>& curves;
+    const std::vector<Channel>& channels;
+    bool right;
+    std::vector<sim::Table> rows = {};  // of the curves
+    Measure measure = {};
+    std::vector<std::string> symbols = {};  // of the channels
+};
+
+class SeriesPanelMaker {
+  public:
+    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results, double weight)
+        : plan_(plan),
+          keys_(plan.keys.panels[planned.number]),
+          planned_(planned),
+          results_(results),
+          weight_(weight),
+          first_(plan.motions[planned.motions.front()]) {}
+
+    std::vector<Panel> make() {
+        panel_.title = keys_.title;
+        if (plan_.keys.apart) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
+        panel_.name = name(keys_.channels.front());
+        if (keys_.logarithmic) panel_.y.scale = render::figure::Scale::logarithmic;
+        panel_.y.from = keys_.low, panel_.y.to = keys_.high;
+        if (!keys_.right.empty()) panel_.right.emplace();
+        add_side({planned_.left, keys_.channels, false});
+        if (panel_.right) add_side({planned_.right, keys_.right, true});
+        panel_.legend = curves_ > 1 ? Legend::direct : Legend::none;
+        if (plan_.abscissa.is_time()) add_instants();
+        std::vector<Panel> out;
+        out.push_back(std::move(panel_));
+        if (differences_.series.empty()) return out;
+        finish_differences();
+        out.push_back(std::move(differences_));
+        return out;
+    }
+
+  private:
+    void add_side(Side side) {
+        read(side);
+        Axis& axis = side.right ? *panel_.right : panel_.y;
+        const bool own_label = !side.right && !keys_.label.empty();
+        axis.label =
+            axis_label(own_label ? keys_.label : fmt::format("{}", fmt::join(side.symbols, ", ")), side.measure.unit);
+        for (std::size_t i = 0; i < side.curves.size(); ++i) add_curve(side, i);
+        if (std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end()) add_data(side);
+        if (side.right) return;
+        for (auto* limit : {&axis.from, &axis.to})
+            if (*limit) **limit *= side.measure.factor;
+        for (const double at : keys_.lines) panel_.rules.push_back({.at = at * side.measure.factor});
+    }
+
+    // The rows of the curves; panels of motions apart have one unit.
+    void read(Side& side) const {
+        double most = 0;
+        for (const SeriesCurve& curve : side.curves) {
+            side.rows.push_back(rows_of(curve));
+            most = std::max(most, largest(side.rows.back().values.back()));
+        }
+        if (plan_.keys.apart) most = std::max(most, largest_of_all(side.right));
+        const Channel& first = side.channels.front();
+        if (!(most > 0) && std::ranges::none_of(side.rows, has_values))
+            throw render::PictureError(
+                fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
+        side.measure = measure_of(unit(first, plan_.motions.front().problem), most);
+        for (const Channel& channel : side.channels)
+            side.symbols.push_back(
+                filled(plan_.abscissa.is_frequency() ? "|{}|" : "{}", render::print_symbol(channel)));
+    }
+    sim::Table rows_of(const SeriesCurve& curve) const {
+        sim::Table rows = plan_.rows(curve, results_);
+        rows.values.back() = above_zero(std::move(rows.values.back()), curve.channel);
+        return rows;
+    }
+    double largest_of_all(bool right) const {
+        double most = 0;
+        for (const PlannedPanel& panel : plan_.panels)
+            if (panel.number == planned_.number)
+                for (const SeriesCurve& curve : right ? panel.right : panel.left)
+                    most = std::max(most, largest(rows_of(curve).values.back()));
+        return most;
+    }
+
+    // Paler where θ is not reproducible.
+    void add_curve(const Side& side, std::size_t i) {
+        const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
+        const std::size_t shown = planned_.motions.size();
+        const std::string& symbol = side.symbols[i / shown];
+        const sim::Table& rows = side.rows[i];
+        Series whole;
+        whole.x = plan_.abscissa.of(rows, motion.problem);
+        whole.y = scaled(rows.values.back(), side.measure.factor);
+        whole.right = side.right;
+        whole.look = curves_++;
+        whole.weight = weight_;
+        const bool one_channel = keys_.channels.size() == 1 && keys_.right.empty();
+        whole.label = shown == 1 ? symbol : one_channel ? motion.label : fmt::format("{}, {}", motion.label, symbol);
+        auto [sure, unsure] = split(whole, rows.values[0], plan_.lost(*results_[motion.study]));
+        unsure.faded = true;
+        if (!sure.x.empty()) unsure.label.clear();
+        for (Series* part : {&unsure, &sure}) {
+            plan_.abscissa.fold(*part);
+            if (!part->x.empty()) panel_.series.push_back(std::move(*part));
+        }
+    }
+
+    // ---- measured data ----------------------------------------------------------------------------
+
+    void add_data(const Side& side) {
+        for (const Channel& channel : side.channels)
+            for (const Measured& each : plan_.measured) {
+                if (!each.data.find(channel)) continue;
+                if (plan_.abscissa.is_frequency())
+                    add_spectrum(each.data, channel, side);
+                else
+                    add_points(each, channel, side);
+            }
+    }
+
+    void add_spectrum(const Measurement& data, Channel channel, const Side& side) {
+        if (panel_.series.empty()) return;
+        const auto lines = measured_spectrum(data, channel, panel_.series.back().x.back());
+        if (!lines) return;
+        Series& s = panel_.series.emplace_back(
+            measured_series(data, lines->values[0], scaled(lines->values[1], side.measure.factor), curves_++));
+        s.line = true, s.every_point = false, s.right = side.right;
+    }
+
+    // Beneath the computed curves. Nothing where the data do not hold what these are drawn against.
+    void add_points(const Measured& measured, Channel channel, const Side& side) {
+        const Measurement& data = measured.data;
+        const auto along = plan_.abscissa.of(data, plan_.motion_with_data().problem);
+        if (!along) return;
+        Series points = measured_series(
+            data, *along, scaled(above_zero(*data.find(channel), channel), side.measure.factor), curves_++);
+        points.right = side.right;
+        plan_.abscissa.fold(points);
+        if (plan_.keys.residuals && !side.right) add_difference(measured, channel, points);
+        panel_.series.insert(panel_.series.begin(), std::move(points));
+    }
+
+    void add_difference(const Measured& measured, Channel channel, const Series& points) {
+        const sim::Result& result = *results_[plan_.motion_with_data().study];
+        const std::vector<double>& computed = column(result.tables[measured.table], channel.kind);
+        std::vector<double> difference = *measured.data.find(channel);
+        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= computed[i];
+        const Series whole = measured_series(measured.data, points.x, std::move(difference), points.look);
+        auto [sure, unsure] = split(whole, measured.data.times, plan_.lost(result));
+        unsure.faded = true;
+        for (Series* part : {&unsure, &sure})
+            if (!part->x.empty()) differences_.series.push_back(std::move(*part));
+    }
+
+    // Their unit has a prefix of its own.
+    void finish_differences() {
+        const Channel& channel = keys_.channels.front();
+        double most = 0;
+        for (const Series& each : differences_.series) most = std::max(most, largest(each.y));
+        const Measure measure = measure_of(unit(channel, plan_.motions.front().problem), most);
+        for (Series& each : differences_.series) each.y = scaled(std::move(each.y), measure.factor), each.label.clear();
+        differences_.y.label = axis_label("Δ" + render::print_symbol(channel), measure.unit);
+        differences_.name = name(channel) + " difference";
+        differences_.rules.push_back({.at = 0});
+        differences_.share = 0.6;
+        differences_.legend = Legend::none;
+    }
+
+    // ---- lines at instants ------------------------------------------------------------------------
+
+    void add_instants() {
+        const sim::Result& result = *results_[first_.study];
+        const double from = plan_.keys.from, to = plan_.end;
+        if (plan_.keys.impacts)
+            add_rules(impact_rules(result, from, to));
+        else if (planned_.motions.size() == 1)
+            add_rules(horizon_rules(result, from, to));
+        add_rules(note_rules(plan_.keys.notes, result, from, to, planned_.number == 0));
+    }
+    void add_rules(Rules rules) {
+        for (render::figure::Rule& rule : rules) {
+            rule.at *= plan_.abscissa.per_second(first_.problem);
+            panel_.rules.push_back(std::move(rule));
+        }
+    }
+
+    const SeriesPlan& plan_;
+    const SeriesPanel& keys_;
+    const PlannedPanel& planned_;
+    const Results& results_;
+    const double weight_;
+    const SeriesMotion& first_;  // of the motions shown
+
+    Panel panel_, differences_;
+    int curves_ = 0;  // so far, on both axes and with data: the look of the next one
+};
+
+}  // namespace
+
+std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results,
+                                 double weight) {
+    return SeriesPanelMaker(plan, planned, results, weight).make();
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,90 @@
+#include "scenes/figures/series_plan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "scenes/figures/series_spectrum.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr int kRows = 2001;  // to begin with; more where a curve bends
+
+std::vector<SeriesMotion> motions_of(const Scene& scene, const SeriesKeys& keys) {
+    if (keys.compare.empty()) return {{"", scene.problem, 0}};
+    std::vector<SeriesMotion> motions;
+    for (const Compared& each : keys.compare) motions.push_back({each.label, each.problem, 0});
+    return motions;
+}
+
+// Data are of the scene's own motion; where that is not among those shown, they are held against the first.
+std::size_t motion_measured(const Scene& scene, const std::vector<SeriesMotion>& motions) {
+    const std::string own = Studies::key(scene.problem);
+    for (std::size_t k = 0; k < motions.size(); ++k)
+        if (Studies::key(motions[k].problem) == own) return k;
+    return 0;
+}
+
+std::vector<sim::Channel> channels_of(const SeriesPlan& plan) {
+    std::vector<sim::Channel> all;
+    for (const SeriesPanel& panel : plan.keys.panels) {
+        all.insert(all.end(), panel.channels.begin(), panel.channels.end());
+        all.insert(all.end(), panel.right.begin(), panel.right.end());
+    }
+    if (plan.abscissa.channel()) all.push_back(*plan.abscissa.channel());
+    return all;
+}
+
+std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesMotion& motion, Studies& studies) {
+    if (!plan.abscissa.is_frequency())
+        return studies.curve(motion.study, {plan.keys.from, plan.end, kRows},
+                             plan.abscissa.channel().value_or(sim::Channel{}), channel);
+    std::vector<sim::TableRequest>& tables = studies.request(motion.study).tables;
+    tables.push_back({spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}});
+    return tables.size() - 1;
+}
+
+PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions, Studies& studies) {
+    PlannedPanel out{number, std::move(motions), {}, {}};
+    const SeriesPanel& keys = plan.keys.panels[number];
+    const auto add = [&](const std::vector<sim::Channel>& channels, std::vector<SeriesCurve>& curves) {
+        for (const sim::Channel& channel : channels)
+            for (const std::size_t motion : out.motions)
+                curves.push_back({channel, motion, table_of(plan, channel, plan.motions[motion], studies)});
+    };
+    add(keys.channels, out.left);
+    add(keys.right, out.right);
+    return out;
+}
+
+}  // namespace
+
+sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) const {
+    const sim::Table& rows = results[motions[curve.motion].study]->tables[curve.table];
+    return abscissa.is_frequency() ? spectrum_table(rows, keys.x_high) : rows;
+}
+
+std::vector<Lost> SeriesPlan::lost(const sim::Result& result) const {
+    return abscissa.is_frequency() ? std::vector<Lost>{} : unreliable(result, end);
+}
+
+SeriesPlan plan_series(const Scene& scene, const SeriesKeys& keys, const char* name, Lang lang, Studies& studies) {
+    SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
+    plan.motions = motions_of(scene, keys);
+    for (SeriesMotion& motion : plan.motions) {
+        motion.study = studies.of(motion.problem, plan.end, name);
+        studies.horizon(motion.study);
+        if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
+            studies.turning_points(motion.study);
+    }
+    plan.measured_motion = motion_measured(scene, plan.motions);
+    plan.measured = measured(scene, channels_of(plan), keys.from, plan.end, plan.motion_with_data().study, studies);
+    std::vector<std::size_t> all(plan.motions.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (std::size_t group = 0; group < (keys.apart ? all.size() : 1); ++group)
+        for (std::size_t number = 0; number < keys.panels.size(); ++number)
+            plan.panels.push_back(planned(plan, number, keys.apart ? std::vector{group} : all, studies));
+    return plan;
+}
+
+}  // namespace beamcam::scenes
