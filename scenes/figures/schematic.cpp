@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/figures/disc_symbols.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/sketch.hpp"
 #include "sim/problem/derived.hpp"
 
 namespace beamcam::scenes {
@@ -13,11 +15,6 @@ using render::figure::Figure;
 using render::figure::Panel;
 using render::figure::Shape;
 using sim::Vec2;
-
-using Kind = Shape::Kind;
-
-constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2), kRed = render::rgb(0xD55E00),
-                        kGrey = render::rgb(0x777777), kSteel = render::rgb(0xE6E8EC);
 
 // A beam that rests on the cam lies along the tangent from the hub's axis; it sags by much less than a line is wide.
 double start_angle(const sim::Problem& p) {
@@ -33,7 +30,7 @@ double drawn_angle(const sim::Problem& p) {
     return std::abs(angle) < 0.15 ? 0.15 : angle;
 }
 
-class Drawing {
+class Drawing : private Sketch {
   public:
     // `letter`: size of letters, in radii of the magnified disc.
     Drawing(const sim::Problem& problem, double letter) : p_(problem), letter_(letter) {
@@ -49,33 +46,10 @@ class Drawing {
         hub();
         angle();
         if (p_.gravity != 0) gravity();
-        return std::move(out_);
+        return take();
     }
 
   private:
-    Shape& add(Shape shape) {
-        out_.push_back(std::move(shape));
-        return out_.back();
-    }
-    void line(Vec2 a, Vec2 b, render::Color color, double width = 0, std::vector<double> dash = {}) {
-        add({.kind = Kind::line, .points = {a, b}, .color = color, .width = width, .dash = std::move(dash)});
-    }
-    void arrow(Vec2 a, Vec2 b, render::Color color = kInk, double width = 0) {
-        add({.kind = Kind::arrow, .points = {a, b}, .color = color, .width = width});
-    }
-    void label(Vec2 at, const char* markup, Vec2 shift, render::Color color = kInk) {
-        add({.kind = Kind::label, .points = {at}, .color = color, .markup = markup, .shift = shift});
-    }
-    void dot(Vec2 at, render::Color color = kInk, double radius = 1.5) {
-        add({.kind = Kind::disc, .centre = at, .radius_points = radius, .color = color});
-    }
-    // Between the two points, with both heads.
-    void dimension(Vec2 a, Vec2 b, render::Color color = kGrey) {
-        const Vec2 middle = 0.5 * (a + b);
-        arrow(middle, a, color);
-        arrow(middle, b, color);
-    }
-
     // The disc as it is, and magnified beside it with its symbols, which would not fit into it.
     void cam() {
         const sim::Cam& cam = *p_.cam;
@@ -101,88 +75,7 @@ class Drawing {
             line(b + cam.radius * n, centre + radius * n, kGrey, 0, {3, 3});
         }
         disc(centre, radius);
-        detail(cam, centre, zoom);
-    }
-
-    void disc(Vec2 at, double radius) {
-        add({.kind = Kind::disc, .centre = at, .radius = radius, .color = kSteel});
-        add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
-    }
-
-    // Where the labels of the disc stand about its centre, in its radius.
-    struct Symbols {
-        Vec2 radius;         // direction of the arrow R
-        Vec2 radius_label;   // from the middle of the arrow, in letters
-        double turning = 0;  // of the arrow ω, its middle
-    };
-
-    // How near the nearest two of the labels R, ω, e, B and C come to each other, or one to the arrow of another.
-    double room(const sim::Cam& cam, const Symbols& s) const {
-        const Vec2 along = sim::unit(cam.phase), across = sim::perp(along);
-        const Vec2 c = -cam.eccentricity / cam.radius * along;
-        const Vec2 labels[] = {0.5 * s.radius + letter_ * s.radius_label,
-                               (0.8 - 0.85 * letter_) * sim::unit(s.turning + 0.05),
-                               0.3 * across + 0.2 * along + letter_ * (0.6 * along + 0.1 * across),
-                               letter_ * (0.85 * along - 0.35 * across), c - letter_ * (0.85 * along - 0.2 * across)};
-        double least = 1;
-        for (std::size_t a = 0; a < std::size(labels); ++a) {
-            for (std::size_t b = 0; b < a; ++b) least = std::min(least, norm(labels[a] - labels[b]));
-            for (double share = 0.2; a > 0 && share < 1; share += 0.1)
-                least = std::min(least, norm(labels[a] - share * s.radius) + 0.3 * letter_);
-        }
-        return least;
-    }
-
-    // The usual places where they have room, else the best of others.
-    Symbols symbols(const sim::Cam& cam) const {
-        constexpr double kPi = std::numbers::pi;
-        const double enough = 1.4 * letter_;
-        Symbols best{sim::unit(-0.72 * kPi), {0.75, -0.35}, 0};
-        double most = room(cam, best);
-        if (most >= enough || cam.eccentricity == 0) return best;
-        constexpr int kDirections = 24;
-        for (int r = 0; r < kDirections; ++r)
-            for (const double side : {0.85, -0.85})
-                for (int turn = 0; turn < kDirections; ++turn) {
-                    const Vec2 out = sim::unit(2 * kPi * r / kDirections);
-                    const Symbols other{out, side * sim::perp(out), 2 * kPi * turn / kDirections};
-                    if (const double each = room(cam, other); each > most) most = each, best = other;
-                }
-        return best;
-    }
-
-    void detail(const sim::Cam& cam, Vec2 b, double zoom) {
-        const double radius = zoom * cam.radius;
-        const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
-        const Symbols at = symbols(cam);
-        const Vec2 along = sim::unit(cam.phase), rim = b + radius * at.radius;
-        arrow(b, rim);
-        label(0.5 * (b + rim), "$R$", at.radius_label);
-        if (cam.eccentricity > 0) {
-            const Vec2 across = sim::perp(along) * (0.30 * radius);
-            line(c, c + 1.15 * across, kGrey);
-            line(b, b + 1.15 * across, kGrey);
-            arrow(c + across - along * (0.2 * radius), c + across, kGrey);
-            arrow(b + across + along * (0.2 * radius), b + across, kGrey);
-            label(b + across + along * (0.2 * radius), "$e$", 0.6 * along + 0.1 * sim::perp(along));
-            label(b, "$B$", 0.85 * along - 0.35 * sim::perp(along));
-        }
-        dot(c);
-        dot(b, kInk, 1.2);
-        if (cam.eccentricity > 0)
-            label(c, "$C$", -0.85 * along + 0.2 * sim::perp(along));
-        else
-            label(c, "$B$ = $C$", {-0.85, 0.9});
-        if (cam.speed == 0) return;
-        const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
-        add({.kind = Kind::turn,
-             .centre = b,
-             .radius = r,
-             .from = at.turning - 0.9 * way + 0.2,
-             .to = at.turning + 0.5 * way + 0.2,
-             .color = kInk,
-             .width = 0.8});
-        label(b + r * sim::unit(at.turning + 0.1), "$ω$", -0.85 * sim::unit(at.turning));
+        draw_disc_symbols(cam, centre, zoom, letter_, *this);
     }
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
@@ -267,7 +160,6 @@ class Drawing {
 
     const sim::Problem& p_;
     double letter_, size_ = 1, unit_ = 1, theta_ = 0.78;
-    std::vector<Shape> out_;
 };
 
 std::string schematic_caption(const sim::Problem& p, Lang lang) {
