@@ -1,7 +1,6 @@
-// How much the choice of model matters: number of modes, rungs of the ladder.
+// How much the choice of model matters: the rungs of the ladder compared.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "scenes/figures/recipes.hpp"
@@ -18,7 +17,6 @@ using sim::Basis;
 using sim::ChannelKind;
 using sim::ModelKind;
 
-constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
 constexpr int kModelsPoints = 4001;
 
 // Steps that the figure `models` spends on a motion: about a second of computing, of which a Runge–Kutta step of N
@@ -27,79 +25,6 @@ int affordable_steps(ModelKind model, int modes) {
     const bool nonlinear = model == ModelKind::second_order || model == ModelKind::exact;
     const double microseconds = 40 + (nonlinear ? 2.0 : 0.5) * modes * modes;
     return static_cast<int>(1.2e6 / microseconds);
-}
-
-// The first apex after the first collision began; of a motion cut short before `end` only where a second one ends the
-// search.
-std::optional<double> rebound(const sim::Result& result, double end) {
-    if (result.collisions.empty()) return std::nullopt;
-    if (result.collisions.size() == 1 && result.end_time < end) return std::nullopt;
-    const double after = result.collisions.front().t_end.value_or(result.end_time);
-    // Ripple makes small maxima; the rebound is the highest of those before the next collision.
-    const double until = result.collisions.size() > 1 ? result.collisions[1].t_start : result.end_time;
-    std::optional<double> best;
-    for (const sim::Apex& apex : result.apexes)
-        if (apex.t > after && apex.t < until && (!best || apex.theta > *best)) best = apex.theta;
-    return best;
-}
-
-FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    struct Run {
-        Basis basis;
-        int modes;
-        std::size_t study;
-        sim::Problem problem;
-    };
-    std::vector<Run> runs;
-    for (const Basis basis : {Basis::hub_beam, Basis::cantilever})
-        for (const int modes : kModes) {
-            sim::Problem p = scene.problem;
-            set_shapes(p, ModelKind::first_order, basis, modes);
-            // Cantilever shapes with many modes lose the inertia of a light hub; see the model's limits.
-            if (basis == Basis::cantilever && modes > 6) continue;
-            runs.push_back({basis, modes, studies.of(p, scene.end_time, "apex-modes"), p});
-            studies.turning_points(runs.back().study);
-            studies.may_fail(runs.back().study);
-        }
-    return [runs, lang, problem = scene.problem, end = scene.end_time](const Results& results) {
-        const bool en = lang == Lang::en;
-        Figure figure;
-        figure.name = "apex-modes";
-        figure.title = en ? "Rebound apex against the number of modes" : "回弹最高点随模态数的变化";
-        Panel panel;
-        panel.x.label = "$N$";
-        panel.x.tight = false;
-        panel.x.counts = true;
-        panel.y.label = "$θ_{\\r{apex}}$ / rad";
-        panel.legend = Legend::box;
-        std::array<Series, 2> series;
-        series[0].label = en ? "hub–beam shapes" : "轮毂–梁模态";
-        series[1].label = en ? "cantilever shapes" : "悬臂模态";
-        series[1].look = 1;
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> used;
-        for (const Run& run : runs) {
-            const std::optional<double> apex = rebound(*results[run.study], end);
-            if (!apex) continue;  // none, or no such motion
-            Series& s = series[run.basis == Basis::hub_beam ? 0 : 1];
-            s.x.push_back(run.modes);
-            s.y.push_back(*apex);
-            used.emplace_back(&run.problem, results[run.study]);
-        }
-        if (used.empty())
-            throw render::PictureError(
-                "figure apex-modes: no rebound has an apex before the scene ends; raise time.end");
-        for (Series& s : series) s.every_point = true, panel.series.push_back(s);
-        figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.62;
-        figure.caption =
-            en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, model "
-                 "first-order. "
-               : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order。";
-        figure.caption += facts(problem, lang, {.model = true, .modes = true});
-        figure.accuracy = accuracy(used, lang);
-        return figure;
-    };
 }
 
 // One motion of the comparison.
@@ -174,7 +99,7 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
     const bool en = lang == Lang::en;
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
-        return rung ? rebound(*results[rung->study], end) : std::nullopt;
+        return rung ? rebound_apex(*results[rung->study], end) : std::nullopt;
     };
     const Rung& reference = all.front();
     std::string text = filled(
@@ -312,10 +237,6 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
     };
 }
 
-std::optional<std::string> needs_free_cam(const Scene& scene) {
-    if (auto no_cam = needs_cam(scene)) return no_cam;
-    return needs_free_hub(scene);
-}
 std::optional<std::string> needs_flexible_fall(const Scene& scene) {
     if (auto prescribed = needs_free_hub(scene)) return prescribed;
     if (scene.problem.beam.model != ModelKind::rigid) return std::nullopt;
@@ -324,10 +245,6 @@ std::optional<std::string> needs_flexible_fall(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kApexModes{"apex-modes",
-                        {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
-                        needs_free_cam,
-                        prepare_apex};
 const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
 
 }  // namespace beamcam::scenes

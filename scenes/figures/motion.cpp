@@ -54,6 +54,43 @@ std::vector<double> mean(const std::vector<double>& values, int rows) {
     return out;
 }
 
+Panel empty_panel() {
+    Panel panel;
+    panel.legend = Legend::none;
+    panel.x.label = "$θ$ / rad";
+    panel.x.tight = false;
+    panel.y.label = "$\\dot{θ}$ / (rad s^{−1})";
+    panel.color_bar = render::figure::ColorBar{.label = "$t$ / s"};
+    panel.rules.push_back({.at = 0});
+    return panel;
+}
+
+Series portrait(const sim::Table& table) {
+    Series s;
+    s.x = column(table, ChannelKind::theta);
+    s.y = column(table, ChannelKind::theta_dot);
+    return s;
+}
+
+// In grey, beneath the mean.
+Series raw_portrait(const sim::Table& table) {
+    Series raw = portrait(table);
+    raw.color = render::rgb(0xD2D2D2);
+    raw.weight = 0.35;
+    return raw;
+}
+
+std::string phase_caption(bool is_mean, bool has_impacts, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string text =
+        is_mean ? (en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured "
+                        "by time, the mean over one period of the first bending mode. "
+                      : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
+                : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
+    if (has_impacts) text += en ? "Near-vertical stretches are collisions. " : "近似竖直的线段为碰撞。";
+    return text;
+}
+
 FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     const double end = scene.end_time;
@@ -66,45 +103,25 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
     return [=, problem = scene.problem](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[study];
-        Figure figure;
-        figure.name = "phase";
-        figure.title = en ? "Phase portrait" : "相图";
-        Panel panel;
-        panel.legend = Legend::none;
-        panel.x.label = "$θ$ / rad";
-        panel.x.tight = false;
-        panel.y.label = "$\\dot{θ}$ / (rad s^{−1})";
-        panel.color_bar = render::figure::ColorBar{.label = "$t$ / s"};
-        const std::vector<double>& time = column(result.tables[table], ChannelKind::t);
-        Series s;
-        s.x = column(result.tables[table], ChannelKind::theta);
-        s.y = column(result.tables[table], ChannelKind::theta_dot);
-        s.value = time;
-        const int period = rows_of(first, time);
+        Panel panel = empty_panel();
+        Series s = portrait(result.tables[table]);
+        s.value = column(result.tables[table], ChannelKind::t);
+        const int period = rows_of(first, s.value);
         if (period > 1) {
-            Series raw;
-            raw.x = column(result.tables[curve], ChannelKind::theta);
-            raw.y = column(result.tables[curve], ChannelKind::theta_dot);
-            raw.color = render::rgb(0xD2D2D2);
-            raw.weight = 0.35;
-            panel.series.push_back(std::move(raw));
+            panel.series.push_back(raw_portrait(result.tables[curve]));
             s.x = mean(s.x, period);
             s.y = mean(s.y, period);
         }
         if (!s.x.empty())
             panel.marks.push_back({.x = s.x.front(), .y = s.y.front(), .label = en ? "start" : "起点", .look = 6});
         panel.series.push_back(std::move(s));
-        panel.rules.push_back({.at = 0});
+        Figure figure;
+        figure.name = "phase";
+        figure.title = en ? "Phase portrait" : "相图";
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.75;
         figure.caption =
-            period > 1 ? (en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured "
-                               "by time, the mean over one period of the first bending mode. "
-                             : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
-                       : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
-        if (impacts_until(problem, result, end) > 0)
-            figure.caption += en ? "Near-vertical stretches are collisions. " : "近似竖直的线段为碰撞。";
-        figure.caption += facts(problem, lang);
+            phase_caption(period > 1, impacts_until(problem, result, end) > 0, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };

@@ -78,6 +78,18 @@ const sim::Collision* collision_of(const sim::Problem& problem, const sim::Resul
     return nullptr;
 }
 
+std::optional<double> rebound_apex(const sim::Result& result, double end) {
+    if (result.collisions.empty()) return std::nullopt;
+    if (result.collisions.size() == 1 && result.end_time < end) return std::nullopt;
+    const double after = result.collisions.front().t_end.value_or(result.end_time);
+    // Ripple makes small maxima; the rebound is the highest of those before the next collision.
+    const double until = result.collisions.size() > 1 ? result.collisions[1].t_start : result.end_time;
+    std::optional<double> best;
+    for (const sim::Apex& apex : result.apexes)
+        if (apex.t > after && apex.t < until && (!best || apex.theta > *best)) best = apex.theta;
+    return best;
+}
+
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
 sim::Problem without_cam(sim::Problem problem) {

@@ -61,6 +61,9 @@ bool strikes(const sim::Problem& problem, const Touch& touch) {
 
 // Counted from 1; null: there are fewer.
 const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number);
+// The angle θ at the apex of the first rebound; of a motion cut short before `end` only where a second collision ends
+// the search.
+std::optional<double> rebound_apex(const sim::Result& result, double end);
 // Rows over the scene: an impact lasts a few tenths of a millisecond.
 int contact_rows(double end);
 

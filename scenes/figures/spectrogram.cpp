@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "render/plot/channel_label.hpp"
-#include "render/plot/ticks.hpp"
 #include "scenes/figures/key_label.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_curves.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 #include "scenes/figures/series_words.hpp"
 #include "sim/beam/modes.hpp"
@@ -102,11 +102,34 @@ std::string spectrogram_words(sim::Channel channel, const Spectrogram& s, double
         number(rate, 4), number(1.5 / s.window, 2));
 }
 
+// The first that the keys name, else what vibrates most.
+sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
+    if (!keys.panels.empty() && !keys.panels.front().channels.empty()) return keys.panels.front().channels.front();
+    const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
+    return {rigid ? sim::ChannelKind::theta_dot : sim::ChannelKind::tip_deflection, 0};
+}
+
+// `measure`: of the amplitudes, of which `most` is the largest.
+Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure) {
+    const double largest = most * measure.factor;
+    Panel panel;
+    panel.legend = render::figure::Legend::none;
+    panel.x.label = "$t$ / s";
+    panel.y.label = "$f$ / Hz";
+    panel.y.tight = true;
+    panel.color_bar =
+        render::figure::ColorBar{.label = axis_label(fmt::format("|{}|", render::print_symbol(channel)), measure.unit),
+                                 .scale = render::figure::Scale::logarithmic,
+                                 .from = largest * std::pow(10, -kDecades),
+                                 .to = largest};
+    panel.cells.push_back(cells_of(s, most, measure.factor));
+    panel.name = name(channel);
+    return panel;
+}
+
 FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const SeriesKeys& keys = how.series;
-    const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
-    sim::Channel channel{rigid ? sim::ChannelKind::theta_dot : sim::ChannelKind::tip_deflection, 0};
-    if (!keys.panels.empty() && !keys.panels.front().channels.empty()) channel = keys.panels.front().channels.front();
+    const sim::Channel channel = channel_of(scene, keys);
     const double from = keys.from, to = keys.to.value_or(scene.end_time);
     const double window = keys.window.value_or(usual_window(scene.problem, to - from));
     if (!(window <= (to - from) / 2))
@@ -117,7 +140,6 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
     const std::size_t table = tables.size();
     tables.push_back({spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
     return [=, problem = scene.problem, lang = how.lang, highest = keys.highest](const Results& results) {
-        const bool en = lang == Lang::en;
         const sim::Table& rows = results[study]->tables[table];
         const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
         Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
@@ -126,28 +148,13 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
             throw render::PictureError(
                 fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s", name(channel), from, to));
         if (!highest) shorten(s, most * std::pow(10, -kDecades));
-        const std::string unit = sim::unit(channel, problem);
-        const bool prefixed = unit == "m" || unit == "N" || unit == "J";
-        const render::Prefix prefix = render::prefix_for(prefixed ? most : 1);
-        Panel panel;
-        panel.legend = render::figure::Legend::none;
-        panel.x.label = "$t$ / s";
+        Panel panel = spectrogram_panel(channel, s, most, measure_of(sim::unit(channel, problem), most));
         panel.x.from = from, panel.x.to = to;
-        panel.y.label = "$f$ / Hz";
-        panel.y.tight = true;
-        panel.color_bar = render::figure::ColorBar{
-            .label = axis_label(fmt::format("|{}|", render::print_symbol(channel)), prefix.symbol + unit),
-            .scale = render::figure::Scale::logarithmic,
-            .from = most / prefix.factor * std::pow(10, -kDecades),
-            .to = most / prefix.factor};
-        panel.cells.push_back(cells_of(s, most, 1 / prefix.factor));
-        panel.name = name(channel);
         Figure figure;
         figure.name = "spectrogram";
-        figure.title = en ? "Amplitudes by frequency and time" : "时频谱";
+        figure.title = lang == Lang::en ? "Amplitudes by frequency and time" : "时频谱";
         figure.panels.push_back(std::move(panel));
-        figure.caption = spectrogram_words(channel, s, rate, lang);
-        figure.caption += facts(problem, lang);
+        figure.caption = spectrogram_words(channel, s, rate, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, results[study]}}, lang);
         return figure;
     };

@@ -92,63 +92,78 @@ std::string deflection_caption(const sim::Problem& problem, const Inclination& a
     return text + beam_facts(problem, lang);
 }
 
+// Deflection and slope, one above the other.
+struct DeflectionPanels {
+    Panel shape, slope;
+    double largest_jump = 0;  // of the slope, as printed
+};
+DeflectionPanels empty_deflection() {
+    DeflectionPanels out;
+    out.shape.letter = "a";
+    out.slope.letter = "b";
+    out.shape.x.label = out.slope.x.label = "$x$ / m";
+    out.shape.y.label = "$w$ / mm";
+    out.slope.y.label = "d$w$/d$x$ / 10^{−3}";
+    out.shape.legend = Legend::box;
+    out.slope.legend = Legend::none;
+    for (Panel* panel : {&out.shape, &out.slope}) panel->rules.push_back({.at = 0});
+    return out;
+}
+
+// The beam on its support number `i`, by one of the formulas.
+void add_deflection(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c,
+                    DeflectionPanels& out) {
+    DeflectionCurves s = shape_of(problem, angle, support, c.printing);
+    const bool first = c.printing == Printing::corrected;
+    if (c.printing == Printing::printed) out.largest_jump = std::max(out.largest_jump, s.jump);
+    for (Series* series : {&s.w, &s.slope}) {
+        series->look = c.look;
+        series->color = render::figure::look(static_cast<int>(i)).color;
+        series->solid = first;
+        if (!first) series->weight = 0.9;
+    }
+    if (first) s.w.label = "$l_{1}$ = " + length_text(support);
+    out.shape.series.push_back(std::move(s.w));
+    out.slope.series.push_back(std::move(s.slope));
+}
+
+// The key to the dashes, in black.
+void add_key(std::span<const Curves> curves, Lang lang, Panel& panel) {
+    panel.legend = Legend::box;
+    for (const Curves& c : curves) {
+        Series key;
+        key.label = c.label.in(lang);
+        key.look = c.look;
+        key.solid = c.printing == Printing::corrected;
+        key.color = render::rgb(0x000000);
+        panel.series.push_back(std::move(key));
+    }
+}
+
+Figure deflection_figure(const sim::Problem& problem, Lang lang) {
+    const Inclination at = inclination(problem);
+    const double reach = problem.beam.length * std::cos(at.angle);
+    const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
+    DeflectionPanels panels = empty_deflection();
+    for (std::size_t i = 0; i < kSupports.size(); ++i) {
+        const double support = kSupports[i] * reach;
+        for (const Curves& c : curves) add_deflection(problem, at.angle, support, i, c, panels);
+        panels.shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
+    }
+    if (curves.size() > 1) add_key(curves, lang, panels.slope);
+    Figure figure;
+    figure.name = "deflection";
+    figure.title = lang == Lang::en ? "Static deflection for several contact points" : "不同接触点的静挠度";
+    figure.panels = {std::move(panels.shape), std::move(panels.slope)};
+    figure.share_x = true;
+    figure.aspect = 1.15;
+    figure.caption = deflection_caption(problem, at, panels.largest_jump, lang);
+    figure.accuracy = accuracy({}, lang);
+    return figure;
+}
+
 FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {
-    const Lang lang = how.lang;
-    return [problem = scene.problem, lang](const Results&) {
-        const bool en = lang == Lang::en;
-        const Inclination at = inclination(problem);
-        const double reach = problem.beam.length * std::cos(at.angle);
-        const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
-        Figure figure;
-        figure.name = "deflection";
-        figure.title = en ? "Static deflection for several contact points" : "不同接触点的静挠度";
-        Panel shape, slope;
-        shape.letter = "a";
-        slope.letter = "b";
-        shape.x.label = slope.x.label = "$x$ / m";
-        shape.y.label = "$w$ / mm";
-        slope.y.label = "d$w$/d$x$ / 10^{−3}";
-        shape.legend = Legend::box;
-        slope.legend = curves.size() > 1 ? Legend::box : Legend::none;
-        double largest_jump = 0;
-        for (std::size_t i = 0; i < kSupports.size(); ++i) {
-            const double support = kSupports[i] * reach;
-            const render::Color color = render::figure::look(static_cast<int>(i)).color;
-            for (const Curves& c : curves) {
-                DeflectionCurves s = shape_of(problem, at.angle, support, c.printing);
-                const bool first = c.printing == Printing::corrected;
-                if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
-                for (Series* series : {&s.w, &s.slope}) {
-                    series->look = c.look;
-                    series->color = color;
-                    series->solid = first;
-                    if (!first) series->weight = 0.9;
-                }
-                if (first) s.w.label = "$l_{1}$ = " + length_text(support);
-                shape.series.push_back(std::move(s.w));
-                slope.series.push_back(std::move(s.slope));
-            }
-            shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
-        }
-        // The key to the dashes, in black.
-        for (const Curves& c : curves) {
-            if (curves.size() == 1) break;
-            Series key;
-            key.label = c.label.in(lang);
-            key.look = c.look;
-            key.solid = c.printing == Printing::corrected;
-            key.color = render::rgb(0x000000);
-            slope.series.push_back(std::move(key));
-        }
-        shape.rules.push_back({.at = 0});
-        slope.rules.push_back({.at = 0});
-        figure.panels = {shape, slope};
-        figure.share_x = true;
-        figure.aspect = 1.15;
-        figure.caption = deflection_caption(problem, at, largest_jump, lang);
-        figure.accuracy = accuracy({}, lang);
-        return figure;
-    };
+    return [problem = scene.problem, lang = how.lang](const Results&) { return deflection_figure(problem, lang); };
 }
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {
