@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <deque>
 #include <exception>
-#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -17,20 +16,17 @@
 #include <utility>
 
 #include "output/files/atomic_file.hpp"
+#include "output/film/encoder_recipe.hpp"
 #include "output/film/palette.hpp"
+#include "output/film/pixel_layout.hpp"
 #include "output/film/video_library.hpp"
-#include "output/film/yuv.hpp"
 #include "render/base/memory.hpp"
 #include "render/base/threads.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::output {
 
-enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
-
 namespace {
-
-// ---- options -----------------------------------------------------------------------------------
 
 constexpr double kLongestHold = 5;  // [s]
 constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
@@ -39,165 +35,6 @@ std::string presets_in_words() {
     std::string text;
     for (const char* preset : kPresets) text += (text.empty() ? "" : ", ") + std::string(preset);
     return text;
-}
-
-// ---- what each kind of film asks of FFmpeg -------------------------------------------------------
-
-struct Recipe {
-    const char* container;
-    std::vector<std::string> encoders;
-    const char* pixel_format;
-    PixelLayout layout;
-    OptionList encoder_options, container_options;
-    std::string missing;
-};
-
-const char* container_of(std::string_view ending) {
-    if (ending == ".webm") return "webm";
-    if (ending == ".mov") return "mov";
-    if (ending == ".mkv") return "matroska";
-    if (ending == ".gif") return "gif";
-    if (ending == ".apng") return "apng";
-    if (ending == ".webp") return "webp";
-    return "mp4";
-}
-
-struct PixelKind {
-    const char* name;
-    PixelLayout layout;
-};
-
-// One for each codec. The values "CRF" and "PRESET" are the film's own.
-struct EncoderRow {
-    Codec codec;
-    std::vector<std::string> encoders;  // the first that FFmpeg has
-    PixelKind opaque, transparent;
-    OptionList options, container_options = {};
-    OptionList opaque_options = {}, transparent_options = {};  // of such films, beside `options`
-};
-
-const std::vector<EncoderRow>& encoder_rows() {
-    using enum PixelLayout;
-    constexpr PixelKind k420{"yuv420p", yuv420}, kAlpha420{"yuva420p", yuva420}, k444{"yuva444p10le", yuva444p10},
-        kIndices{"pal8", indices}, kBgra{"bgra", bgra}, kBgr{"bgr0", bgra}, kRgba{"rgba", rgba}, kRgb{"rgb24", rgb};
-    static const std::vector<EncoderRow> rows{
-        // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
-        {Codec::h264,
-         {"libx264"},
-         k420,
-         k420,
-         {{"preset", "PRESET"}, {"crf", "CRF"}, {"x264-params", "cpu-independent=1"}}},
-        // One frame at a time: else the film depends on the number of processors.
-        {Codec::hevc,
-         {"libx265"},
-         k420,
-         kAlpha420,
-         {{"preset", "fast"}, {"crf", "CRF"}, {"x265-params", "log-level=none:frame-threads=1"}}},
-        // Columns of tiles may run on several threads; the picture does not depend on how many do. Films with alpha
-        // cannot have alternative reference frames.
-        {Codec::vp9,
-         {"libvpx-vp9"},
-         k420,
-         kAlpha420,
-         {{"crf", "CRF"}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}},
-         {},
-         {},
-         {{"auto-alt-ref", "0"}}},
-        {Codec::av1,
-         {"libsvtav1", "libaom-av1"},
-         k420,
-         k420,
-         {{"crf", "CRF"}, {"libsvtav1:preset", "8"}, {"libaom-av1:cpu-used", "6"}, {"libaom-av1:b", "0"}}},
-        {Codec::prores,
-         {"prores_ks"},
-         k444,
-         k444,
-         {{"profile", "4444"}, {"vendor", "apl0"}},
-         {},
-         {{"alpha_bits", "0"}},
-         {{"alpha_bits", "16"}}},
-        {Codec::ffv1, {"ffv1"}, kBgr, kBgra, {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}}},
-        {Codec::gif, {"gif"}, kIndices, kIndices, {}, {{"loop", "0"}}},
-        {Codec::apng, {"apng"}, kRgb, kRgba, {{"compression_level", "6"}, {"pred", "up"}}, {{"plays", "0"}}},
-        {Codec::webp,
-         {"libwebp_anim"},
-         kBgra,
-         kBgra,
-         {{"quality", "80"}, {"compression_level", "2"}},
-         {{"loop", "0"}}}};
-    return rows;
-}
-
-void add_encoder(Recipe& r, const VideoOptions& o) {
-    const EncoderRow& row = *std::ranges::find(encoder_rows(), o.codec, &EncoderRow::codec);
-    const PixelKind& pixels = o.transparent ? row.transparent : row.opaque;
-    r.encoders = row.encoders;
-    r.pixel_format = pixels.name;
-    r.layout = pixels.layout;
-    r.encoder_options = row.options;
-    std::ranges::copy(o.transparent ? row.transparent_options : row.opaque_options,
-                      std::back_inserter(r.encoder_options));
-    r.container_options = row.container_options;
-    for (auto& [key, value] : r.encoder_options) {
-        if (value == "PRESET") value = o.preset;
-        if (value == "CRF")
-            value = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
-    }
-}
-
-// What makes a film whose pictures last unequally as long as they do together.
-void keep_durations(Recipe& r, const VideoOptions& o) {
-    const FrameRate fps = frame_rate(o.fps);
-    // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
-    if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
-    if (o.codec == Codec::hevc)
-        std::ranges::find(r.encoder_options, "x265-params", &OptionList::value_type::first)->second += ":bframes=0";
-    // Else their last picture would last as long as the one before.
-    if (o.codec == Codec::gif)
-        r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));
-    if (o.codec == Codec::apng)
-        r.container_options.emplace_back("final_delay", std::to_string(fps.base) + "/" + std::to_string(fps.rate));
-}
-
-Recipe recipe_of(const VideoOptions& o, const std::string& ending) {
-    Recipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
-    add_encoder(r, o);
-    r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
-    for (const std::string& encoder : r.encoders) r.missing += (encoder == r.encoders.front() ? "" : " or ") + encoder;
-    r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
-    if (o.codec == Codec::hevc && o.transparent)
-        r.missing =
-            "the FFmpeg libraries on this machine encode no transparent HEVC (libx265 of FFmpeg 7.1 with x265 4 does); "
-            "name a .mov (prores), .webm (vp9), .mkv (ffv1), .apng or .webp file";
-    // faststart: the index stands first, so that players begin before they have the whole file.
-    // use_metadata_tags: keys of our own are kept.
-    if (ending == ".mp4" || ending == ".mov")
-        r.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
-    if (o.variable_rate) keep_durations(r, o);
-    return r;
-}
-
-// Bytes of each pixel in the order named, colour not premultiplied.
-void copy_pixels(const std::uint32_t* from, int count, PixelLayout layout, std::uint8_t* out) {
-    for (int x = 0; x < count; ++x) {
-        const std::uint32_t p = from[x], a = p >> 24;
-        std::uint32_t r = p >> 16 & 255, g = p >> 8 & 255, b = p & 255;
-        if (a != 0 && a != 255) r = (255 * r + a / 2) / a, g = (255 * g + a / 2) / a, b = (255 * b + a / 2) / a;
-        if (layout == PixelLayout::bgra) std::swap(r, b);
-        *out++ = static_cast<std::uint8_t>(r);
-        *out++ = static_cast<std::uint8_t>(g);
-        *out++ = static_cast<std::uint8_t>(b);
-        if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(a);
-    }
-}
-void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride,
-                 const render::Tiles& part) {
-    const std::ptrdiff_t size = layout == PixelLayout::rgb ? 3 : 4;
-    part.for_each_run([&](int left, int top, int right, int bottom) {
-        for (int y = top; y < bottom; ++y)
-            copy_pixels(image.pixels.data() + std::ptrdiff_t(y) * image.width + left, right - left, layout,
-                        to + y * stride + left * size);
-    });
 }
 
 // At most, of any encoder but SVT-AV1: `threads`, and some that look ahead or filter.
@@ -314,15 +151,31 @@ struct VideoWriter::Impl {
     }
 
     void open() {
-        const Recipe recipe = recipe_of(options, file.target().extension().string());
+        const EncoderRecipe recipe = encoder_recipe(options, file.target().extension().string());
         layout = recipe.layout;
         if (options.variable_rate) {
             longest_hold = std::lround(kLongestHold * options.fps);
             options.metadata["beamcam-rate-mode"] = "variable";  // what `concat` looks for
         }
-        std::vector<std::uint32_t> colors = options.palette;
-        if (!colors.empty()) table.emplace(colors);
-        colors.resize(256, 0xff000000U);
+        if (!options.palette.empty()) table.emplace(options.palette);
+        const VideoLibrary& library = video_library();
+        if (options.codec == Codec::av1 && library.has_encoder("libsvtav1")) {
+            if (!has_memory_for_svt_av1(options.width, options.height)) throw std::bad_alloc();
+            if (!render::can_start_threads(threads_of_svt_av1())) throw no_thread();
+        }
+        try {
+            encoder = library.open_encoder(settings(recipe));
+        } catch (const CodecFailure& error) {                       // what no rule of ours knew
+            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
+            if (!render::can_start_threads(kThreadsOfEncoder)) throw no_thread();
+            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
+                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                    " pixels here (" + error.what() +
+                                    "); choose a smaller size, or write frames (NAME-####.png)");
+        }
+    }
+
+    EncoderSettings settings(const EncoderRecipe& recipe) const {
         const FrameRate fps = frame_rate(options.fps);
         EncoderSettings settings;
         settings.file = file.temporary_path();
@@ -338,24 +191,14 @@ struct VideoWriter::Impl {
         settings.encoder_options = recipe.encoder_options;
         settings.container_options = recipe.container_options;
         settings.missing = recipe.missing;
-        if (layout == PixelLayout::indices) std::copy(colors.begin(), colors.end(), settings.palette.emplace().begin());
+        if (layout == PixelLayout::indices) {
+            auto& colors = settings.palette.emplace();
+            colors.fill(0xff000000U);
+            std::ranges::copy(options.palette, colors.begin());
+        }
         settings.metadata.assign(options.metadata.begin(), options.metadata.end());
         settings.chapters = options.chapters;
-        const VideoLibrary& library = video_library();
-        if (options.codec == Codec::av1 && library.has_encoder("libsvtav1")) {
-            if (!has_memory_for_svt_av1(options.width, options.height)) throw std::bad_alloc();
-            if (!render::can_start_threads(threads_of_svt_av1())) throw no_thread();
-        }
-        try {
-            encoder = library.open_encoder(settings);
-        } catch (const CodecFailure& error) {                       // what no rule of ours knew
-            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
-            if (!render::can_start_threads(kThreadsOfEncoder)) throw no_thread();
-            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
-                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                    " pixels here (" + error.what() +
-                                    "); choose a smaller size, or write frames (NAME-####.png)");
-        }
+        return settings;
     }
 
     // Slots for one more input.
@@ -464,36 +307,11 @@ struct VideoWriter::Impl {
                                    " in a film of " + std::to_string(options.width) + "x" +
                                    std::to_string(options.height));
         const Clock::time_point start = Clock::now();
-        convert(image, *slot.frame, slot.stale);
+        output::convert(image, layout, table ? &*table : nullptr, *slot.frame, slot.stale);
         slot.stale.clear();
         const double spent = seconds_since(start);
         const std::lock_guard lock(mutex);
         cost.convert_seconds += spent;
-    }
-
-    void convert(const render::Image& image, const FramePlanes& frame, const render::Tiles& part) const {
-        YuvaPlanes planes;
-        for (std::size_t i = 0; i < 4; ++i) {
-            planes.plane[i] = frame.plane[i];
-            planes.stride[i] = frame.stride[i];
-        }
-        switch (layout) {
-            case PixelLayout::yuv420:
-                return convert_to_yuv420(image,
-                                         {{planes.plane[0], planes.plane[1], planes.plane[2]},
-                                          {planes.stride[0], planes.stride[1], planes.stride[2]}},
-                                         part);
-            case PixelLayout::yuva420:
-                return convert_to_yuva420(image, planes, part);
-            case PixelLayout::yuva444p10:
-                return convert_to_yuva444p10(image, planes, part);
-            case PixelLayout::indices:
-                return table->convert(image, planes.plane[0], planes.stride[0], part);
-            case PixelLayout::bgra:
-            case PixelLayout::rgba:
-            case PixelLayout::rgb:
-                return copy_pixels(image, layout, planes.plane[0], planes.stride[0], part);
-        }
     }
 
     void enqueue(Slot& slot, bool again = false) {
