@@ -151,8 +151,8 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
            "The motions that the picture shows, aligned in time: this scene's mechanics, or another scene's, with "
            "changes. The first is the main one.");
     v.truth(written_if(picture.horizon, "horizon"), picture.horizon,
-            "Curves against time are paler during the intervals in which θ is not reproducible; costs a second run, by "
-            "another method.");
+            "Curves against time are paler during the intervals in which θ is not reproducible; costs further runs, "
+            "tighter and by another method.");
     v.check([&picture](ObjectReader& r) { judge_picture(r, picture); });
 }
 
