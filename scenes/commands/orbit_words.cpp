@@ -25,11 +25,12 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     text += "  multipliers";
     for (const auto& m : orbit.multipliers) text += " " + complex_text(m);
     text += "\n";
-    constexpr std::size_t kShown = 12;
-    for (std::size_t i = 0; i < std::min(kShown, orbit.impacts.size()); ++i)
+    constexpr std::size_t kMostImpactsTold = 12;
+    for (std::size_t i = 0; i < std::min(kMostImpactsTold, orbit.impacts.size()); ++i)
         text += fmt::format("  impact at cam angle {:.9g} rad, approach {:.9g} m/s\n", orbit.impacts[i].cam_angle,
                             orbit.impacts[i].approach);
-    if (orbit.impacts.size() > kShown) text += fmt::format("  and {} more\n", orbit.impacts.size() - kShown);
+    if (orbit.impacts.size() > kMostImpactsTold)
+        text += fmt::format("  and {} more\n", orbit.impacts.size() - kMostImpactsTold);
     return text;
 }
 

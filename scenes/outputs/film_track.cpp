@@ -11,7 +11,7 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr double kTogether = 0.5, kShown = 2.5;  // [s] of the film
+constexpr double kTogether = 0.5, kFilmShown = 2.5;  // [s] of the film
 
 struct Group {
     std::size_t first = 0, last = 0;  // impacts, from 0
@@ -67,7 +67,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
         const double next = i + 1 < groups.size() ? groups[i + 1].from : end;
         out.subtitles.push_back(
-            {groups[i].from, std::min(next, groups[i].from + kShown), words_of(groups[i], film, lang)});
+            {groups[i].from, std::min(next, groups[i].from + kFilmShown), words_of(groups[i], film, lang)});
         if (out.chapters.empty() && groups[i].from > 0)
             out.chapters.push_back({0, groups[i].from, lang == Lang::zh ? "开始" : "Start"});
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});

@@ -131,7 +131,7 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
              "Language of the picture's own words, of subtitles and of chapters.");
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
-             "Size of words, lines and marks; at 1.3 the numbers of axes are 2 % of the picture's height.");
+             "Size of words, lines and marks; at 1 the numbers of axes are 2 % of the height of a 16:9 picture.");
     v.form("size", size_form(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
     v.either(
         "layout", layout_form(picture.layout),

@@ -66,13 +66,13 @@ void put(const render::Image& part, const render::Box& box, render::Image& whole
                     whole.pixels.begin() + std::ptrdiff_t(row + int(box.y)) * whole.width + std::ptrdiff_t(box.x));
 }
 
-constexpr render::Shown kShown{.clock = false, .legend = false};  // beside the beam
+constexpr render::Shown kBesideDiagram{.clock = false, .legend = false};  // beside the beam
 
 // What a film of this size has no room to write beside the beam; empty: nothing.
 std::string without_room(const Size& size) {
     const render::Box beam = halves_of(size).beam;
     const render::Layout places =
-        render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, kShown);
+        render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, kBesideDiagram);
     std::vector<std::string> missing;
     if (!places.title) missing.emplace_back("the value and its class");
     if (!places.parameters) missing.emplace_back("the line of parameters");
@@ -149,7 +149,7 @@ class SweepFilm {
         setup.view.lang = how_.lang;
         setup.view.paper = 0xffffff;
         setup.view.exaggeration = factor_ ? factor_ : how_.exaggeration;
-        setup.view.show = kShown;
+        setup.view.show = kBesideDiagram;
         setup.layout = render::LayoutNode{};
         setup.units = scene_.units;
         setup.poses = shot.poses;
