@@ -1,5 +1,5 @@
 // Where the answer of a computation goes besides standard output, and how its diagrams look: the options -o, --column,
-// --lang, --progress, --json and --force of `lyapunov` and `orbits`.
+// --lang, --progress, --json and --force of `lyapunov` and `orbits`, and how both read --transient.
 #pragma once
 
 #include <functional>

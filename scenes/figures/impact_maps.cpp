@@ -31,6 +31,18 @@ void add_point(Panel& panel, double x, double y) {
     panel.series.front().x.push_back(x), panel.series.front().y.push_back(y);
 }
 
+template <class Touch>
+bool is_shown(const sim::Problem& problem, const Touch& touch, double from, double to) {
+    return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
+}
+
+// Of the cam: its turns less the whole ones.
+double phase_of(const sim::Impact& hit) {
+    const double turns = hit.cam_angle / (2 * std::numbers::pi);
+    return turns - std::floor(turns);
+}
+const char* phase_label(bool en) { return en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)"; }
+
 // The loss of each impact, each collision against the next, and each impact against the cam's phase.
 struct ImpactMaps {
     Panel loss, next, phase;
@@ -39,16 +51,12 @@ ImpactMaps impact_maps(const sim::Problem& problem, const sim::Result& result, d
     const bool en = lang == Lang::en;
     const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
     ImpactMaps out{map_panel(speed(""), en ? "rebound / approach speed" : "分离速度 / 接近速度"),
-                   map_panel(speed(" $k$"), speed(" $k$ + 1")),
-                   map_panel(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", speed(""))};
-    const auto shown = [&](const auto& touch) {
-        return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
-    };
+                   map_panel(speed(" $k$"), speed(" $k$ + 1")), map_panel(phase_label(en), speed(""))};
+    const auto shown = [&](const auto& touch) { return is_shown(problem, touch, from, to); };
     for (const sim::Impact& hit : result.impacts) {
         if (!shown(hit)) continue;
         if (hit.restitution) add_point(out.loss, std::abs(hit.v_n_before), *hit.restitution);
-        const double turns = hit.cam_angle / (2 * std::numbers::pi);
-        add_point(out.phase, turns - std::floor(turns), std::abs(hit.v_n_before));
+        add_point(out.phase, phase_of(hit), std::abs(hit.v_n_before));
     }
     const std::vector<sim::Collision>& all = result.collisions;
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
@@ -125,9 +133,8 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         const bool en = lang == Lang::en;
         std::vector<double> speeds, phases;
         for (const sim::Impact& hit : results[study]->impacts) {
-            if (hit.t_start < from || hit.t_start > to || !strikes(problem, hit)) continue;
-            const double turns = hit.cam_angle / (2 * std::numbers::pi);
-            speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(turns - std::floor(turns));
+            if (!is_shown(problem, hit, from, to)) continue;
+            speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(phase_of(hit));
         }
         constexpr std::size_t kFewest = 5;
         if (speeds.size() < kFewest)
@@ -140,7 +147,7 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         figure.title = en ? "How often impacts have which speed and phase" : "冲击速度与相位的直方图";
         figure.panels = {
             histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds)),
-            histogram(en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)", phases, 1)};
+            histogram(phase_label(en), phases, 1)};
         for (std::size_t k = 0; k < 2; ++k) {
             figure.panels[k].letter = std::string(1, static_cast<char>('a' + k));
             figure.panels[k].y.label = en ? "impacts" : "冲击次数";

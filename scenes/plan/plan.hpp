@@ -117,8 +117,8 @@ struct Pictures {
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
-    bool settled =
-        true;  // false: it begins or ends at events; studies and maker are of the whole scene till they are known
+    // False: it begins or ends at events; studies and maker are of the whole scene until they are known.
+    bool settled = true;
     std::vector<Study> studies = {};  // what it looks at, as if it were alone
     FigureMaker make = {};            // from their results
     std::optional<Cost> cost = {};

@@ -57,6 +57,11 @@ bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
            a.start.phase.touching == b.start.phase.touching;
 }
 
+bool beyond_range(const ArcPoint& p) {
+    const double share = p.z[p.z.size() - 1];
+    return share < 0 || share > 1;
+}
+
 class Continuation {
   public:
     Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
@@ -197,12 +202,12 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
             }
             if (!passes(from, next, step, branch, end)) return;
             step = kFirstArc * request_.step;
-        } else if (next->z[n] < 0 || next->z[n] > 1) {
+        } else if (beyond_range(*next)) {
             end_at_range(from, *next, branch);
         } else {
             find_changes(from, *next, branch);
         }
-        if (next->z[n] < 0 || next->z[n] > 1) {
+        if (beyond_range(*next)) {
             end = "the range ends";
             return;
         }
