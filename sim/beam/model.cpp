@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "sim/beam/eigenmodes.hpp"
+#include "sim/base/linear_algebra.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/quadrature_model.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/beam/eigenmodes.hpp"
+#include "sim/base/linear_algebra.hpp"
 #include "sim/beam/model.hpp"
 
 namespace beamcam::sim {

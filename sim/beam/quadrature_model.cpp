@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/base/ode.hpp"
-#include "sim/beam/eigenmodes.hpp"
 #include "sim/beam/shapes.hpp"
 
 namespace beamcam::sim {

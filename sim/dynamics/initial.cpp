@@ -1,9 +1,11 @@
 #include "sim/dynamics/initial.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "sim/base/linear_algebra.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -34,7 +36,7 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
             jacobian.col(j) = (jacobian.col(j) - g) / (2 * kStep);
             x[j] = kept;
         }
-        const Eigen::VectorXd dx = jacobian.fullPivLu().solve(-f).cwiseProduct(scale);
+        const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
         if (!dx.allFinite()) return false;
         double factor = 1;  // damped: the residual may not grow
         const double before = f.norm();

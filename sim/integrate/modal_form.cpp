@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/beam/eigenmodes.hpp"
+#include "sim/base/linear_algebra.hpp"
 #include "sim/beam/modal_model.hpp"
 
 namespace beamcam::sim {

@@ -1,9 +1,9 @@
 #include "sim/orbit/branch_arc.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/orbit/constants.hpp"
 
@@ -64,14 +64,13 @@ std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::Vecto
         residual << value.image - y, tangent.dot(z - predicted);
         const double size = residual.norm();
         if (!std::isfinite(size)) return std::nullopt;
-        const Eigen::PartialPivLU<Eigen::MatrixXd> lu(bordered);
         if (size < kArcConverged || (size < kArcAcceptable && size > 0.5 * last)) {
-            return ArcPoint{z, lu.solve(Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
+            return ArcPoint{z, solve(bordered, Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
                             section.orbit(y, value)};
         }
         if (size > 2 * last) return std::nullopt;
         last = size;
-        z -= lu.solve(residual);
+        z -= solve(bordered, residual);
     }
     return std::nullopt;
 } catch (const SolverError&) {

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/branch_arc.hpp"
 #include "sim/orbit/constants.hpp"
@@ -21,8 +20,8 @@ Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
 }
 // Test functions: each vanishes where the orbit changes.                                                         (S77)
 double fold_test(const ArcPoint& p) { return p.tangent[p.tangent.size() - 1]; }
-double doubling_test(const ArcPoint& p) { return plus_identity(p, 1).determinant(); }
-double branching_test(const ArcPoint& p) { return plus_identity(p, -1).determinant() * (fold_test(p) > 0 ? 1 : -1); }
+double doubling_test(const ArcPoint& p) { return determinant(plus_identity(p, 1)); }
+double branching_test(const ArcPoint& p) { return determinant(plus_identity(p, -1)) * (fold_test(p) > 0 ? 1 : -1); }
 
 // μ_iμ_j − 1 of all pairs: their product, which is real and smooth, and the pair that is nearest to nought.
 struct CircleTest {
@@ -222,14 +221,9 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
 std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, const SpecialPoint& special,
                                 double size) {
     const Eigen::MatrixXd derivative = once.derivative_at(special.at);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(derivative);
-    const Eigen::Index n = derivative.rows();
-    Eigen::Index nearest = 0;
-    for (Eigen::Index i = 1; i < n; ++i)
-        if (std::abs(solver.eigenvalues()[i] + 1.0) < std::abs(solver.eigenvalues()[nearest] + 1.0)) nearest = i;
     const Eigen::VectorXd z = twice.place(special.at);
-    Eigen::VectorXd direction(n + 1);
-    direction << solver.eigenvectors().col(nearest).real().normalized(), 0;
+    Eigen::VectorXd direction(derivative.rows() + 1);
+    direction << eigenvector_nearest(derivative, -1.0).real().normalized(), 0;
     for (double shift = size; shift > 1e-4 * size; shift *= 0.5) {
         auto point = twice.correct(z + shift * direction, direction);
         if (!point || point->orbit.impacts.size() != 2 * special.at.orbit.impacts.size()) continue;

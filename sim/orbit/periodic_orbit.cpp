@@ -1,10 +1,10 @@
 #include "sim/orbit/periodic_orbit.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/constants.hpp"
 #include "sim/orbit/section_map.hpp"
@@ -49,7 +49,7 @@ std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
         if (!std::isfinite(size) || size > 1e3) return std::nullopt;
         if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last)) return map.orbit(y, value);
         last = size;
-        Eigen::VectorXd step = (value.derivative - Eigen::MatrixXd::Identity(n, n)).fullPivLu().solve(-residual);
+        Eigen::VectorXd step = solve(value.derivative - Eigen::MatrixXd::Identity(n, n), -residual);
         if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();
         y += step;
     }

@@ -1,9 +1,9 @@
 #include "sim/orbit/section_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
@@ -77,7 +77,7 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     Eigen::MatrixXd derivative = value.derivative;
     if (like_.phase.held)  // neighbours on the cam only: leaving it is no freedom of the motion
         derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;
-    const Eigen::VectorXcd multipliers = derivative.eigenvalues();
+    const Eigen::VectorXcd multipliers = eigenvalues(derivative);
     orbit.multipliers.assign(multipliers.begin(), multipliers.end());
     std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
