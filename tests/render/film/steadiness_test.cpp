@@ -56,6 +56,12 @@ bool within(Vec2 p, const std::array<Vec2, 4>& piece) {  // on or inside
     return left == 0 || right == 0;
 }
 
+Box around(const std::array<Vec2, 4>& piece) {
+    const auto [left, right] = std::ranges::minmax(piece, {}, &Vec2::x);
+    const auto [top, bottom] = std::ranges::minmax(piece, {}, &Vec2::y);
+    return {left.x, top.y, right.x - left.x, bottom.y - top.y};
+}
+
 // In no frame does a label of the mechanism meet the beam or another label, and all keep their places.
 void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::string& name) {
     Film film(setup);
@@ -67,6 +73,7 @@ void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::
             for (std::size_t i = 0; i + 1 < g.beam.line.size(); ++i) {
                 std::array<Vec2, 4> piece{g.beam.face(i), g.beam.face(i + 1), g.beam.back(i + 1), g.beam.back(i)};
                 for (Vec2& p : piece) p = g.camera.to_pixels(p);
+                if (!label.overlaps(around(piece))) continue;
                 for (int n = 0; n <= 256; ++n) {  // places in the label
                     const Vec2 p{label.x + label.w * (n % 16) / 15, label.y + label.h * (n / 16) / 16};
                     ASSERT_FALSE(within(p, piece)) << name << ", frame " << k;
