@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/beam/constants.hpp"
+
 namespace beamcam::sim {
 
 ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis) {
@@ -214,7 +216,7 @@ bool ModalModel::assemble(double* f) {
     f[0] = -2 * spin * bq_.dot(dq) - gravity_ * gravity_torque;
     add_damping(f);
     const double schur = coupled_ ? inertia_ - m.U.squaredNorm() / mass_ : inertia_;
-    return schur > 1e-9 * m.J;
+    return schur > kLostInertia * m.J;
 }
 
 void ModalModel::solve(double* f) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/beam/constants.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/quadrature_model.hpp"
 
@@ -98,7 +99,7 @@ void Model::build_damping(const Problem& problem) {
     damping = 0.5 * (damping + damping.transpose()).eval();
     const double off = (damping - Eigen::MatrixXd(damping.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
     damped_ = true;
-    damping_diagonal_ = off <= 1e-9 * damping.diagonal().cwiseAbs().maxCoeff() && n > 0;
+    damping_diagonal_ = off <= kUncoupledDamping * damping.diagonal().cwiseAbs().maxCoeff() && n > 0;
     auto values = std::make_shared<std::vector<double>>();
     if (damping_diagonal_)
         for (Eigen::Index i = 0; i < n; ++i) values->push_back(damping(i, i));

@@ -5,15 +5,10 @@
 #include <limits>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/beam/constants.hpp"
 #include "sim/beam/model.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr int kPoints = 101;
-
-}  // namespace
-
 std::vector<Mode> natural_modes(const Problem& given, std::optional<double> speed) {
     Problem problem = given;
     problem.gravity = 0;
@@ -50,8 +45,8 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
         const double square = natural.omega_squared[j];
         mode.omega = square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
         const Eigen::VectorXd xi = reduce * natural.shapes.col(j);
-        for (int p = 0; p < kPoints; ++p) {
-            const double x = model->length() * p / (kPoints - 1);
+        for (int p = 0; p < kShapePlaces; ++p) {
+            const double x = model->length() * p / (kShapePlaces - 1);
             double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize], y = 0;
             model->jacobian(x, jx, jy, jchi);
             for (Eigen::Index i = 0; i < size; ++i) y += jy[i] * xi[i];

@@ -9,6 +9,7 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/base/ode.hpp"
+#include "sim/beam/constants.hpp"
 #include "sim/beam/shapes.hpp"
 
 namespace beamcam::sim {
@@ -69,7 +70,7 @@ class QuadratureModel : public Model {
         model.bending_.setZero();
         cc.setZero();
         rate[0] = 1;
-        const double step = 1e-3 * (angular_ ? 1.0 : length_);
+        const double step = kDeflectionDifference * (angular_ ? 1.0 : length_);
         for (int j = 1; j < size_; ++j) {
             const auto odd = [&](double q, double* out) {  // of the forces, whatever the inertia of the bent beam
                 double back[kMaxSize];

@@ -4,23 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/dynamics/constants.hpp"
+
 namespace beamcam::sim {
-namespace {
-
-constexpr int kMostIterations = 60;    // of Newton's method with bisection: a bisection alone needs 47 for kFootChange
-constexpr double kFootChange = 1e-14;  // of the length: rounding of the arc position
-constexpr double kLastChange = 1e-9;   // of the length: after such a step of Newton's method what is left is rounding
-constexpr int kSamplesOfModes = 9, kSamplesOfExact = 13;  // and 2 or 4 a coordinate: more for more curved shapes
-
-}  // namespace
-
 ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
     : cam_(problem.cam.value_or(Cam{})),
       hub_radius_(problem.hub.radius),
       length_(model.length()),
       offset_(contact_offset(problem)),
-      samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kSamplesOfExact
-                                                      : 2 * model.size() + kSamplesOfModes),
+      samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kPlacesOfExact
+                                                      : 2 * model.size() + kPlacesOfModes),
       x_last_(0.5 * length_) {}
 
 // The only foot of a nearly straight beam, or the nearest of a few points.
@@ -46,7 +39,7 @@ void ContactGeometry::search_whole_beam(const Model& model, Vec2 disc, bool stra
 Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
     double x = x_last_, low = 0, high = length_;
     c.at_end = false;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostFootSteps; ++iteration) {
         model.point(x, at_);
         const Vec2 d = at_.r - disc;
         const double slope = dot(at_.r1, d);
@@ -60,7 +53,7 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
             low = std::max(low, x);
         const double bend = dot(at_.r2, d) + dot(at_.r1, at_.r1);
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
-        if (bend > 0 && std::fabs(next - x) <= kLastChange * length_ && next > 0 && next < length_) {
+        if (bend > 0 && std::fabs(next - x) <= kLastFootChange * length_ && next > 0 && next < length_) {
             if (next != x) model.point(x = next, at_);
             break;
         }

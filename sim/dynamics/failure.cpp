@@ -8,18 +8,11 @@
 #include <numbers>
 #include <vector>
 
+#include "sim/dynamics/constants.hpp"
 #include "sim/problem/derived.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-// Beyond these a modal model's small deflections are the likelier cause than anything that they lead to.
-constexpr double kLargestSlope = 0.5;   // [rad], between the ends of the beam
-constexpr double kLargestSag = 0.2;     // of the length, of the clamped beam under its weight
-constexpr double kFastSpin = 0.5;       // of the first bending frequency: what turning does to the stiffness matters
-constexpr double kRunaway = 1e3;        // of that frequency: nothing but a vanished inertia lets a hub turn so fast
-constexpr double kSlowApproach = 1e-5;  // [m/s]: a hundredth of the usual floor
-constexpr double kSharpTouch = 0.1;     // of the time to the deepest point: what a step in a touch may span
 
 // What the beam looks like, and how its contact point answers, at the last good instant.
 struct Look {
@@ -210,7 +203,7 @@ std::string cause(const Failure& failure, System& system, const Look& beam) {
             break;
     }
     const bool coupled = resolved_basis(p) == Basis::cantilever && !is_prescribed(p.hub.drive);
-    if (coupled && beam.spin > kRunaway * bending_frequency(p)) return tell_inertia(p);
+    if (coupled && beam.spin > kRunawaySpin * bending_frequency(p)) return tell_inertia(p);
     if (bent(p, beam)) return tell_bent(p, beam);
     if (std::string lost = tell_lost_stiffness(p, beam); !lost.empty()) return lost;
     const char* unbounded =

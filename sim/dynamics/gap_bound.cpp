@@ -5,15 +5,9 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/beam/shapes.hpp"
+#include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr double kLeastShapeBound = 3;  // of Shapes::bound: all shapes of a beam that does not reach beyond its hinge
-constexpr double kStraight = 0.5;       // of |v″| times the distance of the disc: 1 would be a second foot
-
-}  // namespace
-
 GapBound::GapBound(const Problem& problem, const Model& model)
     : modes_(model.size() - 1),
       exact_(problem.beam.model == ModelKind::exact),
@@ -37,7 +31,7 @@ bool GapBound::nearly_straight(const double* q) const {
     for (std::size_t i = 0; i < shape_bounds_.size(); ++i)
         curvature += shape_bounds_[i] * wave_numbers_[i] * wave_numbers_[i] * std::fabs(q[i]);
     const double far = length_ + std::fabs(radius_) + norm(cam_.centre) + cam_.eccentricity;
-    return curvature * far < kStraight;
+    return curvature * far < kSingleFoot;
 }
 
 // Distance of B from the straight beam at the frame's angle, less what bending, turning and the cam can add.

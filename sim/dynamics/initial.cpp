@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kBalanced = 1e-9;  // of the natural forces: what is left of a residual in equilibrium
 
 // Newton's method with a differenced Jacobian on a handful of unknowns. scale[i] is the natural size of x[i], size[i]
 // that of residual i: unknowns and residuals of different units are compared by these shares alone.
@@ -24,16 +23,15 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
         r = r.cwiseQuotient(size).eval();
     };
     residual(x, f);
-    for (int iteration = 0; iteration < 60; ++iteration) {
+    for (int iteration = 0; iteration < kMostNewtonSteps; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
-            constexpr double kStep = 1e-7;
             const double kept = x[j];
-            x[j] = kept + kStep * scale[j];
+            x[j] = kept + kNewtonDifference * scale[j];
             residual(x, g);
             jacobian.col(j) = g;
-            x[j] = kept - kStep * scale[j];
+            x[j] = kept - kNewtonDifference * scale[j];
             residual(x, g);
-            jacobian.col(j) = (jacobian.col(j) - g) / (2 * kStep);
+            jacobian.col(j) = (jacobian.col(j) - g) / (2 * kNewtonDifference);
             x[j] = kept;
         }
         const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
@@ -43,13 +41,13 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
         for (int half = 0;; ++half, factor *= 0.5) {
             const Eigen::VectorXd tried = x + factor * dx;
             residual(tried, g);
-            if (g.norm() <= before || half > 20) {
+            if (g.norm() <= before || half > kMostDampings) {
                 x = tried;
                 f = g;
                 break;
             }
         }
-        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < 1e-13) return true;
+        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < kNewtonConverged) return true;
     }
     return f.norm() < kBalanced;
 }
@@ -116,8 +114,6 @@ bool hold(System& system, double angle, Eigen::VectorXd& xi) {
     return found;
 }
 
-constexpr double kNewtonGap = 1e-10;  // of a gap, relative to the beam's length, that Newton's method leaves
-
 // A motion along which the beam lies on the cam, seen at one instant.
 struct Ride {
     Eigen::VectorXd xi, rate, acceleration;
@@ -151,7 +147,7 @@ bool rest(System& system, double t, Ride& ride) {
         // Compliant: linear for a separated beam, so that Newton finds its way back.
         const double push = rigid_contact ? at[n]
                             : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
-                                          : -c.gap * stiffness * 1e-6;
+                                          : -c.gap * stiffness * kSeparatedPull;
         const bool inert = system.generalized_force(t, c, push, force.data());
         if (moves && inert) model.solve(force.data());
         if (moves && !inert) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // a step too far
@@ -162,7 +158,7 @@ bool rest(System& system, double t, Ride& ride) {
     ride.xi = x.head(n);
     if (!found || rigid_contact) return found && x[n] >= 0;
     std::copy_n(x.data(), n, y.begin());
-    return system.contact(t, y.data(), true).gap <= kNewtonGap * problem.beam.length;
+    return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
 }
 
 // The beam lying on the cam at its start, moving with the cam if it turns. The equilibria at neighbouring angles
@@ -172,7 +168,7 @@ bool rest(System& system, double t, Ride& ride) {
 class Riding {
   public:
     Riding(System& system, const Eigen::VectorXd& guess)
-        : system_(system), step_(kStep / std::fabs(system.problem().cam->speed)) {
+        : system_(system), step_(kFollowingDifference / std::fabs(system.problem().cam->speed)) {
         const Eigen::VectorXd still = Eigen::VectorXd::Zero(guess.size());
         rides_.assign(kPoints, {guess, still, still});
     }
@@ -187,7 +183,6 @@ class Riding {
 
   private:
     static constexpr int kPoints = 9, kMiddle = 4;
-    static constexpr double kStep = 5e-3;  // [rad] of the cam: rounding and the stencil's error balance
 
     // Equilibria at the instants −reach…reach.
     bool level(int reach) {
@@ -216,7 +211,7 @@ class Riding {
 
 // A cam that falls away faster than the beam can follow: at rest on it, it moves along until it is left behind.
 Ride left_behind(System& system, const Eigen::VectorXd& xi) {
-    const double dt = 1e-5 / std::fabs(system.problem().cam->speed);
+    const double dt = kLeavingDifference / std::fabs(system.problem().cam->speed);
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(xi.size());
     Ride later{xi, still, still}, earlier = later;
     if (!rest(system, dt, later) || !rest(system, -dt, earlier))

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/base/assert.hpp"
+#include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -13,10 +14,6 @@ NormalLaw normal_law_of(const Problem& problem) {
     return {contact_stiffness(problem), problem.contact.exponent,
             damping_factor(problem.contact.damping, problem.contact.restitution)};
 }
-
-// The rate at which rounding of the gap decays: slower than the lowest vibration, faster than a rigid beam's swing.
-constexpr double kOfVibration = 0.1, kOfSwing = 10;
-constexpr double kLeastGravity = 1e-3;  // [m/s²] so that the rate does not vanish with it
 
 }  // namespace
 
@@ -34,8 +31,8 @@ System::System(const Problem& problem)
     size = controlled + kLedgerSize;
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     baumgarte_rate_ =
-        n_ > 1 ? kOfVibration * model_->frequency(0)
-               : kOfSwing * std::sqrt(std::max(kLeastGravity, std::fabs(problem.gravity)) / model_->length());
+        n_ > 1 ? kDecayOfVibration * model_->frequency(0)
+               : kDecayOfSwing * std::sqrt(std::max(kLeastGravity, std::fabs(problem.gravity)) / model_->length());
 }
 
 System::System(const System& other)

@@ -38,9 +38,6 @@ struct Phase {
     double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
 };
 
-// The gap is known to a tenth of this share of the beam's length: what opens or falls no further is rounding.
-inline constexpr double kGapRounding = 1e-14;
-
 class System final : public Ode {
   public:
     explicit System(const Problem& problem);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/counted.hpp"
+#include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/problem/derived.hpp"
@@ -16,9 +17,6 @@
 
 namespace beamcam::sim {
 namespace {
-
-// No number of a mechanism is larger, in SI; squares and products of a few such numbers stay far from overflow.
-constexpr double kLargest = 1e30;
 
 class Findings {
   public:
@@ -65,15 +63,15 @@ class RangeCheck final : public Visitor {
     bool judge(const Key& key, double value, const Unit& unit, const Range& range) {
         const bool finite = std::isfinite(value);
         const bool bounded = std::isfinite(range.most);
-        if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargest)) return true;
+        if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargestNumber)) return true;
         out_.refuse(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
         return false;
     }
     static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
         if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.least, range.most, value);
         if (finite && range.contains(value))
-            return fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers", kLargest,
-                               value);
+            return fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers",
+                               kLargestNumber, value);
         if (!std::isfinite(range.least)) return fmt::format("must be a finite number, is {:g}", value);
         if (!range.without_least) return fmt::format("must not be negative, is {:g}", value);
         return fmt::format("must be a positive number of {}, is {:g}", in_words(unit), value);
@@ -130,13 +128,13 @@ void check_beam(Findings& out, const Problem& p) {
 void check_contact(Findings& out, const Problem& p) {
     const Contact& c = p.contact;
     const auto finite = [](DampingLaw law) { return std::isfinite(damping_factor(law, 0)); };
-    if (c.model == ContactModel::compliant && !finite(c.damping) && c.restitution < 0.01) {
+    if (c.model == ContactModel::compliant && !finite(c.damping) && c.restitution < kLeastFiniteRestitution) {
         std::vector<const char*> others;
         for (const auto& law : names(DampingLaw{}))
             if (law.value != DampingLaw::none && finite(law.value)) others.push_back(law.name);
         out.refuse("contact.restitution",
-                   fmt::format("the law {} has no finite damping at 0: give at least 0.01 (is {:g}) or use one of {}",
-                               name(c.damping), c.restitution, fmt::join(others, ", ")));
+                   fmt::format("the law {} has no finite damping at 0: give at least {:g} (is {:g}) or use one of {}",
+                               name(c.damping), kLeastFiniteRestitution, c.restitution, fmt::join(others, ", ")));
     }
     if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
         if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
@@ -212,7 +210,7 @@ void check_geometry(Findings& out, const Problem& p) {
     try {
         const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
         const auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
-        if (gap < -1e-12 * std::max(1.0, p.beam.length))
+        if (gap < -kStartGap * std::max(1.0, p.beam.length))
             out.refuse("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
                                                     "the beam); raise the angle, turn cam.phase, "
                                                     "or use \"shape\": \"resting\"",

@@ -1,4 +1,4 @@
-// Numerical constants of the exponential collocation, each with its reason. MODEL.md §12.
+// Numerical constants of the exponential collocation and the other methods, each with its reason. MODEL.md §12.
 #pragma once
 
 namespace beamcam::sim {
@@ -25,6 +25,21 @@ inline constexpr double kShareOfIteration = 0.02;      // of the tolerance, for 
 inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: a smoother forcing is not believed
 inline constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay
 
+// ---- oscillators ----
+inline constexpr double kSlowestOscillator = 1e-6;  // [rad/s] slower ones hardly have a period: no inverse of it
+// ζ from which the two decays are told apart; below, they are too near each other for that.
+inline constexpr double kTwoDecays = 1.02;
+inline constexpr double kMostDampingInLanes = 0.5;  // ζ that oscillators answered in lanes may have in common
+inline constexpr double kSeriesRadians = 2;         // [rad], or decays, that the series of the responses serve
+// What the nodes do not resolve of a mode turns by more radians, or decays by more, in a step.
+inline constexpr double kResolvedRadians = 3;
+inline constexpr int kPlacesPerWave = 32;       // where shapes are evaluated for their largest values
+inline constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
+// Bounds within a step.
+inline constexpr double kNodeOvershoot = 1.5;        // of what a polynomial may exceed its values at the nodes by
+inline constexpr double kFarthestFromNode = 0.1;     // of the step: no instant is farther from the nearest node
+inline constexpr double kVibrationRounding = 1e-11;  // of the speed of the beam's points: what does not matter
+
 // ---- iterations ----
 inline constexpr int kMostSweeps = 12;         // in flight: at a contraction of a half a step half as long is cheaper
 inline constexpr int kMostNewton = 25;         // in contact, where the first sweeps find the nodes that touch
@@ -38,6 +53,22 @@ inline constexpr int kContactPatience = 5;
 inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby
 inline constexpr double kSmallRotation = 0.01;  // [rad] up to which a rotation by its series is exact to rounding
 
+// ---- the expansion of the contact ----
+// Of order p it errs by (β|x − centre|)^(p+1)/(p+1)! of what the mode contributes: this share of rtol at most.
+inline constexpr double kExpansionTolerance = 1e-2;
+// Even for loose tolerances no farther than this, [–] of 1/β, a small part of a wave, and of the beam.
+inline constexpr double kFarthestWave = 0.2, kLongestExpansion = 0.1;
+inline constexpr double kKeptRange = 1.0 / 3;  // an expansion is kept while the contact stays so far within its range
+inline constexpr int kMostCentres = 8;         // until the expansion is where the foot is
+inline constexpr double kSettledFoot = 3e-3;   // of the length: corrections by less have converged
+
+// ---- events within a step ----
+inline constexpr double kOnKink = 1e-6;        // of an interval: a passing so early means that it starts on the kink
+inline constexpr int kMostEventHalvings = 16;  // then the ends decide: 10⁻⁵ of the interval
+// So do they where the rate changes by less than this share of its level: there the rounding of the values, divided by
+// the span, would soon decide instead.
+inline constexpr double kSteadyRate = 1e-6;
+
 // ---- the end of a step in contact ----
 inline constexpr int kMostCuts = 8;            // of a step, to end it at an event
 inline constexpr double kCarried = 1e-5;       // of a step, by which its end may be moved without solving again
@@ -46,6 +77,12 @@ inline constexpr double kEndRounding = 1e-13;  // of a step: the end lies on the
 inline constexpr double kLeastLength = 1e-14, kLeastShift = 1e-16;  // [s] below the rounding of any time in a run
 inline constexpr double kDeepest = 0.5;     // of the cam's radius: beyond, the contact leaves its geometry
 inline constexpr double kResolvedTurn = 2;  // [rad] of a mode between two instants, which their cubic resolves (S58)
+
+// ---- other methods ----
+// Step-size factors of the published code of order 8: safety, and the least and most from one step to the next.
+inline constexpr double kRk8Safety = 0.9, kRk8Shrink = 1.0 / 3.0, kRk8Growth = 6.0;
+inline constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components that error control shall not see
+inline constexpr double kFarTime = 1e3;          // [s] a target beyond any step, in the direction of time
 
 // ---- leaving phases to another method ----
 // Above this damping ratio explicit steps are limited by stability; use BDF. Its errors add up: it is given a share of

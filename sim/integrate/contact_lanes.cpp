@@ -5,23 +5,15 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/beam/quadrature_model.hpp"
+#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// The expansion of order p errs by (β|x − centre|)^(p+1)/(p+1)! of what the mode contributes: this share of rtol at
-// most.
-constexpr double kShareOfTolerance = 1e-2;
-// Even for loose tolerances no farther than this, [–] of 1/β: a small part of a wave.
-constexpr double kFarthest = 0.2;
-constexpr double kLongest = 0.1;  // of the beam
-// An expansion is kept while the contact stays within this part of its range.
-constexpr double kKept = 1.0 / 3;
-
 // β|x − centre| up to which the expansion is trusted.
 double trusted(double rtol) {
     constexpr int kNext = ContactExpansion::kOrder + 1;
-    return std::min(kFarthest, std::pow(kShareOfTolerance * rtol * std::tgamma(kNext + 1), 1.0 / kNext));
+    return std::min(kFarthestWave, std::pow(kExpansionTolerance * rtol * std::tgamma(kNext + 1), 1.0 / kNext));
 }
 
 // The model whose shapes and shortening the beam has; `second-order` shares them with `first-order`.
@@ -51,7 +43,7 @@ ContactExpansion::ContactExpansion(System& system)
     const Cam& cam = *system.problem().cam;
     disc_ = cam.radius;
     rim_ = cam.speed * cam.radius;
-    range_ = kLongest * length_;
+    range_ = kLongestExpansion * length_;
     if (!exact()) {
         for (std::size_t i = 0; i < n_; ++i)
             range_ = std::min(range_, trusted_ / model_->shapes().beta(static_cast<int>(i)));
@@ -70,13 +62,13 @@ ContactExpansion::ContactExpansion(System& system)
 
 void ContactExpansion::centre(double x) {
     BEAMCAM_ASSERT(x >= 0 && x <= length_);
-    if (x_ >= 0 && std::fabs(x - x_) < kKept * range_) return;
+    if (x_ >= 0 && std::fabs(x - x_) < kKeptRange * range_) return;
     expand(x);
 }
 
 void ContactExpansion::centre_near(double x) {
     if (exact()) return expand(x);  // its range changes from place to place
-    const double pitch = 2 * kKept * range_, place = std::min(length_, pitch * std::round(x / pitch));
+    const double pitch = 2 * kKeptRange * range_, place = std::min(length_, pitch * std::round(x / pitch));
     if (place != x_) expand(place);
 }
 
@@ -103,7 +95,7 @@ void ContactExpansion::centre_exact(double x) {
     const double z = 2 * x / length_ - 1, order = static_cast<double>(n_) + 0.5;
     section_angle_shapes(x, length_, static_cast<int>(n_), kOrder, y_.data());
     const double beta = 2 * order / length_ * std::min(order, 1 / std::sqrt(std::max(0.0, (1 - z) * (1 + z)) + 1e-12));
-    range_ = std::min(kLongest * length_, trusted_ / beta);
+    range_ = std::min(kLongestExpansion * length_, trusted_ / beta);
     integral_.weights(x, weights_.data());
     for (std::size_t i = 0; i < n_; ++i)
         for (std::size_t k = 0; k < nodes_; ++k) weighted_[i * nodes_ + k] = weights_[k] * section_[k * n_ + i];

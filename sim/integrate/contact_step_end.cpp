@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/dynamics/constants.hpp"
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {

@@ -17,6 +17,7 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
+#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 
@@ -34,16 +35,9 @@ struct NoRipple {
     Ripple operator()(double /*span*/) const { return {}; }
 };
 
-// Of an interval: a passing so early means that it starts on the kink.
-inline constexpr double kOnKink = 1e-6;
-
 namespace event_search {
 
 constexpr double kErrorShare = 1.0 / 6;  // of E that the middle coefficient of s²(1 − s)² has
-constexpr int kMostHalvings = 16;        // then the ends decide: 10⁻⁵ of the interval
-// So do they where the rate changes by less than this share of its level: there the rounding of the values, divided by
-// the span, would soon decide instead.
-constexpr double kSteady = 1e-6;
 
 // The value and, in four coefficients, the rate between two guards.
 struct Quartic {
@@ -89,7 +83,7 @@ std::optional<Bracket> first_dip(Probe& probe, const Guard& a, const Guard& b, d
     if (q.positive(deep)) return std::nullopt;
     const bool below = b.value < -deep;
     const double t = a.t + 0.5 * q.span;
-    if ((below && q.falls_once(deep)) || halvings == kMostHalvings || !(t > a.t && t < b.t))
+    if ((below && q.falls_once(deep)) || halvings == kMostEventHalvings || !(t > a.t && t < b.t))
         return below ? std::optional(Bracket{a, b}) : std::nullopt;
     const Guard middle = probe(t);
     if (const auto found = first_dip(probe, a, middle, deep, ripple, halvings + 1)) return found;
@@ -141,8 +135,9 @@ std::optional<double> first_passing(Probe&& probe, const Guard& a, const Guard& 
     if (beyond && d0 > none && (d1 > q.rate_error || d2 < -q.rate_error))
         return find_root([&](double at) { return over(probe(at).rate); }, a.t, b.t, d0, d3);
     const auto [least, most] = std::minmax({d0, d1, d2, d3});
-    const bool steady = most - least + q.rate_error < kSteady * std::fabs(level);
-    if (steady || halvings == kMostHalvings || !(t > a.t && t < b.t)) return beyond ? std::optional(b.t) : std::nullopt;
+    const bool steady = most - least + q.rate_error < kSteadyRate * std::fabs(level);
+    if (steady || halvings == kMostEventHalvings || !(t > a.t && t < b.t))
+        return beyond ? std::optional(b.t) : std::nullopt;
     const Guard middle = probe(t);
     if (const auto found = first_passing(probe, a, middle, level, side, none, ripple, halvings + 1)) return found;
     return first_passing(probe, middle, b, level, side, none, ripple, halvings + 1);

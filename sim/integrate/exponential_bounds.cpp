@@ -3,18 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr double kBetweenNodes = 1.5;  // of what a polynomial may exceed its values at the nodes by
-constexpr double kRounding = 1e-11;    // of the speed of the beam's points: vibrations that do not matter
-constexpr double kToNode = 0.1;        // of the step: no instant is farther from the nearest node
-
-}  // namespace
-
 // Bounds of a function of the modes, of its rate and of its second derivative.
 struct Bounded {
     double value = 0, rate = 0, second = 0;
@@ -57,7 +50,7 @@ double ExponentialSegment::largest_amplitude(std::size_t i, double force) const 
     const double w = form_->oscillators[i].omega;
     const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
     const double at_nodes = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
-    return at_nodes + force / w * std::min(kToNode * h, 2 / w);
+    return at_nodes + force / w * std::min(kFarthestFromNode * h, 2 / w);
 }
 
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
@@ -82,7 +75,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     double speeds[kMaxModes];
     for (std::size_t i = 0; i < n_; ++i) {
         const double w = form_->oscillators[i].omega;
-        const double force = kBetweenNodes * largest(f[i]), amplitude = largest_amplitude(i, force);
+        const double force = kNodeOvershoot * largest(f[i]), amplitude = largest_amplitude(i, force);
         const double speed = largest_rate(i, amplitude, force);
         sum.add(*form_, i, {amplitude, speed, w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed});
         speeds[i] = form_->shape[i] * speed;
@@ -103,7 +96,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     const double whole = b.spin * (std::fabs(form_->radius) + form_->length) + sum.deflection.rate;
     double faster = 0;
     for (std::size_t i = n_; i-- > 0 && b.fastest == 0;)
-        if ((faster += speeds[i]) > kRounding * whole) b.fastest = form_->oscillators[i].omega;
+        if ((faster += speeds[i]) > kVibrationRounding * whole) b.fastest = form_->oscillators[i].omega;
     bound_points(sum, b);
     b.rate_low = low - sum.turn_rate;
     b.rate_high = high + sum.turn_rate;
@@ -117,7 +110,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
 double ExponentialSegment::hub_acceleration(const VibrationBounds& sum, double fastest_spin) const {
     const double least = form_->J - sum.inertia * sum.inertia;
     if (!(least > 0)) return std::numeric_limits<double>::infinity();
-    return (kBetweenNodes * largest(push) + 2 * fastest_spin * sum.inertia * sum.inertia_rate) / least;
+    return (kNodeOvershoot * largest(push) + 2 * fastest_spin * sum.inertia * sum.inertia_rate) / least;
 }
 
 // The beam shortens, u = −½∫v′² − ½aα², and its points are up to √(reach² + v²) away from the hinge.
@@ -143,7 +136,7 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
     const Collocation& gauss = Collocation::get();
     const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
-    const double force = kBetweenNodes * largest(f[i]), square = o.omega * o.omega;
+    const double force = kNodeOvershoot * largest(f[i]), square = o.omega * o.omega;
     double force_range = 0, force_rate = 0, force_second = 0;  // the first: about the mean
     for (int j = 1; j < kNodes; ++j) {
         const double c = std::fabs(legendre[j][lane]);
@@ -161,8 +154,8 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
         Lanes slope{};
         for (int l = 0; l < kNodes; ++l) slope += f[i][l] * gauss.slope[static_cast<std::size_t>(l)];
         const Lanes free = q[i] - (1 / square) * f[i], free_rate = (1 / o.omega) * (v[i] - (1 / (h * square)) * slope);
-        const double decay = o.gamma > 0 ? std::exp(o.gamma * kToNode * h) : 1;
-        const double driven = kToNode * h * (force_second + 2 * o.gamma * force_rate) / (square * o.omega);
+        const double decay = o.gamma > 0 ? std::exp(o.gamma * kFarthestFromNode * h) : 1;
+        const double driven = kFarthestFromNode * h * (force_second + 2 * o.gamma * force_rate) / (square * o.omega);
         const double swing = std::sqrt(largest(free * free + free_rate * free_rate)) * decay + driven;
         // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x of the oscillation x about f/ω².
         const double mean = legendre[0][lane] / square, range = force_range / square + swing;
@@ -202,8 +195,8 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
             b.angle += (h * spin[l]) * Collocation::get().integrate[static_cast<std::size_t>(l)];
     }
     b.h = h;
-    b.power_cam = ledger_changes ? kBetweenNodes * largest(rate[kWorkCam]) : 0;
-    b.power_drive = ledger_changes ? kBetweenNodes * largest(rate[kWorkDrive]) : 0;
+    b.power_cam = ledger_changes ? kNodeOvershoot * largest(rate[kWorkCam]) : 0;
+    b.power_drive = ledger_changes ? kNodeOvershoot * largest(rate[kWorkDrive]) : 0;
     return &b;
 }
 

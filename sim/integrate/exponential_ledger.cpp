@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 
 namespace beamcam::sim {
@@ -18,21 +19,21 @@ double ExponentialSegment::balance_error() const {
 
 bool ExponentialSegment::resolved(std::size_t i) const {
     const Oscillator& o = form_->oscillators[i];
-    return (decays(o) ? decays_of(o).fast : o.omega) * h < kResolved;
+    return (decays(o) ? decays_of(o).fast : o.omega) * h < kResolvedRadians;
 }
 
 Lanes ExponentialSegment::resolved_rate(std::size_t i) const {
     if (resolved(i)) return v[i];
     if (!decays(form_->oscillators[i])) return Lanes{};
     const Decays d = decays_of(form_->oscillators[i]);
-    return d.slow * h < kResolved ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
+    return d.slow * h < kResolvedRadians ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
 }
 
 // ∫₀ g q̇ up to s for a polynomial g(z), z = 2s − 1, of what of q̇ the nodes do not resolve.
 double ExponentialSegment::work_on(std::size_t i, const double* g, double s, const double* y) const {
     if (!decays(form_->oscillators[i])) return work_on_vibration(i, g, s, y);
     const double fast = work_on_decay(i, true, g, s, y);
-    const bool slow_resolved = decays_of(form_->oscillators[i]).slow * h < kResolved;
+    const bool slow_resolved = decays_of(form_->oscillators[i]).slow * h < kResolvedRadians;
     return slow_resolved ? fast : fast + work_on_decay(i, false, g, s, y);
 }
 

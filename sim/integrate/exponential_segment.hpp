@@ -50,8 +50,6 @@ class ExponentialSegment final : public Segment {
     void ledger_at(double t, double s, const Lanes& weights, double* y) const;
     // What the power of the drive integrates to in closed form, at t.
     double drive_boundary(double t, const double* y) const;
-    // What of the motion of a mode the nodes do not resolve turns by more radians, or decays by more, in a step.
-    static constexpr double kResolved = 3;
     bool resolved(std::size_t mode) const;
     // q̇ of a mode at the nodes, as far as they resolve it: one of two decays, perhaps.
     Lanes resolved_rate(std::size_t mode) const;

@@ -5,13 +5,6 @@
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr int kMostCentres = 8;    // until the expansion is where the foot is
-constexpr double kSettled = 3e-3;  // of the length: corrections that move the foot no further have converged
-
-}  // namespace
-
 GapProbe::GapProbe(System& system, bool apart) : system_(system), apart_(apart) {
     if (!system.has_cam()) return;
     expansion_ = std::make_unique<ContactExpansion>(system);
@@ -61,7 +54,7 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
         const double guess = x_;
         expansion_->evaluate(y + 1, y + n + 1, frame, system_.phase().gap_offset, hq_.data(), touch, kFootCorrections);
         x_ = expansion_->at() + touch.dx;
-        if (!(std::fabs(touch.dx) < expansion_->range()) || !(std::fabs(x_ - guess) < kSettled * length)) continue;
+        if (!(std::fabs(touch.dx) < expansion_->range()) || !(std::fabs(x_ - guess) < kSettledFoot * length)) continue;
         if (!(x_ > 0 && x_ < length)) break;
         c.x = x_;
         c.gap = touch.gap;

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/beam/constants.hpp"
 #include "sim/beam/modal_model.hpp"
+#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kUncoupled = 1e-9;          // of the largest damping: rounding
-constexpr Eigen::Index kPlacesPerMode = 32;  // where shapes are looked at for their largest values
-constexpr double kBetweenPlaces = 1.05;      // a sine between places a 32nd of a half wave apart: 1.0012
 
 void copy_rows(const Eigen::MatrixXd& m, double factor, std::vector<double>& out) {
     const Eigen::Index n = m.rows();
@@ -138,7 +136,8 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
             shapes.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * shapes;
         gamma = damping.diagonal() / (2 * form->mass);
         const Eigen::MatrixXd coupling = damping - Eigen::MatrixXd(damping.diagonal().asDiagonal());
-        if (coupling.cwiseAbs().maxCoeff() > kUncoupled * damping.diagonal().cwiseAbs().maxCoeff()) return nullptr;
+        if (coupling.cwiseAbs().maxCoeff() > kUncoupledDamping * damping.diagonal().cwiseAbs().maxCoeff())
+            return nullptr;
     }
     form->natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
     form->natural.bottomRightCorner(n, n) = shapes;
@@ -179,7 +178,7 @@ void ModalForm::weigh(Model& model) {
 // By the largest of many places: what the straight beam's points move, its tangent turns and its curvature is for each
 // mode by itself. The largest between two places is hardly larger.
 void ModalForm::bound_shapes(Model& model, double bending_stiffness) {
-    const Eigen::Index count = n + 1, places = kPlacesPerMode * count;
+    const Eigen::Index count = n + 1, places = kPlacesPerWave * count;
     const double none[kMaxSize] = {};
     Eigen::VectorXd x(count), y(count), turned(count), curved(count);
     Eigen::ArrayXd place = Eigen::ArrayXd::Zero(count), slope = place, curvature = place;

@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-// [rad/s] Slower oscillators hardly have a period: their inverse frequencies are best left alone.
-constexpr double kStill = 1e-6;
-
-// From here on (ζ) the two decays are told apart; below, they are too near each other for that.
-constexpr double kApart = 1.02;
-// What the oscillators of a group may have in common to be answered in lanes (ζ).
-constexpr double kMostInLanes = 0.5;
-constexpr double kSeries = 2;  // radians or decays that the series below serve
 
 // The responses downwards from the series of the last two: g_j = Σ_k a_k τ^{j+2+k}/(j+2+k)!, a₀ = 1, a₁ = −2γ,
 // a_k = −2γ a_{k−1} − ω² a_{k−2}; carried as a_k τᵏ, which stays small where a_k alone would overflow.
@@ -39,7 +31,7 @@ void descend(double w2, double damping, double tau, const double* power, double*
 // ∫₀^τ e^{−r(τ−u)} u^{k−1}/(k−1)! du = ψ_k(rτ) τᵏ/k!, k = 1…8: ψ₁(x) = (1 − e^{−x})/x, ψ_{k+1} = (k+1)(1 − ψ_k)/x,
 // upwards where x is large and downwards, from the series of the last, where it is small.
 void decay_shares(double x, double* psi) {
-    if (x >= kSeries) {
+    if (x >= kSeriesRadians) {
         psi[0] = -std::expm1(-x) / x;
         for (int k = 1; k < kNodes; ++k) psi[k] = (k + 1) * (1 - psi[k - 1]) / x;
         return;
@@ -63,7 +55,7 @@ void respond_by_decays(const Decays& d, const double* power, double tau, double*
 
 }  // namespace
 
-bool decays(const Oscillator& o) { return o.gamma > kApart * o.omega; }
+bool decays(const Oscillator& o) { return o.gamma > kTwoDecays * o.omega; }
 
 Decays decays_of(const Oscillator& o) {
     const double fast = o.gamma + std::sqrt((o.gamma - o.omega) * (o.gamma + o.omega));
@@ -100,7 +92,7 @@ void respond(const Oscillator& o, double tau, double* r) {
     for (int j = 1; j < kNodes + 3; ++j) power[j] = power[j - 1] * (tau / j);
     const double reach = (apart ? decays_of(o).fast : o.omega) * tau;
     // Near critical damping the recursion upwards loses more.
-    if (reach < (!apart && o.gamma > kMostInLanes * o.omega ? 2 * kSeries : kSeries))
+    if (reach < (!apart && o.gamma > kMostDampingInLanes * o.omega ? 2 * kSeriesRadians : kSeriesRadians))
         return descend(w2, damping, tau, power, r);
     if (apart) return respond_by_decays(decays_of(o), power, tau, r);
     const double inverse = 1 / w2;
@@ -124,13 +116,13 @@ std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscilla
         group.slowest = lane == 0 ? o.omega : std::min(group.slowest, o.omega);
         group.fastest = std::max(group.fastest, o.omega);
         group.damped = group.damped || o.gamma > 0;
-        group.alone = group.alone || o.gamma > kMostInLanes * o.omega;
+        group.alone = group.alone || o.gamma > kMostDampingInLanes * o.omega;
     }
     return groups;
 }
 
 void respond(const OscillatorLanes& group, double tau, Lanes* r) {
-    if (group.alone || !(group.fastest * tau < kMostRadians && group.slowest > kStill)) {
+    if (group.alone || !(group.fastest * tau < kMostRadians && group.slowest > kSlowestOscillator)) {
         for (int k = 0; k < kNodes; ++k) {
             double one[kResponse];
             respond(Oscillator{group.omega[k], group.gamma[k]}, tau, one);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "sim/base/assert.hpp"
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
@@ -208,9 +209,6 @@ class StoredRk8 final : public StoredSegment {
     std::array<const double*, kDenseRows> rows_{};
 };
 
-// Step-size factors of the book's code: safety 0.9, between 1/3 and 6 a step.
-constexpr double kSafety = 0.9, kShrink = 1.0 / 3.0, kGrow = 6.0;
-
 class Rk8 final : public Integrator, private Segment {
   public:
     Rk8(Ode& ode, double rtol, double atol)
@@ -282,7 +280,7 @@ class Rk8 final : public Integrator, private Segment {
             error = advance(h);
             if (error <= 1) {
                 const double factor =
-                    error == 0 ? kGrow : std::clamp(kSafety * std::pow(error, -0.125), kShrink, kGrow);
+                    error == 0 ? kRk8Growth : std::clamp(kRk8Safety * std::pow(error, -0.125), kRk8Shrink, kRk8Growth);
                 if (!to_stop || h * factor < next_) next_ = h * (rejected ? std::min(factor, 1.0) : factor);
                 break;
             }
@@ -292,7 +290,7 @@ class Rk8 final : public Integrator, private Segment {
         arrive(t1);
     }
     void reject(double h, double error) {
-        next_ = h * (std::isfinite(error) ? std::max(kSafety * std::pow(error, -0.125), kShrink) : 0.1);
+        next_ = h * (std::isfinite(error) ? std::max(kRk8Safety * std::pow(error, -0.125), kRk8Shrink) : 0.1);
         ++counters.rejected;
     }
     void arrive(double t) {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <string>
 
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
 
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -32,9 +33,6 @@ namespace beamcam::sim {
 namespace {
 
 constexpr int kMaxOrder = 12;  // of Adams; BDF uses 5
-// Weight of components that error control shall not see, relative to those it sees.
-constexpr double kIgnored = 1e-30;
-
 constexpr const char* kBelowRounding = "the tolerance asks for more digits than numbers have";
 constexpr const char* kGaveUp = "the integrator gave up";
 
@@ -77,7 +75,7 @@ struct Callbacks {
         // The norm averages over all components; only the controlled ones shall count.
         const double share = std::sqrt(static_cast<double>(me.ode.size) / me.ode.controlled);
         for (int i = 0; i < me.ode.size; ++i)
-            weight[i] = i < me.ode.controlled ? share / (me.rtol * std::fabs(value[i]) + me.atol) : kIgnored;
+            weight[i] = i < me.ode.controlled ? share / (me.rtol * std::fabs(value[i]) + me.atol) : kIgnoredWeight;
         return 0;
     }
 
@@ -100,8 +98,6 @@ void grow(long& total, long now, long& last) {
     total += now >= last ? now - last : now;
     last = now;
 }
-
-constexpr double kFar = 1e3;  // [s] a target beyond any step, in the direction of time
 
 SUNContext make_context() {
     SUNContext context = nullptr;
@@ -150,7 +146,7 @@ class SundialsSolver : public Integrator, protected Segment {
     }
 
     bool stops() const { return std::isfinite(stop_) && stop_ > t0; }
-    double target() const { return stops() ? stop_ : t0 + kFar; }
+    double target() const { return stops() ? stop_ : t0 + kFarTime; }
     void reached(double t) {
         t1 = t;
         std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());

@@ -8,18 +8,14 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/integrate/collocation.hpp"
+#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// Of the best value: what is not searched for. The error of the energy balance is rounding and what steps miss.
-double negligible(ChannelKind kind) { return kind == ChannelKind::energy_residual ? 1e-3 : 1e-10; }
-// Intervals that a search looks into, at most: many times more than a sound step needs, so that a damaged one ends.
-constexpr double kLooksPerRadian = 32;
-constexpr double kFewestLooks = 4000, kMostLooks = 1e8;
-constexpr double kMostParts = 1e4;  // of a step: more than any of steps that are worth their while
-constexpr double kTurnsPerPart = 2;  // [rad] of the fastest vibration, which a polynomial of degree 7 follows to 10⁻⁷
-constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of steps: 32 MB
+double negligible(ChannelKind kind) {
+    return kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
+}
 
 struct Sample {
     double t, value;
@@ -45,18 +41,16 @@ Best best_so_far(ChannelKind kind, double sign, const Extremum& e) {
 // The crest of sign · f near three samples, if the parabola through them promises a better value.
 template <class F>
 void climb_crest(const F& f, const Variation& variation, Sample a, Sample m, Sample b, Best& best) {
-    constexpr int kMost = 8;          // parabolas: each squares the distance from the crest, or halves the interval
-    constexpr double kInside = 0.02;  // of the interval: new points keep this distance from its ends
     double error = variation.parabola_error(b.t - a.t);
-    for (int round = 0; round < kMost; ++round) {
+    for (int round = 0; round < kMostParabolas; ++round) {
         const double left = best.sign * (m.value - a.value) / (m.t - a.t),
                      right = best.sign * (b.value - m.value) / (b.t - m.t), bend = (left - right) / (b.t - a.t);
         const double slope = (left * (b.t - m.t) + right * (m.t - a.t)) / (b.t - a.t);  // at m
         if (!(bend > 0)) return;
-        const double margin = kInside * (b.t - a.t), step = 0.5 * slope / bend;
+        const double margin = kParabolaMargin * (b.t - a.t), step = 0.5 * slope / bend;
         if (!(best.sign * m.value + 0.25 * slope * slope / bend + error > best.to_beat())) return;
         const double t = std::clamp(m.t + step, a.t + margin, b.t - margin);
-        if (std::fabs(t - m.t) < 1e-9 * (b.t - a.t)) return;
+        if (std::fabs(t - m.t) < kParabolaConverged * (b.t - a.t)) return;
         const Sample next{t, f(t)};
         best.offer(next);
         const Sample first = t < m.t ? next : m, second = t < m.t ? m : next;
@@ -300,9 +294,9 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
 // Steps that span many periods of vibration without bounds of the modes, in parts that are polynomials as others are.
 std::vector<SegmentInterval> ExtremaFinder::parts(const SegmentInterval& s) {
     if (modal_ || !s.segment->bounds()) return {s};
-    const double wanted = std::ceil((s.to - s.from) * s.segment->bounds()->fastest / kTurnsPerPart);
-    const auto count = static_cast<long>(std::clamp(wanted, 1.0, kMostParts));
-    if (wanted > kMostParts) ++incomplete_;
+    const double wanted = std::ceil((s.to - s.from) * s.segment->bounds()->fastest / kFollowedRadians);
+    const auto count = static_cast<long>(std::clamp(wanted, 1.0, kMostStepParts));
+    if (wanted > kMostStepParts) ++incomplete_;
     std::vector<SegmentInterval> out;
     double from = s.from;
     for (long i = 1; i <= count; ++i) {
@@ -416,7 +410,7 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     const double radians = (s.to - s.from) * evaluator_.system().highest_frequency();
     Best best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
-    best.looks = static_cast<long>(std::min(kFewestLooks + kLooksPerRadian * radians, kMostLooks));
+    best.looks = static_cast<long>(std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostIntervals));
     for (std::size_t k = 0; k < kSamples; ++k) best.offer({sample_time(s, k), values[k]});
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         climb(f, strays, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]}, best);
@@ -467,9 +461,8 @@ void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, 
 template <class F, class Found>
 void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, double scale, const Values& values,
                                      F&& f, Found&& found) {
-    constexpr double kRounding = 1e-14;  // of the sum of magnitudes
     for (const double value : values) scale = std::max(scale, std::fabs(value));
-    const double rounding = kRounding * scale;
+    const double rounding = kSignRounding * scale;
     const Variation strays = variation(s, channel, values);
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         sign_changes(f, strays, rounding, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]},

@@ -6,16 +6,12 @@
 #include <numbers>
 
 #include "sim/beam/modal_model.hpp"
+#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNearlyStraight = 2;  // a bent beam moves the contact by at most this times what a straight one does
-constexpr double kMixed = 3;           // products of up to three modes vibrate no faster than this times the fastest
-constexpr double kWidest = 0.2;        // of the step: no instant is farther from a node than half of this
-constexpr double kWhole = 1e-9;        // of the step: what rounding may take from it
-constexpr double kResolved = 2;        // [rad] within a step: a polynomial of degree 7 follows to 10⁻⁷
 
 // How far a vibration of amplitude 1 strays from a straight line while it turns so far.
 double strays(double radians) { return std::min(2.0, radians * radians / 8); }
@@ -70,8 +66,8 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
     if (!bounds_ || (system_.phase().touching && !touch_)) return false;
     from_ = from;
     to_ = to;
-    whole_ =
-        from == segment.t0 && std::fabs(from + bounds_->h - to) <= kWhole * bounds_->h && !system_.drive().prescribed();
+    whole_ = from == segment.t0 && std::fabs(from + bounds_->h - to) <= kWholeStep * bounds_->h &&
+             !system_.drive().prescribed();
     balance_error_ = segment.balance_error();
     deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
     hub_acceleration_ = motion_->spin_acceleration;
@@ -86,7 +82,7 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
         const ModalBounds::Mode& b = bounds_->modes[i];
         strays_[i] = {b.amplitude * strays(b.q_frequency * (to - from)),
                       b.rate * strays(b.rate_frequency * (to - from)),
-                      strays(kMixed * std::max(b.q_frequency, b.rate_frequency) * (to - from)), swing(i), 1};
+                      strays(kProductFrequency * std::max(b.q_frequency, b.rate_frequency) * (to - from)), swing(i), 1};
         strays_[i].share = swinging_share(i);
     }
     const DriveLaw& drive = system_.drive();
@@ -94,8 +90,8 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
     if (!system_.has_cam()) return true;
     const double speed = motion_->spin * reach_ + disc_speed_;
     place_contact();
-    foot_speed_ = kNearlyStraight * (speed + motion_->spin * away_);
-    slide_ = foot_speed_ + kNearlyStraight * (motion_->slope_speed * away_ + motion_->deflection_speed);
+    foot_speed_ = kBentContactShift * (speed + motion_->spin * away_);
+    slide_ = foot_speed_ + kBentContactShift * (motion_->slope_speed * away_ + motion_->deflection_speed);
     if (touch_) set_contact();
     return true;
 }
@@ -108,7 +104,7 @@ void ModalChannels::place_contact() {
     const double root = system_.problem().hub.radius, foot = dot(disc, along),
                  on_beam = std::clamp(foot, root, root + length_), moved = disc_speed_ * h;
     away_ = norm(disc - on_beam * along) + turn * reach_ + moved + deflection_;
-    const double bent = kNearlyStraight * (inclination_ * away_ + deflection_ * inclination_);
+    const double bent = kBentContactShift * (inclination_ * away_ + deflection_ * inclination_);
     arm_ = std::min(length_, std::max(0.0, foot - root) + turn * norm(disc) + moved + bent) + deflection_;
 }
 
@@ -122,11 +118,11 @@ void ModalChannels::set_contact() {
     }
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const double omega = modes_[i].omega;
-        if (!(omega * (to_ - from_) > kResolved)) continue;
+        if (!(omega * (to_ - from_) > kFollowedRadians)) continue;
         depth += modes_[i].shape * strays_[i].swing;
         rate += (modes_[i].shape * omega + modes_[i].slope * slide_) * strays_[i].swing;
     }
-    const double more = 1e-3 * depth;
+    const double more = kSlopeProbe * depth;
     const auto force = [&](double d, double v) { return system_.normal_law().force(d, v, system_.phase().approach); };
     force_ = force(depth, rate);
     force_per_depth_ = more > 0 ? (force(depth + more, rate) - force_) / more : 0;
@@ -183,7 +179,7 @@ void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
         return spin * m.inertia * inertia_root_ * b.amplitude;
     };
     // Of the contact's place: a slope turns the normal, which meets the disc's centre `away_`.
-    const auto foot = [&](const Mode& m) { return kNearlyStraight * (m.slope * away_ + m.shape * inclination_); };
+    const auto foot = [&](const Mode& m) { return kBentContactShift * (m.slope * away_ + m.shape * inclination_); };
     // −(L + Δu) sin α + Δv cos α: what is not linear is of third order.
     const double third =
         length_ * alpha_ * alpha_ / 6 + 0.5 * length_ * inclination_ * inclination_ + 0.5 * deflection_ * alpha_;
@@ -302,25 +298,25 @@ double ModalChannels::swing(std::size_t i) const {
 
 // Products of modes swing by what each of them swings, as a share of it.
 double ModalChannels::swinging_share(std::size_t i) const {
-    constexpr double kShare = 4;
     const ModalBounds::Mode& b = bounds_->modes[i];
     const double x = strays_[i].swing, speed = modes_[i].omega * x;
-    const bool swings = kShare * x < b.amplitude && kShare * speed < b.rate;
-    return swings ? kShare * std::max(x / b.amplitude, speed / b.rate) : 1;
+    const bool swings = kProductSwing * x < b.amplitude && kProductSwing * speed < b.rate;
+    return swings ? kProductSwing * std::max(x / b.amplitude, speed / b.rate) : 1;
 }
 
 // Calls add(amplitude, frequency) with what a polynomial of degree 7 over the part does not resolve.
 template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     if (touches(channel.kind) && channel.kind != ChannelKind::gap && !touch_) return;
-    const double least = kResolved / (to_ - from_);
+    const double least = kFollowedRadians / (to_ - from_);
     each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
         const ModalBounds::Mode& b = bounds_->modes[i];
         const double omega = modes_[i].omega, x = strays_[i].swing;
         if (omega + s.shift > least) add(s.q * x + s.rate * omega * x, omega + s.shift);
         if (s.shift > least) add(s.q * b.amplitude, s.shift);
         if (omega > least && s.acceleration != 0) add(s.acceleration * b.acceleration, omega);
-        if (kMixed * omega > least && s.mixed != 0) add(s.mixed * strays_[i].share, kMixed * omega);
+        if (kProductFrequency * omega > least && s.mixed != 0)
+            add(s.mixed * strays_[i].share, kProductFrequency * omega);
     });
 }
 
@@ -372,9 +368,9 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
     Variation variation;
     variation.add_polynomial(nodes, bounds_->h);
     variation.add_missed(nodes, first, last, bounds_->h);
-    double stray = variation.strays(kWidest * bounds_->h);
+    double stray = variation.strays(kWidestNodeGap * bounds_->h);
     each_unresolved(channel, [&](double amplitude, double frequency) {
-        stray += amplitude * strays(frequency * kWidest * bounds_->h);
+        stray += amplitude * strays(frequency * kWidestNodeGap * bounds_->h);
     });
     const bool tip = channel.kind == ChannelKind::tip_deflection || channel.kind == ChannelKind::tip_rate;
     if (tip) each_mode(channel, [&](const Sensitivity& s, std::size_t) { stray += s.mixed; });
@@ -386,18 +382,17 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
 // θ̈ = Θ̈ + h·q̈ times the arm, and what gravity adds. Before the first node and after the last the line through the two
 // nearest goes on: there vibrations leave it by at most 5/4 of what they do between two nodes.
 ModalChannels::Range ModalChannels::separation_range() const {
-    constexpr double kBeyond = 1.25;
     Lanes nodes{};
     Variation variation;
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const Mode& m = modes_[i];
         nodes += m.turn * (bounds_->force[i] - m.damping * bounds_->rate[i] - m.omega * m.omega * bounds_->q[i]);
-        if (m.omega * (to_ - from_) > kResolved) variation.add(m.h * bounds_->modes[i].acceleration, m.omega);
+        if (m.omega * (to_ - from_) > kFollowedRadians) variation.add(m.h * bounds_->modes[i].acceleration, m.omega);
     }
     variation.add_polynomial(nodes, bounds_->h);
-    const double stray = kBeyond * variation.strays(kWidest * bounds_->h) + motion_->spin_acceleration;
+    const double stray = kBeyondNodes * variation.strays(kWidestNodeGap * bounds_->h) + motion_->spin_acceleration;
     const auto beyond = [&](int last, int before) {
-        return nodes[last] + (kBeyond - 1) * (nodes[last] - nodes[before]);
+        return nodes[last] + (kBeyondNodes - 1) * (nodes[last] - nodes[before]);
     };
     Range range{0, 0};
     const auto add = [&](double value) { range = {std::min(range.low, value), std::max(range.high, value)}; };
@@ -425,9 +420,9 @@ ModalChannels::Range ModalChannels::contact_range(Channel channel) const {
         const double value = contact_value(channel.kind, k);
         range = {std::min(range.low, value), std::max(range.high, value)};
     }
-    double stray = variation.strays(kWidest * bounds_->h);
+    double stray = variation.strays(kWidestNodeGap * bounds_->h);
     each_unresolved(channel, [&](double amplitude, double frequency) {
-        stray += amplitude * strays(frequency * kWidest * bounds_->h);
+        stray += amplitude * strays(frequency * kWidestNodeGap * bounds_->h);
     });
     if (channel.kind == ChannelKind::friction_force) {
         const double most = friction_ * (range.high + stray);

@@ -6,17 +6,11 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/observe/constants.hpp"
 #include "sim/observe/extrema.hpp"
 #include "sim/observe/warnings.hpp"
 
 namespace beamcam::sim {
-
-namespace {
-
-// Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
-constexpr int kContactSteps = 4;
-
-}  // namespace
 
 Recorder::Recorder(const System& system, const Request& request, double end)
     : problem_(system.problem()),
@@ -191,7 +185,7 @@ void Recorder::sample(const SegmentInterval& s) {
 
 // In the middle of the whole step, which is the same wherever the run ends.
 void Recorder::contact_poses(const SegmentInterval& s) {
-    if (!impact_open_ || contact_steps_ == kContactSteps) return;
+    if (!impact_open_ || contact_steps_ == kContactPoseSteps) return;
     const std::array instants{contact_steps_ == 0 ? s.from : kNan, 0.5 * (s.segment->t0 + s.segment->t1)};
     ++contact_steps_;
     for (std::size_t i = 0; i < request_.poses.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/base/vec2.hpp"
+#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 
@@ -17,19 +18,15 @@ class CurveRefiner {
     template <class At, class Keep>
     void refine(double a, double b, double stray, At&& at, Keep&& keep) {
         most_ = stray;
-        halve(a, seen(at(a)), b, seen(at(b)), kMostHalvings, at, keep);
+        halve(a, seen(at(a)), b, seen(at(b)), kMostCurveHalvings, at, keep);
     }
 
   private:
-    static constexpr int kMostHalvings = 8;
-    static constexpr long kMostAdded = 400'000;  // 10 MB of three channels; more would be solid ink
-    static constexpr double kAside = 0.31;       // beside the middle: no vibration has a node at both
-
     template <class At, class Keep>
     void halve(double a, Vec2 from, double b, Vec2 to, int halvings, At& at, Keep& keep) {
         const double middle = 0.5 * (a + b);
-        if (halvings == 0 || added_ >= kMostAdded || !(middle > a && middle < b)) return;
-        const Vec2 aside = seen(at(a + kAside * (b - a))), centre = seen(at(middle));
+        if (halvings == 0 || added_ >= kMostCurveRows || !(middle > a && middle < b)) return;
+        const Vec2 aside = seen(at(a + kBesideMiddle * (b - a))), centre = seen(at(middle));
         // Where the curve has no value the distance is NaN, and nothing is to be refined.
         if (!(std::max(stray(centre, from, to), stray(aside, from, to)) > most_)) return;
         halve(a, from, middle, centre, halvings - 1, at, keep);

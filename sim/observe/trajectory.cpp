@@ -5,13 +5,13 @@
 #include <map>
 #include <stdexcept>
 
+#include "sim/observe/constants.hpp"
+
 namespace beamcam::sim {
 namespace {
 
 // First number of every record; the second is the record's length, both included.
 enum Record : int { kBegin = 1, kInterval, kTouch, kRelease, kResume, kEnd };
-
-constexpr std::size_t kFlush = 1 << 16;  // numbers handed on at once
 
 // ---- taking down ---------------------------------------------------------------------------------
 
@@ -169,13 +169,12 @@ class Feed {
   private:
     std::uint64_t left() const { return source_.size() - read_ + (window_.size() - used_); }
     std::span<const double> first(std::size_t count) {
-        constexpr std::size_t kWindow = 1 << 15;  // numbers
         if (window_.size() - used_ < count) {
             window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(used_));
             used_ = 0;
             const std::size_t known = window_.size();
             const std::uint64_t more =
-                std::min<std::uint64_t>(std::max(kWindow, count) - known, source_.size() - read_);
+                std::min<std::uint64_t>(std::max(kReadAtOnce, count) - known, source_.size() - read_);
             window_.resize(known + static_cast<std::size_t>(more));
             source_.read(read_, std::span(window_).subspan(known));
             read_ += more;
@@ -233,7 +232,7 @@ void TrajectoryWriter::record(const Segment& segment, double from, double to, bo
     }
     if (broken_)
         buffer_.clear();
-    else if (buffer_.size() > kFlush)
+    else if (buffer_.size() > kWrittenAtOnce)
         flush();
 }
 

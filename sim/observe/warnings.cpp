@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "sim/base/counted.hpp"
+#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kEnergyRounding = 1e-12;     // of the energy scale
-constexpr double kToldGap = 1e-10;            // of the length, left at an event: a thousand times what rounding leaves
-constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     if (statistics.chatters == 0) return;
@@ -22,9 +19,8 @@ void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::
                     counted(statistics.chatters, "time"), speed, kSummedShare));
 }
 
-// Ten times what was asked for is the promise of `auto`; whatever misses it says so.
 void tell_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
-    const double limit = 10 * problem.solver.rtol * result.energy_scale;
+    const double limit = kLedgerTolerances * problem.solver.rtol * result.energy_scale;
     if (problem.beam.model == ModelKind::paper || !(result.energy_residual_max > limit)) return;
     out.push_back(
         fmt::format("the energy ledger closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
@@ -102,7 +98,7 @@ void tell_fallbacks(const Problem& problem, const Result& result, const RunStati
         out.push_back(
             fmt::format("extrema were not searched to the end in {}: the true ones may lie beyond those given",
                         counted(f.searches, "step")));
-    if (f.gap > kToldGap * problem.beam.length)
+    if (f.gap > kReportedGap * problem.beam.length)
         out.push_back(
             fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "
                         "solver.rtol",

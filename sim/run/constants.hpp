@@ -42,4 +42,16 @@ inline constexpr double kBounces = 4;            // a first step in flight spans
 // sum errs by (10⁻³)²/6 of the last rebound, and the pull on the beam stays the same all the while.
 inline constexpr double kBriefChatter = 1e-3, kSteadyPull = 1e-2;
 
+// ---- the reproducible horizon ----
+inline constexpr double kReproducible = 1e-6;        // [rad], relative to the angle's size, 1 at least
+inline constexpr double kComparedRate = 1000;        // [Hz] of comparison
+inline constexpr double kBriefAgreement = 0.1;       // [s] of two different motions: a crossing
+inline constexpr double kTighterTolerance = 1e-2;    // of the asked tolerance, for the comparison
+inline constexpr double kTightestRtol = 1e-13;       // rounding multiplies by more below it
+inline constexpr double kMostComparedSteps = 500e3;  // of an explicit method: some seconds
+inline constexpr double kExplicitRadians = 2;        // that such a step spans of the fastest vibration
+inline constexpr double kComparedTurns = 6;          // of the cam, that lasting contact is compared for
+inline constexpr double kRepeatedTurns = 2;          // of these, that what follows repeats
+inline constexpr double kSettlingTurns = 0.25;       // of a turn after the last touch, for the other method
+
 }  // namespace beamcam::sim

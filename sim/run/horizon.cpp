@@ -8,25 +8,15 @@
 
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/exponential.hpp"
+#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr double kError = 1e-6;       // [rad], relative to the angle's size, 1 at least
-constexpr double kRate = 1000;        // [Hz] of comparison
-constexpr double kChance = 0.1;       // [s] a briefer agreement of two different motions is a crossing
-constexpr double kTighter = 1e-2;     // of the asked tolerance, for the comparison
-constexpr double kTightest = 1e-13;   // of rtol
-constexpr double kMostSteps = 500e3;  // of an explicit method: some seconds
-constexpr double kRadians = 2;        // that such a step spans of the fastest vibration
-constexpr double kLastTurns = 6;      // of the cam, that lasting contact is compared for
-constexpr double kRepeated = 2;       // of these, that what follows repeats
-constexpr double kSettling = 0.25;    // of a turn after the last touch, for the other method
-
 Problem at_tolerance(const Problem& problem) {
     Problem out = problem;
-    out.solver.rtol = std::max(kTightest, kTighter * problem.solver.rtol);
-    out.solver.atol = kTighter * problem.solver.atol;
+    out.solver.rtol = std::max(kTightestRtol, kTighterTolerance * problem.solver.rtol);
+    out.solver.atol = kTighterTolerance * problem.solver.atol;
     return out;
 }
 
@@ -65,7 +55,7 @@ bool repeats_in_contact(const Problem& problem) {
 bool agree(const Problem& problem, const Result& plain, const Result& other, std::size_t i) {
     const double scale = compared_angle(problem).scale;
     const double a = scale * plain.tables[0].values[0][i], b = scale * other.tables[0].values[0][i];
-    return std::fabs(a - b) <= kError * std::max(1.0, std::fabs(b));
+    return std::fabs(a - b) <= kReproducible * std::max(1.0, std::fabs(b));
 }
 
 std::string sentence(const Result& result) {
@@ -74,12 +64,12 @@ std::string sentence(const Result& result) {
                        : fmt::format("from {:.4g} s on", lost.from);
     };
     if (result.not_reproducible.empty())
-        return fmt::format("reproducible to {:g} rad all along, compared with {}", kError, result.compared_with);
+        return fmt::format("reproducible to {:g} rad all along, compared with {}", kReproducible, result.compared_with);
     std::vector<std::string> lost;
     for (const Interval& interval : result.not_reproducible) lost.push_back(until(interval));
     const std::string again =
         result.reproducible_again_from ? fmt::format(", again from {:.4g} s on", *result.reproducible_again_from) : "";
-    return fmt::format("reproducible to {:g} rad until {:.4g} s, not {}{}, compared with {}", kError,
+    return fmt::format("reproducible to {:g} rad until {:.4g} s, not {}{}, compared with {}", kReproducible,
                        *result.reproducible_until, fmt::join(lost, ", nor "), again, result.compared_with);
 }
 
@@ -88,8 +78,8 @@ std::string sentence(const Result& result) {
 Request horizon_request(const Problem& problem, double end) {
     TableRequest table;
     table.channels = {compared_angle(problem).channel};
-    const auto rows = static_cast<long>(std::floor(end * kRate));
-    for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kRate);
+    const auto rows = static_cast<long>(std::floor(end * kComparedRate));
+    for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kComparedRate);
     table.times.push_back(end);
     Request request;
     request.turning_points = false;
@@ -99,7 +89,7 @@ Request horizon_request(const Problem& problem, double end) {
 
 double compared_until(const Problem& problem, const Result& plain, double end) {
     if (!repeats_in_contact(problem) || plain.impacts.empty() || plain.impacts.back().t_end) return end;
-    return std::min(end, plain.impacts.back().t_start + kLastTurns * cam_period(problem));
+    return std::min(end, plain.impacts.back().t_start + kComparedTurns * cam_period(problem));
 }
 
 Request cut(Request angle, double until) {
@@ -112,8 +102,8 @@ bool agrees_for_good(const Problem& problem, const Request& angle, const Result&
                      double end) {
     const std::vector<double>&times = angle.tables[0].times, &ours = plain.tables[0].values[0],
           &theirs = other.tables[0].values[0];
-    const double until = times.back(), window = kRepeated * cam_period(problem);
-    const double most = kError / (1 + (end - until) / window) / compared_angle(problem).scale;
+    const double until = times.back(), window = kRepeatedTurns * cam_period(problem);
+    const double most = kReproducible / (1 + (end - until) / window) / compared_angle(problem).scale;
     for (std::size_t i = 0; i < times.size(); ++i)
         if (times[i] > until - window && !(std::fabs(ours[i] - theirs[i]) <= most)) return false;
     return true;
@@ -122,9 +112,9 @@ bool agrees_for_good(const Problem& problem, const Request& angle, const Result&
 Comparison comparison(const Problem& problem, double end) {
     System system(problem);
     Comparison out{at_tolerance(problem), false};
-    if (fastest_rate(problem, system) * end > kRadians * kMostSteps) return tighter_comparison(problem);
+    if (fastest_rate(problem, system) * end > kExplicitRadians * kMostComparedSteps) return tighter_comparison(problem);
     out.problem.solver.method = other_method(problem, system);
-    out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMostSteps));
+    out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMostComparedSteps));
     return out;
 }
 
@@ -140,7 +130,7 @@ double other_needed_until(const Problem& problem, const Request& angle, const Re
     const std::vector<double>& times = angle.tables[0].times;
     double until = times.back();
     if (repeats_in_contact(problem) && !plain.impacts.empty() && !plain.impacts.back().t_end)
-        until = std::min(until, plain.impacts.back().t_start + kSettling * cam_period(problem));
+        until = std::min(until, plain.impacts.back().t_start + kSettlingTurns * cam_period(problem));
     for (std::size_t i = 0; i < times.size() && times[i] <= until; ++i)
         if (!agree(problem, plain, tighter, i)) return times[i];
     return until;
@@ -162,8 +152,8 @@ void tell_reproducibility(const Problem& problem, const Request& angle, const Re
     for (std::size_t i = 0; i < times.size() && times[i] <= end; ++i) {
         const double t = times[i];
         if (!agree(problem, plain, other, i)) {
-            const bool crossing =
-                !lost && !result.not_reproducible.empty() && agreed - *result.not_reproducible.back().to < kChance;
+            const bool crossing = !lost && !result.not_reproducible.empty() &&
+                                  agreed - *result.not_reproducible.back().to < kBriefAgreement;
             if (crossing)
                 result.not_reproducible.back().to.reset();
             else if (!lost)
@@ -179,7 +169,7 @@ void tell_reproducibility(const Problem& problem, const Request& angle, const Re
         agreed = t;
     }
     if (!result.not_reproducible.empty() && !lost) {
-        if (agreed - back < kChance)
+        if (agreed - back < kBriefAgreement)
             result.not_reproducible.back().to.reset();
         else
             result.reproducible_again_from = back;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/integrator.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/observe/warnings.hpp"
+#include "sim/observe/constants.hpp"
 #include "sim/run/constants.hpp"
 
 namespace beamcam::sim {

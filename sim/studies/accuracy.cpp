@@ -8,6 +8,7 @@
 
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
+#include "sim/run/constants.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
@@ -15,9 +16,8 @@ namespace {
 
 constexpr int kInstants = 1000;  // at which motions are compared
 constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
-constexpr double kReproducible = 1e-6;  // [rad], as the summary's horizon
-constexpr double kSpare = 50;           // the reference may take this many times the longest run
-constexpr int kModelShapes = 6;         // models are compared with at least so many shapes
+constexpr double kSpare = 50;    // the reference may take this many times the longest run
+constexpr int kModelShapes = 6;  // models are compared with at least so many shapes
 constexpr const char* kLeftOut = "left out";
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 

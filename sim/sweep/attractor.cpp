@@ -38,9 +38,9 @@ double mismatch(const Scale& scale, Strobes s, std::size_t n) {
     return most;
 }
 
-// The smallest period of the states; 0: none fits kRepeats times.                                            (S87)
+// The smallest period of the states; 0: none fits kPeriodRepeats times. (S87)
 std::size_t period_of(const Scale& scale, Strobes s) {
-    for (std::size_t n = 1; n * kRepeats < s.size(); ++n)
+    for (std::size_t n = 1; n * kPeriodRepeats < s.size(); ++n)
         if (mismatch(scale, s, n) < kSameState) return n;
     return 0;
 }
@@ -56,7 +56,7 @@ bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
             return scale.between(s[k], s[k - d]);
         };
         const double first = difference(2 * apart), middle = difference(apart), last = difference(0);
-        if (std::fabs(last - first) < kNoise) continue;
+        if (std::fabs(last - first) < kDifferenceNoise) continue;
         const double bend = (last - middle) - (middle - first), step = last - middle;
         if (!(std::fabs(step * step) < kSettledShare * last * std::fabs(bend))) return true;
     }
@@ -66,8 +66,8 @@ bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
 // They stay near some period without having it.                                                            (S88)
 bool is_near_period(const Scale& scale, Strobes s) {
     const Strobes late = s.last(s.size() / 2);
-    for (std::size_t n = 1; n * kRepeats < late.size(); ++n)
-        if (mismatch(scale, late, n) < kNear) return true;
+    for (std::size_t n = 1; n * kPeriodRepeats < late.size(); ++n)
+        if (mismatch(scale, late, n) < kVanishingMismatch) return true;
     return false;
 }
 
@@ -75,7 +75,7 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     std::vector<double> growth;
     for (const Strobe& strobe : s.subspan(1)) growth.push_back(strobe.growth);
     LargestExponent out;
-    if (growth.size() < kBlocks || std::isnan(growth.back())) return out;
+    if (growth.size() < kExponentBlocks || std::isnan(growth.back())) return out;
     const auto sum = [&](std::size_t from, std::size_t to) {
         return std::accumulate(growth.begin() + static_cast<std::ptrdiff_t>(from),
                                growth.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
@@ -86,12 +86,12 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     out.error = 0;
     if (!std::isfinite(per_turn)) return out;
     double squares = 0;
-    for (std::size_t b = 0; b < kBlocks; ++b) {
-        const std::size_t from = b * growth.size() / kBlocks, to = (b + 1) * growth.size() / kBlocks;
+    for (std::size_t b = 0; b < kExponentBlocks; ++b) {
+        const std::size_t from = b * growth.size() / kExponentBlocks, to = (b + 1) * growth.size() / kExponentBlocks;
         const double off = sum(from, to) / static_cast<double>(to - from) - per_turn;
         squares += off * off;
     }
-    out.error = std::sqrt(squares / (kBlocks * (kBlocks - 1))) / cam_period(problem);
+    out.error = std::sqrt(squares / (kExponentBlocks * (kExponentBlocks - 1))) / cam_period(problem);
     out.late_growth = sum(growth.size() / 2, growth.size());
     return out;
 }
@@ -182,7 +182,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
     std::size_t n = period_of(scale, s.last(s.size() / 3 + 1));
     if (n == 0) n = period_of(scale, s);
     if (n > 0) {
-        const bool throughout = n * kRepeats < s.size() && mismatch(scale, s, n) < kSameState;
+        const bool throughout = n * kPeriodRepeats < s.size() && mismatch(scale, s, n) < kSameState;
         if (!throughout || period_changes(scale, s, n)) return out;
         out.kind = AttractorClass::periodic;
         out.period = static_cast<int>(n);

@@ -26,14 +26,14 @@ CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
     highest_ = -std::numeric_limits<double>::infinity();
     lowest_ = -highest_;
     std::vector<double> pushes;
-    for (int i = 0; i < kLooks; ++i) {
-        const SurfaceAngle c = at(period_ * i / kLooks);
+    for (int i = 0; i < kSurfacePlaces; ++i) {
+        const SurfaceAngle c = at(period_ * i / kSurfacePlaces);
         const double value = acceleration(c);
         highest_ = std::max(highest_, value);
         lowest_ = std::min(lowest_, value);
         pushes.push_back(push(c));
     }
-    const double margin = kMargin * (highest_ - lowest_);
+    const double margin = kLiftMargin * (highest_ - lowest_);
     highest_ += margin;
     lowest_ -= margin;
     find_lifts(pushes);
@@ -66,11 +66,12 @@ void CamSurface::find_lifts(const std::vector<double>& pushes) {
     }
     const auto f = [&](double s) { return push(at(s)); };
     std::vector<double> passes;  // f changes its sign
-    for (int i = 1; i <= kLooks; ++i) {
+    for (int i = 1; i <= kSurfacePlaces; ++i) {
         const double before = pushes[static_cast<std::size_t>(i - 1)];
-        const double now = pushes[static_cast<std::size_t>(i % kLooks)];
+        const double now = pushes[static_cast<std::size_t>(i % kSurfacePlaces)];
         if ((before < 0) != (now < 0))
-            passes.push_back(find_root(f, period_ * (i - 1) / kLooks, period_ * i / kLooks, before, now));
+            passes.push_back(
+                find_root(f, period_ * (i - 1) / kSurfacePlaces, period_ * i / kSurfacePlaces, before, now));
     }
     if (passes.empty()) {
         always_pulls_ = starts_pulled;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "sim/base/numerics.hpp"
-#include "sim/observe/warnings.hpp"
+#include "sim/observe/constants.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/sweep/constants.hpp"
 #include "sim/sweep/sampler.hpp"
@@ -70,7 +70,7 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       floor_(problem.contact.approach_floor.value),
       centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
       section_phase_(section_phase(problem, sampling.level)) {
-    motion_.accuracy = kAccuracy;
+    motion_.accuracy = kRigidAccuracy;
     begin(start_);
 }
 
@@ -158,7 +158,7 @@ std::optional<double> RigidMotion::first_touch(double h) {
         const SurfaceAngle c = surface_at(s_ + t);
         double g = series_.theta(t) - c.angle;
         const double v = series_.rate(t) - surface_.rate(c);
-        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpening)) g = std::max(g, 0.0);
+        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
         if (v < 0 && (least <= 0 || v * v > 2 * least * g)) {
             const double latest = least > 0 ? t - (v + std::sqrt(v * v - 2 * least * g)) / least : t - g / v;
@@ -189,7 +189,7 @@ double RigidMotion::falling(double t, double latest, double h) {
             }
             next = 0.5 * (low + high);
         }
-        if (std::fabs(next - t) <= kInstant * period_ || !(high > low)) return next;
+        if (std::fabs(next - t) <= kTouchInstant * period_ || !(high > low)) return next;
         t = next;
     }
     return t;

@@ -22,7 +22,7 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       section_phase_(section_phase(system.problem(), sampling.level)),
       next_strobe_(span_.from),
       next_section_(span_.from) {
-    motion_.accuracy = kErrors * system_.problem().solver.rtol;
+    motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
     if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
         finder_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{sampling.channel});
 }

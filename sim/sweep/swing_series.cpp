@@ -48,8 +48,8 @@ void SwingSeries::expand(const Swing& from, bool difference) {
         const double last = std::fabs(a_[order]);
         return last > 0 ? std::pow(kAngleRounding / last, 1.0 / order) : std::numeric_limits<double>::infinity();
     };
-    length_ =
-        kSure * std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
+    length_ = kSeriesReach *
+              std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
 }
 
 double SwingSeries::theta(double dt) const {

@@ -1,0 +1,58 @@
+// Numerical constants of what is observed of a run, each with its reason: extrema and their bounds, curves, warnings.
+#pragma once
+
+#include <cstddef>
+
+namespace beamcam::sim {
+
+// ---- the search of extrema ----
+// Of the best value: a rise by less is not searched for. The error of the energy balance is rounding and what steps
+// miss: its digits do not matter.
+inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
+// Intervals that a search halves in one step, at most, and for each radian of the fastest vibration: many times more
+// than a sound step needs, so that a damaged one ends.
+inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostIntervals = 1e8;
+inline constexpr double kMostStepParts = 1e4;  // of a step without bounds of its modes: more cost more than the motion
+inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
+// Parabolas at a crest: each squares the distance from it, or halves the interval.
+inline constexpr int kMostParabolas = 8;
+inline constexpr double kParabolaMargin = 0.02;     // of the interval: new points keep this distance from its ends
+inline constexpr double kParabolaConverged = 1e-9;  // of the interval: √ of rounding, where the crest is flat
+inline constexpr double kSignRounding = 1e-14;      // of the sum of magnitudes: values below it have no sign
+
+// ---- bounds within a step ----
+inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration, which a polynomial of degree 7 follows to 10⁻⁷
+inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
+inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
+inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode
+inline constexpr double kWidestNodeGap = 0.2;   // of the step: no instant is farther from a node than half of this
+// Beyond the outer nodes the line through two of them goes on for a quarter of their distance.
+inline constexpr double kBeyondNodes = 1.25;
+inline constexpr double kWholeStep = 1e-9;   // of the step: what rounding may take from it
+inline constexpr double kSlopeProbe = 1e-3;  // of the penetration: the slope of the law just beyond the deepest point
+
+// ---- curves ----
+inline constexpr int kMostCurveHalvings = 8;     // of the piece between two rows
+inline constexpr long kMostCurveRows = 400'000;  // 10 MB of three channels; more would be solid ink
+inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has a node here and in the middle
+
+// ---- records ----
+// Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
+inline constexpr int kContactPoseSteps = 4;
+inline constexpr std::size_t kWrittenAtOnce = 1 << 16, kReadAtOnce = 1 << 15;  // numbers of a stored trajectory
+
+// ---- chatter ----
+// Model `restitution`: bounces slower than this share of the approach floor are summed up in closed form where
+// nothing but they changes meanwhile (MODEL.md (S57)).
+inline constexpr double kSummedShare = 0.1;
+// Elsewhere a rebound slower than this share ends the chatter in sustained contact. A bouncing point then rests at
+// most 2v/(g(1 − e)) too early (MODEL.md §9).
+inline constexpr double kChatterShare = 1e-3;
+
+// ---- warnings ----
+inline constexpr double kLedgerTolerances = 10;   // of rtol: the promise of `auto`; whatever misses it is told
+inline constexpr double kEnergyRounding = 1e-12;  // of the energy scale
+inline constexpr double kReportedGap = 1e-10;     // of the length, left at an event: 1000 times what rounding leaves
+inline constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+
+}  // namespace beamcam::sim
