@@ -48,6 +48,10 @@ inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a 
 // amplifies it tenfold. Otherwise the iteration diverges: by growth, which in contact the first sweeps may show.
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
 inline constexpr double kDepthRounding = 4e-16;  // of the beam's length: two roundings of a gap
+// A contact whose damping decays by more than kFastDecay within a step turns what the iteration leaves of a rate into a
+// force that no polynomial follows: it may leave only a share of kContactShare. Contractions vary from sweep to sweep;
+// kSlowestContraction is the poorest after a good one.
+inline constexpr double kFastDecay = 5, kSlowestContraction = 0.03;
 inline constexpr double kStalled = 0.9, kContactGrowth = 2;
 inline constexpr int kContactPatience = 5;
 inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby

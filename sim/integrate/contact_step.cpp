@@ -103,6 +103,7 @@ double ContactStep::solve(const StepTable& table) {
     const int most = form_.by_arrays() ? kMostNewton : kMostNewtonCoupled;
     for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
+        if (decays_ > kFastDecay) iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
         status = iteration.add(step_.update_forcing(table, &load));
     }
     if (status != FixedPoint::Status::settled) return kNoSolution;
@@ -159,6 +160,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_rate[k] = at.by_rate;
     }
     force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
+    decays_ = largest(by_rate) * mobility_contact_;
     std::array<Lanes, kNodes> matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
         matrix[l] = by_depth * compliance_[l] + by_rate * compliance_rate_[l];
@@ -235,6 +237,9 @@ void ContactStep::linearize(const StepTable& table) {
         mobility2 += moved * moved;
         kick2 += c / form_.mass;
     }
+    Lanes turned{};  // by a unit force from the start on
+    for (const Lanes& rate : compliance_rate_) turned += rate;
+    mobility_contact_ = largest(turned);
     mobility_modes_ = std::sqrt(mobility2);
     kick = std::sqrt(kick2);
     mobility_hub_ = form_.prescribed ? 0 : std::fabs(start.hub) * h / form_.J;

@@ -48,7 +48,8 @@ class ContactStep {
     ContactExpansion expansion_;
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // what rounding of the penetration makes of the force [N]
-    double mobility_modes_ = 0, mobility_hub_ = 0;
+    double decays_ = 0;          // by how much the contact's own damping decays within the step [–]
+    double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     Frame<Lanes> frame_;
     Lanes known_theta_{}, known_theta_dot_{};  // where the contact was evaluated last
     std::array<Lanes, kNodes> compliance_, compliance_rate_;

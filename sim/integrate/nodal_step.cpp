@@ -46,7 +46,10 @@ FixedPoint::Status FixedPoint::add(double change) {
     const double ratio = change / before_;
     before_ = change;
     if (sweep > 0) {
-        if (change == 0 || (ratio < 0.5 && change * ratio / (1 - ratio) < kShareOfIteration)) return Status::settled;
+        const bool contracts = ratio < 0.5;
+        enough_ = enough_ || change == 0 || (contracts && change * ratio / (1 - ratio) < kShareOfIteration);
+        if (enough_ && (!contracts || change * std::max(ratio, contraction_) / (1 - ratio) < share_))
+            return Status::settled;
         if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
         if (ratio > growth_ && sweep > patience_) return Status::failed;
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_lanes.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/inertia_forces.hpp"
@@ -46,10 +47,18 @@ class FixedPoint {
     // Fails once changes grow by more than `growth` after `patience` sweeps, unless they are `rounding` of the largest.
     FixedPoint(double rounding, double growth, int patience)
         : rounding_(rounding), growth_(growth), patience_(patience) {}
+    // Goes on, while changes still contract, until it leaves only this share of the tolerance, where it contracts at
+    // best by `contraction`, whatever the last two changes say.
+    void demand(double share, double contraction) {
+        share_ = share;
+        contraction_ = contraction;
+    }
     Status add(double change);
 
   private:
     double rounding_, growth_, before_ = 0, largest_ = 0;
+    double share_ = kShareOfIteration, contraction_ = 0;
+    bool enough_ = false;  // changes were once so small that they would do
     int patience_, sweeps_ = 0;
 };
 

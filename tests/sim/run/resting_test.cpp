@@ -101,6 +101,20 @@ TEST(Resting, FlexibleBeamOnATurningCamDoesNotRing) {
     }
 }
 
+// What the iteration left of a rate once rang on as a force that steps had to follow: thousands of them a second, and
+// more at some looser tolerances than at tighter ones.
+TEST(Resting, LastingContactIsSteppedOverAtEveryTolerance) {
+    for (const int modes : {2, 3, 8})
+        for (const double rtol : {1e-6, 1e-8, 1e-10, 1e-12}) {
+            Problem p = riding(ModelKind::first_order, 1, 0);
+            p.beam.modes = modes;
+            p.solver.rtol = rtol;
+            const double end = 10, turned = System(p).highest_frequency() * end;  // [rad]
+            const Counters counters = run(p, end).counters;
+            EXPECT_LT(12.0 * static_cast<double>(counters.steps + counters.rejected), turned) << modes << " " << rtol;
+        }
+}
+
 TEST(Resting, CarriesTheTorqueOfTheHub) {
     Problem p = riding(ModelKind::rigid, 0, 0);
     p.contact.model = ContactModel::restitution;
