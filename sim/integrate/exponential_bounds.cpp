@@ -77,6 +77,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
         const double w = form_->oscillators[i].omega;
         const double force = kNodeOvershoot * largest(f[i]), amplitude = largest_amplitude(i, force);
         const double speed = largest_rate(i, amplitude, force);
+        largest_[i] = {force, amplitude, speed};
         sum.add(*form_, i, {amplitude, speed, w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed});
         speeds[i] = form_->shape[i] * speed;
     }
@@ -136,7 +137,7 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
     const Collocation& gauss = Collocation::get();
     const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
-    const double force = kNodeOvershoot * largest(f[i]), square = o.omega * o.omega;
+    const double force = largest_[i].force, square = o.omega * o.omega;
     double force_range = 0, force_rate = 0, force_second = 0;  // the first: about the mean
     for (int j = 1; j < kNodes; ++j) {
         const double c = std::fabs(legendre[j][lane]);
@@ -145,8 +146,8 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
         force_second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
     }
     ModalBounds::Mode mode;
-    mode.amplitude = largest_amplitude(i, force);
-    mode.rate = largest_rate(i, mode.amplitude, force);
+    mode.amplitude = largest_[i].amplitude;
+    mode.rate = largest_[i].rate;
     mode.acceleration = square * mode.amplitude + force + 2 * o.gamma * mode.rate;
     mode.low = -mode.amplitude;
     mode.high = mode.amplitude;
@@ -177,6 +178,7 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     if (!form_->by_arrays()) return nullptr;
     if (modal_bounds_known_) return &modal_bounds_;
     modal_bounds_known_ = true;
+    bounds();
     ModalBounds& b = modal_bounds_;
     b.modes.resize(n_);
     turn();

@@ -101,6 +101,7 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
     q.resize(n_);
     v.resize(n_);
     f.resize(n_);
+    largest_.resize(n_);
     end.resize(static_cast<std::size_t>(state_size));
     const std::size_t groups = form_->groups.size();
     turned_.resize(groups * kNodes);

@@ -81,6 +81,10 @@ class ExponentialSegment final : public Segment {
     std::size_t n_, controlled_;
     mutable bool bounds_known_ = false;
     mutable MotionBounds bounds_;
+    struct Largest {  // within the step, of a mode
+        double force, amplitude, rate;
+    };
+    mutable std::vector<Largest> largest_;  // known with `bounds_`
     mutable bool modal_bounds_known_ = false;
     mutable ModalBounds modal_bounds_;
     mutable int expanded_ = -1;

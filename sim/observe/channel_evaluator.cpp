@@ -45,9 +45,7 @@ void ChannelEvaluator::set_gap(double gap) {
 }
 
 double ChannelEvaluator::value(Channel channel) {
-    const int n = system_.coordinates();
     const Model& model = system_.model();
-    const bool cam = system_.has_cam();
     switch (channel.kind) {
         case ChannelKind::t:
             return t_;
@@ -56,82 +54,107 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::theta_dot:
             return model.hub_rate();
         case ChannelKind::tip_deflection:
-        case ChannelKind::tip_rate: {
-            // Across the tangent at the root, which is the hub's direction (S6).
-            BeamPoint tip, root;
-            model.point(model.length(), tip);
-            model.point(0, root);
-            const Vec2 along = unit(model.hub_angle()), across = perp(along), span = tip.r - root.r;
-            if (channel.kind == ChannelKind::tip_deflection) return dot(span, across);
-            return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
-        }
-        case ChannelKind::contact_force:
-            return cam ? contact().force : kNan;
-        case ChannelKind::friction_force:
-            return cam ? contact().friction : kNan;
-        case ChannelKind::gap:
-            return cam ? contact().gap : kNan;
-        case ChannelKind::contact_x:
-            return cam ? contact().x : kNan;
-        case ChannelKind::contact_s: {
-            if (!cam) return kNan;
-            const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
-            const double full = 2 * std::numbers::pi;
-            return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
-        }
-        case ChannelKind::cam_angle:
-            return cam ? system_.cam(t_).angle : kNan;
+        case ChannelKind::tip_rate:
+            return tip(channel.kind);
         case ChannelKind::q:
-            return channel.index < n ? y_[static_cast<std::size_t>(channel.index)] : kNan;
+            return channel.index < system_.coordinates() ? y_[static_cast<std::size_t>(channel.index)] : kNan;
         case ChannelKind::energy_kinetic:
             return energy_balance().energies.kinetic;
         case ChannelKind::energy_potential:
             return energy_balance().energies.gravity;
         case ChannelKind::energy_elastic:
             return energy_balance().energies.elastic;
-        case ChannelKind::energy_contact:
-            return cam ? energy_balance().contact : kNan;
         case ChannelKind::loss_structural:
             return energy_balance().loss_structural;
-        case ChannelKind::loss_contact:
-            return cam ? energy_balance().loss_contact : kNan;
-        case ChannelKind::loss_friction:
-            return cam ? energy_balance().loss_friction : kNan;
-        case ChannelKind::work_cam:
-            return cam ? energy_balance().work_cam : kNan;
         case ChannelKind::work_drive:
             return energy_balance().work_drive;
         case ChannelKind::energy_residual:
             return energy_balance().total() - start_total_;
+        case ChannelKind::contact_force:
+        case ChannelKind::friction_force:
+        case ChannelKind::gap:
+        case ChannelKind::contact_x:
+        case ChannelKind::contact_s:
+        case ChannelKind::cam_angle:
+        case ChannelKind::energy_contact:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+        case ChannelKind::work_cam:
         case ChannelKind::separation:
-        case ChannelKind::separation_paper: {
-            if (!cam) return kNan;
-            const ContactState c = contact();
-            if (!acceleration_known_) {
-                double acc[kMaxSize];
-                if (forces_known_) {
-                    system_.acceleration_placed(t_, c, acc);
-                } else {
-                    system_.begin_contact_at(c.x);
-                    system_.acceleration(t_, y_.data(), acc);
-                }
-                hub_acceleration_ = 0;
-                for (int i = 0; i < n; ++i) hub_acceleration_ += model.hub_row()[i] * acc[i];
-                acceleration_known_ = true;
-                system_.place(t_, y_.data());
-            }
-            // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
-            BeamPoint p, root;
-            model.point(c.x, p);
-            model.point(0, root);
-            const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
-            const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
-            const double pull =
-                3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
-            return hub_acceleration_ * arm + (channel.kind == ChannelKind::separation ? pull : -pull);
-        }
+        case ChannelKind::separation_paper:
+            break;
     }
-    return kNan;
+    return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
+}
+
+// Across the tangent at the root, which is the hub's direction (S6).
+double ChannelEvaluator::tip(ChannelKind kind) {
+    const Model& model = system_.model();
+    BeamPoint tip, root;
+    model.point(model.length(), tip);
+    model.point(0, root);
+    const Vec2 along = unit(model.hub_angle()), across = perp(along), span = tip.r - root.r;
+    if (kind == ChannelKind::tip_deflection) return dot(span, across);
+    return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
+}
+
+double ChannelEvaluator::value_with_cam(ChannelKind kind) {
+    switch (kind) {
+        case ChannelKind::contact_force:
+            return contact().force;
+        case ChannelKind::friction_force:
+            return contact().friction;
+        case ChannelKind::gap:
+            return contact().gap;
+        case ChannelKind::contact_x:
+            return contact().x;
+        case ChannelKind::contact_s: {
+            const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
+            const double full = 2 * std::numbers::pi;
+            return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
+        }
+        case ChannelKind::cam_angle:
+            return system_.cam(t_).angle;
+        case ChannelKind::energy_contact:
+            return energy_balance().contact;
+        case ChannelKind::loss_contact:
+            return energy_balance().loss_contact;
+        case ChannelKind::loss_friction:
+            return energy_balance().loss_friction;
+        case ChannelKind::work_cam:
+            return energy_balance().work_cam;
+        default:
+            return separation(kind);
+    }
+}
+
+// The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
+double ChannelEvaluator::separation(ChannelKind kind) {
+    const Model& model = system_.model();
+    const ContactState c = contact();
+    find_hub_acceleration(c);
+    BeamPoint p, root;
+    model.point(c.x, p);
+    model.point(0, root);
+    const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
+    const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
+    const double pull = 3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
+    return hub_acceleration_ * arm + (kind == ChannelKind::separation ? pull : -pull);
+}
+
+void ChannelEvaluator::find_hub_acceleration(const ContactState& c) {
+    if (acceleration_known_) return;
+    double acc[kMaxSize];
+    if (forces_known_) {
+        system_.acceleration_placed(t_, c, acc);
+    } else {
+        system_.begin_contact_at(c.x);
+        system_.acceleration(t_, y_.data(), acc);
+    }
+    hub_acceleration_ = 0;
+    for (int i = 0; i < system_.coordinates(); ++i) hub_acceleration_ += system_.model().hub_row()[i] * acc[i];
+    acceleration_known_ = true;
+    system_.place(t_, y_.data());
 }
 
 Pose ChannelEvaluator::pose(int stations) {

@@ -26,6 +26,11 @@ class ChannelEvaluator {
     const ContactState& contact();
 
   private:
+    double tip(ChannelKind kind);
+    double value_with_cam(ChannelKind kind);
+    double separation(ChannelKind kind);
+    void find_hub_acceleration(const ContactState& c);
+
     System system_;
     double t_ = 0, start_total_ = 0;
     std::vector<double> y_;

@@ -14,6 +14,8 @@ inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
 inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostIntervals = 1e8;
 inline constexpr double kMostStepParts = 1e4;  // of a step without bounds of its modes: more cost more than the motion
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
+// A costly channel is evaluated where its bound is so many times the highest so far: later steps are beaten sooner.
+inline constexpr double kHigherPromise = 1.2;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
 inline constexpr int kMostParabolas = 8;
 inline constexpr double kParabolaMargin = 0.02;     // of the interval: new points keep this distance from its ends

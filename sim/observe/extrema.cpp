@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
 #include "sim/base/numerics.hpp"
 #include "sim/integrate/collocation.hpp"
 #include "sim/observe/constants.hpp"
+#include "sim/observe/crest_search.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -17,83 +17,9 @@ double negligible(ChannelKind kind) {
     return kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
 }
 
-struct Sample {
-    double t, value;
-};
-
-// The largest value of sign · f so far.
-struct Best {
-    double sign, value, t, negligible;
-    long looks = 0;  // that the search may still take
-    void offer(const Sample& s) {
-        if (!(sign * s.value > value)) return;
-        value = sign * s.value;
-        t = s.t;
-    }
-    double left_out() const { return negligible * std::fabs(value); }
-    double to_beat() const { return value + left_out(); }
-};
-
-Best best_so_far(ChannelKind kind, double sign, const Extremum& e) {
-    return sign > 0 ? Best{sign, e.max, e.t_max, negligible(kind)} : Best{sign, -e.min, e.t_min, negligible(kind)};
-}
-
-// The crest of sign · f near three samples, if the parabola through them promises a better value.
-template <class F>
-void climb_crest(const F& f, const Variation& variation, Sample a, Sample m, Sample b, Best& best) {
-    double error = variation.parabola_error(b.t - a.t);
-    for (int round = 0; round < kMostParabolas; ++round) {
-        const double left = best.sign * (m.value - a.value) / (m.t - a.t),
-                     right = best.sign * (b.value - m.value) / (b.t - m.t), bend = (left - right) / (b.t - a.t);
-        const double slope = (left * (b.t - m.t) + right * (m.t - a.t)) / (b.t - a.t);  // at m
-        if (!(bend > 0)) return;
-        const double margin = kParabolaMargin * (b.t - a.t), step = 0.5 * slope / bend;
-        if (!(best.sign * m.value + 0.25 * slope * slope / bend + error > best.to_beat())) return;
-        const double t = std::clamp(m.t + step, a.t + margin, b.t - margin);
-        if (std::fabs(t - m.t) < kParabolaConverged * (b.t - a.t)) return;
-        const Sample next{t, f(t)};
-        best.offer(next);
-        const Sample first = t < m.t ? next : m, second = t < m.t ? m : next;
-        if (best.sign * first.value > best.sign * second.value)
-            std::tie(m, b) = std::pair{first, second};
-        else
-            std::tie(a, m) = std::pair{first, second};
-        error = std::min(error, variation.parabola_error(b.t - a.t));
-    }
-}
-
-template <class F>
-void climb(const F& f, const Variation& variation, const Sample& a, const Sample& b, Best& best) {
-    const double length = b.t - a.t, t = a.t + 0.5 * length;
-    const double high = std::max(best.sign * a.value, best.sign * b.value);
-    if (!(high + variation.rises(length, a.value - b.value) > best.to_beat()) || !(t > a.t && t < b.t)) return;
-    if (--best.looks < 0) return;
-    const Sample m{t, f(t)};
-    best.offer(m);
-    if (variation.unresolved(length) <= best.left_out()) {
-        climb_crest(f, variation, a, m, b, best);
-        return;
-    }
-    const bool left_first = best.sign * a.value > best.sign * b.value;
-    if (left_first) climb(f, variation, a, m, best);
-    climb(f, variation, m, b, best);
-    if (!left_first) climb(f, variation, a, m, best);
-}
-
-// Calls found(a, b) for intervals, in order, in which f changes its sign once, but for what is rounding.
-template <class F, class Found>
-void sign_changes(const F& f, const Variation& variation, double rounding, const Sample& a, const Sample& b,
-                  const Found& found) {
-    const double length = b.t - a.t, stray = variation.strays(length), t = a.t + 0.5 * length;
-    if (std::min(a.value, b.value) > stray || std::max(a.value, b.value) < -stray) return;
-    const bool monotone = std::fabs(b.value - a.value) > length * variation.slope_strays(length);
-    if (monotone || stray <= rounding || !(t > a.t && t < b.t)) {
-        if ((a.value > 0) != (b.value > 0)) found(a, b);
-        return;
-    }
-    const Sample m{t, f(t)};
-    sign_changes(f, variation, rounding, a, m, found);
-    sign_changes(f, variation, rounding, m, b, found);
+BestValue best_so_far(ChannelKind kind, double sign, const Extremum& e) {
+    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible(kind)}
+                    : BestValue{sign, -e.min, e.t_min, negligible(kind)};
 }
 
 void offer(Extremum& e, double t, double value) {
@@ -176,11 +102,23 @@ double ExtremaFinder::evaluate(const SegmentInterval& s, Channel channel, double
     if (channel.kind == ChannelKind::q)
         return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
     s.segment->value(t, y_.data());
+    std::optional<ContactState> contact;
+    return value_of_state(channel, t, contact);
+}
+
+// Of the state in `y_`; `contact` is used where it is known, and kept where it is worked out.
+double ExtremaFinder::value_of_state(Channel channel, double t, std::optional<ContactState>& contact) {
     if (modal_ && is_of_hub(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
-    if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) look_for_contact(t);
-    if (probing_ && stored) evaluator_.set_gap(evaluator_.contact().gap);
+    if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) {
+        if (contact)
+            evaluator_.set_contact(*contact);
+        else
+            look_for_contact(t);
+        contact = evaluator_.contact();
+    }
+    if (probing_ && stored) evaluator_.set_gap(contact->gap);
     return evaluator_.value(channel);
 }
 
@@ -210,6 +148,27 @@ bool ExtremaFinder::set_bounds(const SegmentInterval& s) {
     return modal_;
 }
 
+// The values at the ends of the step; where they are estimates, the true one at its end if it seems to be of use.
+void ExtremaFinder::offer_ends(const SegmentInterval& s, std::size_t c, Extremum& e) {
+    if (!is_estimated(channels_[c].kind)) {
+        offer(e, s.from, first_[c]);
+        offer(e, s.to, last_[c]);
+    } else if (!is_separation(channels_[c].kind) && (last_[c] < e.min || last_[c] > e.max)) {
+        offer(e, s.to, evaluator_.value(channels_[c]));
+    }
+}
+
+// Bounds of the channel, from the cheapest on; nothing as soon as they are `beaten`.
+template <class Beaten>
+std::optional<ModalChannels::Range> ExtremaFinder::range_within(std::size_t c, Beaten&& beaten) const {
+    const Channel& channel = channels_[c];
+    const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
+    if (mode && beaten(modal_channels_.mode_range(channel))) return std::nullopt;
+    const ModalChannels::Range range = modal_channels_.range(channel, first_[c], last_[c]);
+    if (beaten(range)) return std::nullopt;
+    return mode ? range : modal_channels_.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
+}
+
 void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrema) {
     if (channels_.empty()) return;
     if (!set_bounds(s)) {
@@ -226,22 +185,24 @@ void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrem
     std::shared_ptr<const KeptStep> kept;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (std::isnan(first_[c])) continue;
-        if (!is_estimated(channels_[c].kind)) {
-            offer(extrema[c], s.from, first_[c]);
-            offer(extrema[c], s.to, last_[c]);
-        }
-        ModalChannels::Range range = modal_channels_.range(channels_[c], first_[c], last_[c]);
-        const auto beaten = [&](double sign) {
+        offer_ends(s, c, extrema[c]);
+        const auto beaten = [&](const ModalChannels::Range& range, double sign) {
             return (sign > 0 ? range.high : -range.low) <= best_so_far(channels_[c].kind, sign, extrema[c]).to_beat();
         };
-        if (beaten(1) && beaten(-1)) continue;
-        if (channels_[c].kind != ChannelKind::q)  // whose bounds are as close
-            if (const auto closer = modal_channels_.range_by_nodes(channels_[c], first_[c], last_[c])) range = *closer;
+        const std::optional<ModalChannels::Range> range =
+            range_within(c, [&](const ModalChannels::Range& r) { return beaten(r, 1) && beaten(r, -1); });
+        if (!range) continue;
         for (const double sign : {1.0, -1.0}) {
-            if (beaten(sign)) continue;
-            const double high = sign > 0 ? range.high : -range.low;
+            if (beaten(*range, sign)) continue;
+            Candidates& candidates = candidates_[c][sign > 0 ? 0 : 1];
+            const double high = sign > 0 ? range->high : -range->low;
+            if (is_separation(channels_[c].kind) && high > kHigherPromise * candidates.promise) {
+                candidates.promise = high;
+                offer(extrema[c], s.to, evaluator_.value(channels_[c]));
+                if (beaten(*range, sign)) continue;
+            }
             if (!kept) kept = keep(s);
-            candidates_[c][sign > 0 ? 0 : 1].push_back({high, kept});
+            candidates.steps.push_back({high, kept});
         }
     }
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
@@ -260,7 +221,8 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     const Phase phase = evaluator_.system().phase();
     loaded_ = nullptr;
     for (std::size_t c = 0; c < channels_.size(); ++c)
-        for (const double sign : {1.0, -1.0}) search_candidates(c, sign, candidates_[c][sign > 0 ? 0 : 1], extrema[c]);
+        for (const double sign : {1.0, -1.0})
+            search_candidates(c, sign, candidates_[c][sign > 0 ? 0 : 1].steps, extrema[c]);
     kept_numbers_ = 0;
     set_phase(phase);
 }
@@ -286,7 +248,7 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
             set_phase(step.phase);
             set_bounds(s);
         }
-        search(s, channels_[c], sign, sample_kept(step, s, channels_[c]), e);
+        search(s, channels_[c], sign, sample_kept(step, s, c), e);
     }
     candidates.clear();
 }
@@ -321,6 +283,12 @@ void ExtremaFinder::search_now(const SegmentInterval& s, std::vector<Extremum>& 
     }
 }
 
+ExtremaFinder::Values ExtremaFinder::copied(const double* samples) {
+    Values values;
+    std::copy_n(samples, kSamples, values.begin());
+    return values;
+}
+
 // What the step knows of its contact, if its instants are those of the samples.
 const TouchSamples* ExtremaFinder::known_contact(const SegmentInterval& s) const {
     const TouchSamples* touch = s.segment->touch();
@@ -328,43 +296,66 @@ const TouchSamples* ExtremaFinder::known_contact(const SegmentInterval& s) const
 }
 
 ExtremaFinder::Values ExtremaFinder::sample(const SegmentInterval& s, Channel channel) {
+    StepSamples nothing;
+    return sample(s, channel, nothing);
+}
+
+// `known` has what earlier samples of the step left, and takes what these add.
+ExtremaFinder::Values ExtremaFinder::sample(const SegmentInterval& s, Channel channel, StepSamples& known) {
     Values values;
-    if (const TouchSamples* touch = known_contact(s)) {
-        if (channel.kind == ChannelKind::contact_force) std::copy_n(touch->force, kSamples, values.begin());
-        if (channel.kind == ChannelKind::gap) std::copy_n(touch->gap, kSamples, values.begin());
-        if (channel.kind == ChannelKind::contact_x) std::copy_n(touch->x, kSamples, values.begin());
-        if (channel.kind == ChannelKind::contact_force || channel.kind == ChannelKind::gap ||
-            channel.kind == ChannelKind::contact_x)
-            return values;
-        if (needs_gap(channel.kind)) {
-            for (std::size_t k = 0; k < kSamples; ++k) {
-                s.segment->value(sample_time(s, k), y_.data());
-                evaluator_.set(sample_time(s, k), y_.data());
-                evaluator_.set_gap(touch->gap[k]);
-                values[k] = evaluator_.value(channel);
-            }
-            return values;
-        }
-    }
+    const TouchSamples* touch = known_contact(s);
+    if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
+    if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
+    if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
     Lanes nodes;
     const bool linear = channel.kind == ChannelKind::q || is_of_hub(channel.kind);
-    const bool known = modal_ && linear && modal_channels_.at_nodes(channel, nodes);
-    for (std::size_t k = 0; k < kSamples; ++k)
-        values[k] =
-            known && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : evaluate(s, channel, sample_time(s, k));
+    const bool at_nodes = modal_ && linear && modal_channels_.at_nodes(channel, nodes);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        const double t = sample_time(s, k);
+        if (at_nodes && k > 0 && k <= kNodes) {
+            values[k] = nodes[static_cast<int>(k) - 1];
+        } else if (channel.kind == ChannelKind::q) {
+            values[k] = evaluate(s, channel, t);
+        } else {
+            place_sample(s, k, known);
+            if (touch && needs_gap(channel.kind)) {
+                evaluator_.set(t, y_.data());
+                evaluator_.set_gap(touch->gap[k]);
+                values[k] = evaluator_.value(channel);
+            } else {
+                values[k] = value_of_state(channel, t, known.contacts[k]);
+            }
+        }
+    }
     return values;
 }
 
-ExtremaFinder::Values ExtremaFinder::sample_kept(const KeptStep& step, const SegmentInterval& s, Channel channel) {
-    if (!is_separation(channel.kind)) return sample(s, channel);
-    if (!step.separations) {
-        step.separations.emplace();
-        for (std::size_t k = 0; k < kSamples; ++k) {
-            (*step.separations)[0][k] = evaluate(s, {ChannelKind::separation}, sample_time(s, k));
-            (*step.separations)[1][k] = evaluator_.value({ChannelKind::separation_paper});
-        }
+// Puts the state into `y_`.
+void ExtremaFinder::place_sample(const SegmentInterval& s, std::size_t k, StepSamples& known) {
+    const std::size_t size = y_.size();
+    if (known.states.empty()) {
+        known.states.resize(kSamples * size);
+        for (std::size_t j = 0; j < kSamples; ++j) s.segment->value(sample_time(s, j), known.states.data() + j * size);
     }
-    return (*step.separations)[channel.kind == ChannelKind::separation ? 0 : 1];
+    std::copy_n(known.states.begin() + static_cast<std::ptrdiff_t>(k * size), size, y_.begin());
+}
+
+const ExtremaFinder::Values& ExtremaFinder::sample_kept(const KeptStep& step, const SegmentInterval& s, std::size_t c) {
+    StepSamples& known = step.samples;
+    known.values.resize(channels_.size());
+    if (known.values[c]) return *known.values[c];
+    if (!is_separation(channels_[c].kind)) return known.values[c].emplace(sample(s, channels_[c], known));
+    // Both at once: their costly part is the same.
+    for (const Channel& channel : channels_)
+        if (is_separation(channel.kind)) known.values[static_cast<std::size_t>(&channel - channels_.data())].emplace();
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        place_sample(s, k, known);
+        double value = value_of_state(channels_[c], sample_time(s, k), known.contacts[k]);
+        for (std::size_t other = 0; other < channels_.size(); ++other)
+            if (is_separation(channels_[other].kind))
+                (*known.values[other])[k] = other == c ? value : evaluator_.value(channels_[other]);
+    }
+    return *known.values[c];
 }
 
 // The polynomial through the inner samples, what it misses at the ends, and vibrations that it does not resolve.
@@ -408,13 +399,13 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     }
     const Variation strays = variation(s, channel, values);
     const double radians = (s.to - s.from) * evaluator_.system().highest_frequency();
-    Best best = best_so_far(channel.kind, sign, e);
+    BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
-    best.looks = static_cast<long>(std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostIntervals));
+    best.intervals = static_cast<long>(std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostIntervals));
     for (std::size_t k = 0; k < kSamples; ++k) best.offer({sample_time(s, k), values[k]});
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         climb(f, strays, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]}, best);
-    if (best.looks < 0) ++incomplete_;
+    if (best.intervals < 0) ++incomplete_;
     if (!(best.value > before)) return;
     const double value = sign * best.value;
     if (!arc || (value >= 0 && turn(value, 0) != 0 &&
@@ -464,6 +455,8 @@ void ExtremaFinder::each_sign_change(const SegmentInterval& s, Channel channel, 
     for (const double value : values) scale = std::max(scale, std::fabs(value));
     const double rounding = kSignRounding * scale;
     const Variation strays = variation(s, channel, values);
+    const auto [low, high] = std::ranges::minmax(values);
+    if (std::max(low, -high) > strays.strays(kWidestNodeGap * (s.to - s.from))) return;
     for (std::size_t k = 0; k + 1 < kSamples; ++k)
         sign_changes(f, strays, rounding, {sample_time(s, k), values[k]}, {sample_time(s, k + 1), values[k + 1]},
                      found);
@@ -496,12 +489,12 @@ void ExtremaFinder::turning_points(const SegmentInterval& s, std::vector<Apex>& 
     set_bounds(s);
     const auto angle = [&](double t) { return evaluate(s, {ChannelKind::theta}, t); };
     const auto rate = [&](double t) { return evaluate(s, {ChannelKind::theta_dot}, t); };
-    const auto apex = [&](const Sample& a, const Sample& b) {
+    const auto apex = [&](const TimedValue& a, const TimedValue& b) {
         if (!(a.value > 0)) return;
         const double t = find_root(rate, a.t, b.t, a.value, b.value);
         apexes.push_back({t, angle(t)});
     };
-    const auto zero = [&](const Sample& a, const Sample& b) {
+    const auto zero = [&](const TimedValue& a, const TimedValue& b) {
         if (a.value == 0) return;
         const double t = find_root(angle, a.t, b.t, a.value, b.value);
         theta_zero.push_back({t, rate(t)});
@@ -524,7 +517,7 @@ void ExtremaFinder::crossings(const SegmentInterval& s, Channel channel, double 
     set_bounds(s);
     const auto above = [&](double t) { return evaluate(s, channel, t) - level; };
     for (const SegmentInterval& part : parts(s))
-        each_sign_change(part, channel, std::fabs(level), above, [&](const Sample& a, const Sample& b) {
+        each_sign_change(part, channel, std::fabs(level), above, [&](const TimedValue& a, const TimedValue& b) {
             if (a.value == 0) return;
             found.push_back({find_root(above, a.t, b.t, a.value, b.value), a.value < 0});
         });

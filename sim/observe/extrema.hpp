@@ -45,32 +45,48 @@ class ExtremaFinder {
   private:
     static constexpr std::size_t kSamples = kNodes + 2;  // the ends and the Gauss nodes
     using Values = std::array<double, kSamples>;
+    // What a step is at its samples, each part worked out when it is first needed.
+    struct StepSamples {
+        std::vector<double> states;  // of one sample after the other
+        std::array<std::optional<ContactState>, kSamples> contacts;
+        std::vector<std::optional<Values>> values;  // of each channel
+    };
     struct KeptStep {
         Phase phase;
         double from, to, t0, t1;
         long order;
         std::vector<double> numbers;
-        // Both separations at the samples: their costly part is the same.
-        mutable std::optional<std::array<Values, 2>> separations;
+        mutable StepSamples samples;
     };
     struct Candidate {
         double high;  // bound of the channel, or of its negative
         std::shared_ptr<const KeptStep> step;
     };
+    struct Candidates {
+        std::vector<Candidate> steps;
+        double promise = 0;  // the highest bound at which a costly channel was evaluated
+    };
     static bool less_promising(const Candidate& a, const Candidate& b);
 
     double evaluate(const SegmentInterval& s, Channel channel, double t);
+    double value_of_state(Channel channel, double t, std::optional<ContactState>& contact);
     void search_contact_again();
     void look_for_contact(double t);
     void evaluate_all(const SegmentInterval& s, double t, std::vector<double>& values);
+    void offer_ends(const SegmentInterval& s, std::size_t channel, Extremum& e);
+    template <class Beaten>
+    std::optional<ModalChannels::Range> range_within(std::size_t channel, Beaten&& beaten) const;
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
     void search_now(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search(const SegmentInterval& s, Channel channel, double sign, const Values& values, Extremum& e);
     const TouchSamples* known_contact(const SegmentInterval& s) const;
+    static Values copied(const double* samples);
     Values sample(const SegmentInterval& s, Channel channel);
-    Values sample_kept(const KeptStep& step, const SegmentInterval& s, Channel channel);
+    Values sample(const SegmentInterval& s, Channel channel, StepSamples& known);
+    void place_sample(const SegmentInterval& s, std::size_t k, StepSamples& known);
+    const Values& sample_kept(const KeptStep& step, const SegmentInterval& s, std::size_t channel);
     static bool hardly_exceeds(const Values& values, double sign, const Extremum& e);
     Variation variation(const SegmentInterval& s, Channel channel, const Values& values);
     bool set_bounds(const SegmentInterval& s);
@@ -94,7 +110,7 @@ class ExtremaFinder {
     double bounded_from_ = -1;              // its start
     long incomplete_ = 0;
 
-    std::vector<std::array<std::vector<Candidate>, 2>> candidates_;  // of each channel: for its maximum, its minimum
+    std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum
     std::size_t kept_numbers_ = 0;
     long kept_steps_ = 0;
     std::unique_ptr<StoredSegment> stored_;

@@ -63,6 +63,7 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
     bounds_ = segment.modal_bounds();
     motion_ = segment.bounds();
     touch_ = segment.touch();
+    separation_.reset();
     if (!bounds_ || (system_.phase().touching && !touch_)) return false;
     from_ = from;
     to_ = to;
@@ -348,7 +349,7 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
     });
     Range range{std::min(first, last) - stray, std::max(first, last) + stray};
     if (channel.kind == ChannelKind::q) {
-        const ModalBounds::Mode& mode = bounds_->modes[static_cast<std::size_t>(channel.index) - 1];
+        const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (channel.kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
@@ -362,7 +363,10 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
     const bool separation = channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper;
-    if (separation && whole_) return separation_range();
+    if (separation && whole_) {
+        if (!separation_) separation_ = work_out_separation();
+        return separation_;
+    }
     Lanes nodes;
     if (!at_nodes(channel, nodes)) return {};
     Variation variation;
@@ -381,7 +385,7 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
 
 // θ̈ = Θ̈ + h·q̈ times the arm, and what gravity adds. Before the first node and after the last the line through the two
 // nearest goes on: there vibrations leave it by at most 5/4 of what they do between two nodes.
-ModalChannels::Range ModalChannels::separation_range() const {
+ModalChannels::Range ModalChannels::work_out_separation() const {
     Lanes nodes{};
     Variation variation;
     for (std::size_t i = 0; i < modes_.size(); ++i) {

@@ -33,6 +33,11 @@ class ModalChannels {
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer and dearer; nothing where `at_nodes` is false.
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
+    // Of q alone, by the bounds of its mode: cheap.
+    Range mode_range(Channel channel) const {
+        const ModalBounds::Mode& mode = bounds_->modes[static_cast<std::size_t>(channel.index) - 1];
+        return {mode.low, mode.high};
+    }
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
@@ -54,7 +59,7 @@ class ModalChannels {
     void place_contact();
     void set_contact();
     Range contact_range(Channel channel) const;
-    Range separation_range() const;
+    Range work_out_separation() const;
     double contact_value(ChannelKind kind, int sample) const;
 
     System& system_;
@@ -78,7 +83,8 @@ class ModalChannels {
     double hub_acceleration_ = 0;                          // of |θ̈|
     double arm_ = 0;                                       // of the contact's distance from the root
     double away_ = 0;                                      // of the distance from the disc's centre to the beam
-    double foot_speed_ = 0, slide_ = 0;  // of the contact along a straight beam, and along the bent one
+    double foot_speed_ = 0, slide_ = 0;        // of the contact along a straight beam, and along the bent one
+    mutable std::optional<Range> separation_;  // both channels have the same
     double torque_ = 0, force_ = 0, force_per_depth_ = 0, force_per_rate_ = 0;
 };
 

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/integrate/collocation.hpp"
 
 namespace beamcam::sim {
 
 void Variation::add(double amplitude, double frequency) {
     if (!(amplitude > 0)) return;
-    if (vibrations_.empty()) vibrations_.reserve(kUsual);
-    vibrations_.push_back({amplitude, frequency});
+    BEAMCAM_ASSERT(count_ < kMost);
+    vibrations_[count_++] = {amplitude, frequency};
 }
 
 namespace {
@@ -56,7 +57,7 @@ void Variation::add_missed(const Lanes& nodes, double first, double last, double
 
 double Variation::strays(double length) const {
     double total = 0;
-    for (const auto& [amplitude, frequency] : vibrations_) {
+    for (const auto& [amplitude, frequency] : vibrations()) {
         const double radians = frequency * length;
         total += amplitude * std::min(2.0, radians * radians / 8);
     }
@@ -65,7 +66,7 @@ double Variation::strays(double length) const {
 
 double Variation::slope_strays(double length) const {
     double total = 0;
-    for (const auto& [amplitude, frequency] : vibrations_)
+    for (const auto& [amplitude, frequency] : vibrations())
         total += amplitude * frequency * std::min(2.0, frequency * length / 2);
     return total;
 }
@@ -74,7 +75,7 @@ double Variation::slope_strays(double length) const {
 // end, from which the line falls by s u: (½cℓ − s)²/(2c) at its crest. Fast parts add 2a.
 double Variation::rises(double length, double difference) const {
     double fast = 0, slow = 0, second = 0;
-    for (const auto& [amplitude, frequency] : vibrations_) {
+    for (const auto& [amplitude, frequency] : vibrations()) {
         const double radians = frequency * length;
         if (radians < 4) {
             slow += amplitude * radians * radians / 8;
@@ -90,7 +91,7 @@ double Variation::rises(double length, double difference) const {
 // |f‴| (ℓ/2)³/(9√3)
 double Variation::parabola_error(double length) const {
     double total = 0;
-    for (const auto& [amplitude, frequency] : vibrations_) {
+    for (const auto& [amplitude, frequency] : vibrations()) {
         const double radians = frequency * length;
         total += amplitude * std::min(2.0, radians * radians * radians / 124);
     }
@@ -99,7 +100,7 @@ double Variation::parabola_error(double length) const {
 
 double Variation::unresolved(double length) const {
     double total = 0;
-    for (const auto& [amplitude, frequency] : vibrations_)
+    for (const auto& [amplitude, frequency] : vibrations())
         if (frequency * length > 1) total += 2 * amplitude;
     return total;
 }

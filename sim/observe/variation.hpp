@@ -2,9 +2,10 @@
 // |f_k″| ≤ a_k ω_k². Over an interval of length ℓ a slow part strays by at most a(ωℓ)²/8, a fast one by 2a. (S59)
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "sim/base/lanes.hpp"
+#include "sim/beam/model.hpp"
 
 namespace beamcam::sim {
 
@@ -28,11 +29,15 @@ class Variation {
     double unresolved(double length) const;
 
   private:
-    static constexpr std::size_t kUsual = 32;
     struct Vibration {
         double amplitude, frequency;
     };
-    std::vector<Vibration> vibrations_;
+    std::span<const Vibration> vibrations() const { return {vibrations_, count_}; }
+
+    // Four of each mode, and those of a polynomial with what it misses.
+    static constexpr std::size_t kMost = 4 * kMaxModes + kNodes;
+    std::size_t count_ = 0;
+    Vibration vibrations_[kMost];
 };
 
 }  // namespace beamcam::sim
