@@ -168,90 +168,89 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
     }
 }
 
+// Of the inertia: a mode swings in the shape that the others give the beam.
+double ModalChannels::turning(std::size_t i) const {
+    return motion_->spin * modes_[i].inertia * inertia_root_ * bounds_->modes[i].amplitude;
+}
+
+// Of the contact's place: a slope turns the normal, which meets the disc's centre `away_`.
+double ModalChannels::foot(const Mode& m) const {
+    return kBentContactShift * (m.slope * away_ + m.shape * inclination_);
+}
+
+BEAMCAM_INLINE ModalChannels::Sensitivity ModalChannels::in_contact(ChannelKind kind, const Mode& m) const {
+    Sensitivity s{.shift = m.wave * slide_};
+    if (kind == ChannelKind::gap) s.q = m.shape;
+    if (kind == ChannelKind::contact_x) s.q = foot(m);
+    if (kind == ChannelKind::contact_s) s.q = cam_radius_ * m.slope + m.shape;
+    if (kind == ChannelKind::energy_contact) s.q = force_ * m.shape;
+    if (kind == ChannelKind::contact_force || kind == ChannelKind::friction_force) {
+        const double share = kind == ChannelKind::contact_force ? 1 : friction_;
+        s.q = share * (force_per_depth_ * m.shape + force_per_rate_ * m.slope * slide_);
+        s.rate = share * force_per_rate_ * m.shape;
+    }
+    return s;
+}
+
+BEAMCAM_INLINE ModalChannels::Sensitivity ModalChannels::of_energy(ChannelKind kind, const Mode& m,
+                                                                   const ModalBounds::Mode& b, double turning) const {
+    const double spin = motion_->spin;
+    if (kind == ChannelKind::energy_kinetic)
+        return {.rate = spin * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + spin * turning};
+    if (kind == ChannelKind::energy_potential)
+        return {.q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * spin};
+    if (kind == ChannelKind::energy_elastic) return {.mixed = 0.25 * m.stiffness * b.amplitude * b.amplitude};
+    if (!system_.drive().prescribed()) return {.q = torque_ * m.h};  // work_drive (S55)
+    return {.q = m.U * motion_->spin_acceleration, .rate = 2 * spin * m.U, .mixed = 2 * spin * turning};
+}
+
 // Calls `visit` with |∂c/∂q_i|, |∂c/∂q̇_i|, |∂c/∂q̈_i| of every mode i: a loop of its own for each channel.
 template <class Visit>
 void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
     const auto each = [&](auto&& sensitivity) {
-        for (std::size_t i = 0; i < modes_.size(); ++i) visit(sensitivity(modes_[i], bounds_->modes[i]), i);
+        for (std::size_t i = 0; i < modes_.size(); ++i) visit(sensitivity(modes_[i], bounds_->modes[i], i), i);
     };
-    const double spin = motion_->spin;
-    // Of the inertia: a mode swings in the shape that the others give the beam.
-    const auto turning = [&](const Mode& m, const ModalBounds::Mode& b) {
-        return spin * m.inertia * inertia_root_ * b.amplitude;
-    };
-    // Of the contact's place: a slope turns the normal, which meets the disc's centre `away_`.
-    const auto foot = [&](const Mode& m) { return kBentContactShift * (m.slope * away_ + m.shape * inclination_); };
     // −(L + Δu) sin α + Δv cos α: what is not linear is of third order.
     const double third =
         length_ * alpha_ * alpha_ / 6 + 0.5 * length_ * inclination_ * inclination_ + 0.5 * deflection_ * alpha_;
     const double pull = 1.5 * gravity_ / length_;
     using Bounds = ModalBounds::Mode;
     switch (channel.kind) {
-        case ChannelKind::q: {
-            const std::size_t i = static_cast<std::size_t>(channel.index) - 1;
-            return visit(Sensitivity{.q = 1}, i);
-        }
+        case ChannelKind::q:
+            return visit(Sensitivity{.q = 1}, static_cast<std::size_t>(channel.index) - 1);
         case ChannelKind::theta:
-            return each([&](const Mode& m, const Bounds&) { return Sensitivity{.q = m.h}; });
+            return each([&](const Mode& m, const Bounds&, std::size_t) { return Sensitivity{.q = m.h}; });
         case ChannelKind::theta_dot:  // Θ̇ = p/(J + qᵀBq)
-            return each([&](const Mode& m, const Bounds& b) {
-                return Sensitivity{.rate = m.h, .mixed = 2 * turning(m, b) / inertia_};
+            return each([&](const Mode& m, const Bounds&, std::size_t i) {
+                return Sensitivity{.rate = m.h, .mixed = 2 * turning(i) / inertia_};
             });
         case ChannelKind::tip_deflection:
-            return each([&](const Mode& m, const Bounds& b) {
+            return each([&](const Mode& m, const Bounds& b, std::size_t) {
                 return Sensitivity{.q = std::fabs(m.tip), .mixed = 3 * third * m.h * b.amplitude};
             });
         case ChannelKind::tip_rate:
-            return each([&](const Mode& m, const Bounds& b) {
+            return each([&](const Mode& m, const Bounds& b, std::size_t) {
                 return Sensitivity{.rate = std::fabs(m.tip), .mixed = 9 * third * m.h * b.rate};
-            });
-        case ChannelKind::gap:
-            return each(
-                [&](const Mode& m, const Bounds&) { return Sensitivity{.q = m.shape, .shift = m.wave * slide_}; });
-        case ChannelKind::contact_x:
-            return each(
-                [&](const Mode& m, const Bounds&) { return Sensitivity{.q = foot(m), .shift = m.wave * slide_}; });
-        case ChannelKind::contact_s:
-            return each([&](const Mode& m, const Bounds&) {
-                return Sensitivity{.q = cam_radius_ * m.slope + m.shape, .shift = m.wave * slide_};
-            });
-        case ChannelKind::contact_force:
-        case ChannelKind::friction_force: {
-            const double share = channel.kind == ChannelKind::contact_force ? 1 : friction_;
-            return each([&, share](const Mode& m, const Bounds&) {
-                return Sensitivity{.q = share * (force_per_depth_ * m.shape + force_per_rate_ * m.slope * slide_),
-                                   .rate = share * force_per_rate_ * m.shape,
-                                   .shift = m.wave * slide_};
-            });
-        }
-        case ChannelKind::energy_contact:
-            return each([&](const Mode& m, const Bounds&) {
-                return Sensitivity{.q = force_ * m.shape, .shift = m.wave * slide_};
-            });
-        case ChannelKind::energy_kinetic:
-            return each([&](const Mode& m, const Bounds& b) {
-                return Sensitivity{.rate = spin * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + spin * turning(m, b)};
-            });
-        case ChannelKind::energy_potential:
-            return each([&](const Mode& m, const Bounds& b) {
-                return Sensitivity{
-                    .q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * spin};
-            });
-        case ChannelKind::energy_elastic:
-            return each([&](const Mode& m, const Bounds& b) {
-                return Sensitivity{.mixed = 0.25 * m.stiffness * b.amplitude * b.amplitude};
-            });
-        case ChannelKind::work_drive:  // (S55)
-            return each([&](const Mode& m, const Bounds& b) {
-                if (!system_.drive().prescribed()) return Sensitivity{.q = torque_ * m.h};
-                return Sensitivity{
-                    .q = m.U * motion_->spin_acceleration, .rate = 2 * spin * m.U, .mixed = 2 * spin * turning(m, b)};
             });
         case ChannelKind::separation:
         case ChannelKind::separation_paper:  // (S41)
-            return each([&](const Mode& m, const Bounds& b) {
+            return each([&](const Mode& m, const Bounds& b, std::size_t) {
                 return Sensitivity{.acceleration = m.h * arm_,
                                    .mixed = ((hub_acceleration_ + pull) * foot(m) + pull * arm_ * m.h) * b.amplitude};
+            });
+        case ChannelKind::gap:
+        case ChannelKind::contact_x:
+        case ChannelKind::contact_s:
+        case ChannelKind::contact_force:
+        case ChannelKind::friction_force:
+        case ChannelKind::energy_contact:
+            return each([&](const Mode& m, const Bounds&, std::size_t) { return in_contact(channel.kind, m); });
+        case ChannelKind::energy_kinetic:
+        case ChannelKind::energy_potential:
+        case ChannelKind::energy_elastic:
+        case ChannelKind::work_drive:
+            return each([&](const Mode& m, const Bounds& b, std::size_t i) {
+                return of_energy(channel.kind, m, b, turning(i));
             });
         case ChannelKind::t:
         case ChannelKind::cam_angle:
@@ -325,6 +324,15 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
     each_unresolved(channel, [&](double amplitude, double frequency) { out.add(amplitude, frequency); });
 }
 
+// How far the channel leaves the lines between neighbouring nodes: what their polynomial does, and what it misses.
+double ModalChannels::strays_between_nodes(Channel channel, const Variation& polynomial) const {
+    const double length = kWidestNodeGap * bounds_->h;
+    double stray = polynomial.strays(length);
+    each_unresolved(channel,
+                    [&](double amplitude, double frequency) { stray += amplitude * strays(frequency * length); });
+    return stray;
+}
+
 ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
     const double h = to_ - from_;
     if (channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper) {
@@ -372,10 +380,7 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
     Variation variation;
     variation.add_polynomial(nodes, bounds_->h);
     variation.add_missed(nodes, first, last, bounds_->h);
-    double stray = variation.strays(kWidestNodeGap * bounds_->h);
-    each_unresolved(channel, [&](double amplitude, double frequency) {
-        stray += amplitude * strays(frequency * kWidestNodeGap * bounds_->h);
-    });
+    double stray = strays_between_nodes(channel, variation);
     const bool tip = channel.kind == ChannelKind::tip_deflection || channel.kind == ChannelKind::tip_rate;
     if (tip) each_mode(channel, [&](const Sensitivity& s, std::size_t) { stray += s.mixed; });
     Range range{std::min(first, last), std::max(first, last)};
@@ -424,10 +429,7 @@ ModalChannels::Range ModalChannels::contact_range(Channel channel) const {
         const double value = contact_value(channel.kind, k);
         range = {std::min(range.low, value), std::max(range.high, value)};
     }
-    double stray = variation.strays(kWidestNodeGap * bounds_->h);
-    each_unresolved(channel, [&](double amplitude, double frequency) {
-        stray += amplitude * strays(frequency * kWidestNodeGap * bounds_->h);
-    });
+    const double stray = strays_between_nodes(channel, variation);
     if (channel.kind == ChannelKind::friction_force) {
         const double most = friction_ * (range.high + stray);
         return {-most, most};

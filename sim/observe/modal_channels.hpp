@@ -54,6 +54,11 @@ class ModalChannels {
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;
     double drift(ChannelKind kind) const;
+    double turning(std::size_t i) const;
+    double foot(const Mode& m) const;
+    Sensitivity in_contact(ChannelKind kind, const Mode& m) const;
+    Sensitivity of_energy(ChannelKind kind, const Mode& m, const ModalBounds::Mode& b, double turning) const;
+    double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Visit>
     void each_mode(Channel channel, Visit&& visit) const;
     void place_contact();
