@@ -79,6 +79,7 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
         scene, keys,
         {.name = "energy",
          .title = kEnergyTitle.in(how.lang),
+         .caption = {},
          .aspect = 1.05,
          .weight = 0.75,
          .sums = {{say("kinetic", "动能"), {Kind::energy_kinetic}},
