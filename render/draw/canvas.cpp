@@ -92,7 +92,7 @@ PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextSt
                                      [&] { return laid_out(fonts.handles().context, markup, style); });
 }
 
-constexpr double kHalo = 0.30;  // width of its outline in parts of the size
+constexpr double kHalo = 0.30, kOutline = 0.18;  // widths in parts of the size, of its own halo and of all texts'
 
 struct Metrics {
     Box ink;          // relative to the baseline's start
@@ -239,19 +239,22 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     if (style.align == HAlign::centre) x -= m.advance / 2;
     if (style.align == HAlign::right) x -= m.advance;
     cairo_move_to(cr_, x, baseline.y - m.baseline);
-    const bool halo = style.halo && halos;
+    std::optional<Color> halo = style.halo;
+    if (outline) halo = outline->faded(style.color.a);
+    const double wide = (outline ? kOutline : kHalo) * style.size;
+    if (halo && halo->faded(0) == style.color.faded(0)) halo.reset();  // it would only thicken the letters
     if (halo) {
         pango_cairo_layout_path(cr_, layout);
         note('t', {x, baseline.y}, key_of(markup, style));
         pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
-        stroke({*style.halo, kHalo * style.size});
+        stroke({*halo, wide});
         cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
     use(style.color);
     pango_cairo_show_layout(cr_, layout);
     new_path();
     const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
-    touch(ink.inset(halo ? -1 - kHalo / 2 * style.size : -1));  // glyphs stand on whole pixels
+    touch(ink.inset(halo ? -1 - wide / 2 : -1));  // glyphs stand on whole pixels
     if (record) record->push_back(ink);
     return {x, ink.y, m.advance, ink.h};
 }

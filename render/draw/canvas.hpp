@@ -64,7 +64,8 @@ class Canvas : public Brush {
     const Image& image() const { return image_; }                    // as drawn so far
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
 
-    bool halos = true;                   // false: there is no paper that texts could be outlined with
+    // Of all texts, as far as they are seen, instead of their own halos: where the ground is not known.
+    std::optional<Color> outline = {};
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
 
   private:

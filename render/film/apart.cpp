@@ -20,7 +20,7 @@ void Apart::fill(const Canvas& like, const Box& box, const Draw& draw) {
     if (image_.width != whole.width || image_.height != whole.height) image_ = Image(whole.width, whole.height);
     each_byte(box, [](std::uint8_t& byte, std::size_t) { byte = 0; });
     Canvas canvas(image_, like.fonts());
-    canvas.halos = like.halos;
+    canvas.outline = like.outline;
     canvas.record = like.record;
     draw(canvas);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -11,6 +12,7 @@
 namespace beamcam::render {
 namespace {
 
+using std::numbers::pi;
 constexpr std::size_t kCaptionLines = 6;
 constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
 constexpr double kCaptionLine = 29;    // from line to line [design px]
@@ -93,8 +95,43 @@ class Captions {
         return false;
     }
 
+    // The rim of the disc as it is seen, a little inside.
+    std::vector<Vec2> disc() const {
+        std::vector<Vec2> rim;
+        for (int i = 0; s.shape.disc && i < 48; ++i)
+            rim.push_back(s.on(s.shape.disc->centre + down(2 * pi * i / 48) * (0.96 * s.shape.disc->radius)));
+        return rim;
+    }
+
+    static bool crosses(const std::vector<Vec2>& disc, Vec2 from, Vec2 to) {
+        for (int i = 0; i <= 64 && !disc.empty(); ++i) {
+            const Vec2 at = from + (to - from) * (i / 64.0);
+            bool inside = true;
+            for (std::size_t k = 0; k < disc.size() && inside; ++k)
+                inside = cross(disc[(k + 1) % disc.size()] - disc[k], at - disc[k]) < 0;
+            if (inside) return true;
+        }
+        return false;
+    }
+
+    // Where a line to the contact bends so that it runs beside the disc: on the tangent there, on the caption's side.
+    // Nothing where it need not, or nowhere does.
+    std::optional<Vec2> bend(Vec2 from, Vec2 to) const {
+        const std::vector<Vec2> rim = disc();
+        if (!crosses(rim, from, to)) return std::nullopt;
+        const Vec2 centre = s.on(s.shape.disc->centre), out = to - centre;
+        const double radius = norm(out), side = dot(from - centre, Vec2{-out.y, out.x}) < 0 ? -1 : 1;
+        if (!(radius > 0)) return std::nullopt;
+        const Vec2 along = Vec2{-out.y, out.x} * (side / radius);
+        for (double far = 0.4; far < 4; far += 0.2)
+            if (const Vec2 at = to + along * (far * radius); !crosses(rim, from, at)) return at;
+        return std::nullopt;
+    }
+
     // Begins below the plate, which is drawn over it, at a place from where it meets no label.
-    void lead(const Box& plate, Vec2 from, Vec2 to, double opacity) const {
+    void lead(const Box& plate, Vec2 from, Vec2 to, double opacity, std::optional<Vec2> by = {}) const {
+        const Vec2 end = to;
+        to = by.value_or(to);
         const Vec2 usual = from;
         for (int i = 0; i <= 16 && meets_label(from, to); ++i)
             from = {plate.x + 10 * u + (plate.w - 20 * u) * i / 16, usual.y};
@@ -102,6 +139,7 @@ class Captions {
         if (crossed) from = usual;
         s.canvas.move_to(from);
         s.canvas.line_to(to);
+        if (by) s.canvas.line_to(end);
         s.canvas.stroke({s.at.palette.ink.faded(opacity), 1.6 * u});
         if (crossed && s.at.labels->speed) draw_cam_speed(s);  // its halo keeps the line off
     }
@@ -188,7 +226,8 @@ class Captions {
         const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
         if (!latest || (s.at.problem().cam && !near) || !s.at.shows(contact_foot())) return;
         const Box plate = contact_plate(*latest);
-        lead(plate, {plate.x + 10 * u, plate.y + 10 * u}, contact_foot(), latest->opacity(s.frame));
+        const Vec2 from{plate.x + 10 * u, plate.y + 10 * u}, foot = contact_foot();
+        lead(plate, from, foot, latest->opacity(s.frame), bend(from, foot));
     }
 
     Vec2 contact_foot() const {

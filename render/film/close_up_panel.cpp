@@ -269,7 +269,7 @@ class CloseUpPanel final : public Panel {
             if (i.t_start <= last.t_start) ++number;
             end = i.t_end.value_or(t);
         }
-        if (t > end + motion().problem.contact.collision_gap) return {};
+        if (t > end + sim::collision_gap(motion().problem)) return {};
         return facts_.say(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
     }
 

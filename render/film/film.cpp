@@ -84,7 +84,7 @@ struct Film::Tools {
             grown.add_all();
         }
         Canvas canvas(kept, fonts);
-        canvas.halos = !p.facts.setup->view.transparent;
+        canvas.outline = p.facts.outline();
         canvas.touched = &grown;
         for (std::size_t i = 0; i < p.panels.size(); ++i)
             p.panels[i]->grow(canvas, p.ground, wanted, anew, states[i].get());
@@ -111,7 +111,7 @@ void Film::Prepared::draw_ground() {
     const FilmSetup& setup = *facts.setup;
     ground = Image(setup.width, setup.height);
     Canvas canvas(ground, *facts.fonts);
-    canvas.halos = !setup.view.transparent;
+    canvas.outline = facts.outline();
     canvas.record = &ground_texts;
     if (!setup.view.transparent) canvas.paint(facts.palette->paper);
     if (shows(LayerOf::charts)) draw_header(canvas);
@@ -313,7 +313,7 @@ const Image& Film::draw(int frame) {
     t.grown.clear();
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
-    canvas.halos = !prepared_->facts.setup->view.transparent;
+    canvas.outline = prepared_->facts.outline();
     canvas.touched = &t.moved;
     if (Stencils::exact()) canvas.stencils = &t.stencils;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
@@ -337,7 +337,7 @@ FrameGeometry Film::geometry(int frame) {
     t.keep(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
-    canvas.halos = !p.facts.setup->view.transparent;
+    canvas.outline = p.facts.outline();
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

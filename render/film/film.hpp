@@ -137,6 +137,7 @@ struct FilmSetup : Motion {
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
+    int digits = 3;                    // of the cam's speed
     std::optional<LayoutNode> layout;  // absent: the standard arrangement
     std::vector<Motion> others;        // to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;

@@ -59,7 +59,9 @@ std::optional<Push> ImpactRings::peak(int frame) const {
     const Ring* latest = nullptr;
     for (const Ring& r : rings_) {
         if (frame < r.frame || frame >= r.frame + frames_) continue;
-        if (!latest || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
+        // Brief contacts of one frame are seen as the hardest of them; one that lasts shows its own force from then on.
+        const bool lasts = !(r.peak.force > 0);
+        if (!latest || lasts || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
     }
     return latest && latest->peak.force > 0 ? std::optional(latest->peak) : std::nullopt;
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px: the least that reads
 // Letters at axes and scales: readable from the back of a room, where they have a fiftieth of the picture's height.
-constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 22;  // of the lesser side; [design px]
+constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the lesser side; [design px]
 
 Box whole(const Box& b) {
     const double x = std::round(b.x), y = std::round(b.y);

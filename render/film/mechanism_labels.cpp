@@ -22,20 +22,21 @@ Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - si
 }  // namespace
 
 double least_letter(const MechanismView& at) {
-    constexpr double kOfTicks = 0.62;  // a single letter is found more easily than a number is read
+    constexpr double kOfTicks = 0.66;  // a single letter is found more easily than a number is read
     return std::max(kReadable, kOfTicks * at.facts.tick);
 }
 
 double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
 std::string speed_label(const MechanismView& at) {
-    return math("ω") + "\u2009=\u2009" + turning_speed(at.problem().cam->speed, at.facts.setup->units.rpm);
+    return math("ω") + "\u2009=\u2009" +
+           turning_speed(at.problem().cam->speed, at.facts.setup->units.rpm, at.facts.setup->digits);
 }
 
 std::string force_label(const MechanismView& at, const Push& push) {
     const bool chinese = at.facts.setup->view.lang == Lang::zh;
     const std::string peak_of = at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
-    return (push.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + quantity(push.force, "N");
+    return (push.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + reading(push.force, "N");
 }
 
 // ---- what moves --------------------------------------------------------------------------------
@@ -125,7 +126,7 @@ class LabelPlacer {
     // In the middle of what the beam leaves free of the arc's inside.
     std::optional<LabelPlace> angle(OccupancyGrid room, double radius) const {
         const double letter = angle_letter(at);
-        if (radius <= at.hub() + 38 * letter) return std::nullopt;
+        if (radius <= at.hub() + 34 * letter) return std::nullopt;
         const Vec2 o = at.px({0, 0});
         const bool below = -needs.angles.low > needs.angles.high;
         std::vector<Vec2> arc;

@@ -14,6 +14,26 @@ namespace {
 using std::numbers::pi;
 constexpr double kFarLabel = 60, kFarLetter = 26;  // from there on a label has a line to its owner [design px]
 
+// Whether the straight line meets the box.
+bool meets(const Box& box, Vec2 from, Vec2 to) {
+    constexpr int kPieces = 32;
+    for (int i = 0; i <= kPieces; ++i)
+        if (const Vec2 at = from + (to - from) * (double(i) / kPieces); box.overlaps({at.x, at.y, 0.1, 0.1}))
+            return true;
+    return false;
+}
+
+// The label of the force. Where the view's edge pushes it upon its arrow, it stands on the arrow's other side.
+LabelPlace beside_arrow(const MechanismScene& s, const Push& push, Vec2 foot, Vec2 tip) {
+    LabelPlace label = *s.at.labels->force;
+    const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, push.foot), foot, tip); };
+    if (!s.at.moved || is_clear()) return label;
+    const LabelPlace usual = label;
+    const Vec2 way = label.middle - label.base;
+    label.middle = label.base + push.normal * (2 * dot(way, push.normal)) - way;
+    return is_clear() ? label : usual;
+}
+
 // One of the labels that keep their place, with a line to its owner where that is far. A moving camera shows those
 // whose base it sees.
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
@@ -147,17 +167,21 @@ void draw_disc_letters(const MechanismScene& s) {
     const DiscShape& d = *s.shape.disc;
     const double usual = 22 * s.at.marks;
     if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
-    const double size = std::max(usual, std::min(least_letter(s.at), 22.0 / 60 * d.radius));
+    // On a small disc they stay readable, and as far from what they name as they are large.
+    const double size = std::max(usual, std::min(least_letter(s.at), 0.45 * d.radius)), letter = size / 22;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
-    const TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
-    s.canvas.text(s.on(d.centre + along * (20 * s.at.marks)) + Vec2{0, 7 * s.at.marks}, math("B"), style);
+    TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
+    // The outlines of other discs run through them; what keeps these off stays off the pin.
+    if (s.at.ghosts) style.halo = s.at.palette.steel;
+    s.canvas.text(s.on(d.centre + along * (4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter)) + Vec2{0, 7 * letter},
+                  math("B"), style);
     // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim, where contacts
     // and their rings are: it stands beside, a little inwards.
-    const double off = d.bore + (s.view ? 24 : 16) * s.at.marks;
+    const double off = d.bore + (s.view ? 24 : 16) * letter;
     const Vec2 way =
         apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
-    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * s.at.marks}, math("C"), style);
+    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * letter}, math("C"), style);
 }
 
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
@@ -231,7 +255,7 @@ void draw_force(const MechanismScene& s) {
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
     if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
-        draw_label(s, *s.at.labels->force, force_label(s.at, push), force_style(s.at), tip, push.foot);
+        draw_label(s, beside_arrow(s, push, foot, tip), force_label(s.at, push), force_style(s.at), tip, push.foot);
 }
 
 }  // namespace beamcam::render

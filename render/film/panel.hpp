@@ -58,6 +58,10 @@ struct FilmFacts {
     std::string shown_unit(sim::Channel channel) const;
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+    // Without a paper texts are outlined in its colour, and read on any ground.
+    std::optional<Color> outline() const {
+        return setup->view.transparent ? std::optional(palette->paper.faded(0.8)) : std::nullopt;
+    }
     Color data_color(std::size_t k) const { return series_color(*palette, 7 - k % 3); }  // far from the motions'
     // The angle of the hub by these data at a frame of the first motion; NaN: they do not say.
     double measured_angle(std::size_t k, double t) const;

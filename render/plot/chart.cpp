@@ -275,7 +275,7 @@ TextStyle reading_style(double u, Color color) {
 }  // namespace
 
 std::string Chart::told(double value) const {
-    if (!c_.reading_unit.empty()) return quantity(value, c_.reading_unit.c_str());
+    if (!c_.reading_unit.empty()) return reading(value, c_.reading_unit.c_str());
     return fixed(axis_.scaled(value), digits_);
 }
 

@@ -57,11 +57,11 @@ struct DrivePiece {
 
 }  // namespace
 
-std::string turning_speed(double speed, bool rpm) {
+std::string turning_speed(double speed, bool rpm, int digits) {
     const double value = std::abs(rpm ? speed * 30 / std::numbers::pi : speed);
     // Ordinary numbers need no prefix; the others keep that of a quantity.
     if (!rpm && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
-    std::string number = fmt::format("{:.3g}", value);
+    std::string number = fmt::format("{:.{}g}", value, digits);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
     return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
 }

@@ -14,7 +14,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm 
 std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm = false);
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes. `speed` in rad/s.
-std::string turning_speed(double speed, bool rpm);
+std::string turning_speed(double speed, bool rpm, int digits = 3);
 
 // Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at the true speed. Speeds on the way from one
 // to another are told by a round fraction.

@@ -32,6 +32,8 @@ std::string fixed(double value, int decimals);  // with a true minus sign; never
 
 // Three significant digits with an SI prefix: quantity(0.02, "m") is "20 mm"; a no-break space between.
 std::string quantity(double value, const char* unit, int digits = 3);
+// What changes, always with three digits: "1.90 MN" after "2.95 MN"; nothing is "0 N".
+std::string reading(double value, const char* unit);
 // The SI prefix that suits values up to `largest`: its symbol and factor ("m", 1e-3).
 struct Prefix {
     const char* symbol;

@@ -32,9 +32,14 @@ void add_answer_files(Command& app, AnswerFiles& files, Common& common) {
 
 double transient_argument(const std::string& text, const sim::Problem& problem) {
     const QuantityText read = parse_quantity(text);
-    if (!read.quantity || !same(read.quantity->dimension, dimension::kAngle) || !problem.cam)
-        return seconds_argument("--transient", text);
-    return quantity_argument("--transient", text, dimension::kAngle) / std::abs(problem.cam->speed);
+    const bool plain = read.quantity && same(read.quantity->dimension, dimension::kNone),
+               turns = plain || (read.quantity && same(read.quantity->dimension, dimension::kAngle));
+    if (!turns || (plain && read.quantity->value == 0)) return seconds_argument("--transient", text);
+    if (!problem.cam || problem.cam->speed == 0)
+        throw UsageError(fmt::format("--transient {}: the cam does not turn; write a time such as \"30 s\"", text));
+    const double angle = plain ? 2 * std::numbers::pi * read.quantity->value : read.quantity->value;
+    if (!(angle >= 0)) throw UsageError(fmt::format("--transient {} must not be negative", text));
+    return angle / std::abs(problem.cam->speed);
 }
 
 bool is_table(const std::string& file) {

@@ -24,7 +24,7 @@ struct AnswerFiles {
     std::string drawn(const render::figure::Figure& figure, Scene scene, const std::string& file) const;
 };
 
-// --transient of them: a time [s], or turns of the cam where it turns at a constant speed.
+// --transient of them [s]: turns of the cam, as a plain number always is (so of sweeps, too), or a time with its unit.
 double transient_argument(const std::string& text, const sim::Problem& problem);
 
 void add_answer_files(Command& app, AnswerFiles& files, Common& common);

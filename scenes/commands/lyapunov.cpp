@@ -95,7 +95,7 @@ void add_lyapunov(Grammar& grammar) {
                "Also as .json, or their convergence as .png, .svg or .pdf (repeatable)");
     app.option("--count", &args->count, "K", "Only the K largest (default: the whole spectrum)").range(1, 82);
     app.option("--transient", &args->transient, "T",
-               "Left out at the start: \"30 s\", or \"200 turns\" of the cam (default: 20 s)");
+               "Left out at the start: turns of the cam, as 200, or a time, as \"30 s\" (default: 20 s)");
     app.option("--duration", &args->duration, "T", "Averaged over (default: 100 s)");
     app.option("--blocks", &args->blocks, "N", "Blocks whose spread gives the error (default: 20)").range(2, 1000);
     add_answer_files(app, args->files, args->common);

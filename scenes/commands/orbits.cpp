@@ -279,7 +279,7 @@ void add_orbits(Grammar& grammar) {
         .range(1, 1000);
     app.option("--impacts", &args->impacts, "M", "Only orbits of so many impacts").range(0, 100000);
     app.option("--transient", &args->transient, "T",
-               "Left out before the search: \"30 s\", or \"200 turns\" of the cam (default: 20 s)");
+               "Left out before the search: turns of the cam, as 200, or a time, as \"30 s\" (default: 20 s)");
     app.option("--doublings", &args->doublings, "K", "Branches on which period doublings are followed (default: 0)")
         .range(0, 20);
     app.option("--step", &args->step, "SHARE", "Longest step along a branch, of the range (default: 0.01)")
@@ -287,7 +287,7 @@ void add_orbits(Grammar& grammar) {
     app.option("--most-points", &args->most_points, "N", "Points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
     app.option("--sweep", &args->sweep_file, "FILE",
-               "Impacts of a sweep over the same key, .csv or .npz, beneath the branches of the diagram");
+               "Impacts of a sweep over the same key, .csv, .npz or .nc, beneath the branches of the diagram");
     app.option("--row", &args->row, "K",
                "Begin in the state of row K of the table of --sweep, with the values of its swept keys")
         .range(1, 1000000000);

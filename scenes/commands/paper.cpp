@@ -15,6 +15,7 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/motions.hpp"
 #include "scenes/outputs/run_context.hpp"
+#include "scenes/plan/figure_times.hpp"
 #include "scenes/plan/survey.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -42,8 +43,8 @@ std::string with_ending(const std::string& file, const char* ending) {
     return fs::path(file).replace_extension(ending).string();
 }
 
-// Every figure of the scenes that come with the program; one set of studies for all of them.
-std::vector<Job> jobs_of(const PaperArguments& args, Studies& studies) {
+// Every figure of the scenes that come with the program.
+std::vector<Job> jobs_of(const PaperArguments& args) {
     std::vector<Job> jobs;
     for (const EmbeddedScene& embedded : embedded_scenes()) {
         if (!embedded.is_of_paper()) continue;
@@ -59,12 +60,20 @@ std::vector<Job> jobs_of(const PaperArguments& args, Studies& studies) {
             how.dpi = args.dpi;
             Scene alone = *reading.scene;
             alone.outputs = {output};
-            const Recipe* recipe = recipe_named(how.figure);
-            jobs.push_back({alone, how, recipe->prepare(*reading.scene, how, studies)});
+            jobs.push_back({alone, how, {}});
         }
     }
     std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.how.file < b.how.file; });
     return jobs;
+}
+
+// One set of studies for all of them; those that begin or end at events are of all of their scenes without `find`.
+void prepare(std::vector<Job>& jobs, const FindImpacts& find, Studies& studies) {
+    for (Job& job : jobs) {
+        const bool known = find || !job.how.series.looks_at_impacts();
+        const FigureOutput how = known ? with_found_times(job.how, job.scene, find) : without_events(job.how);
+        job.make = recipe_named(how.figure)->prepare(job.scene, how, studies);
+    }
 }
 
 std::vector<std::string> files_of(const PaperArguments& args, const std::vector<Job>& jobs) {
@@ -110,20 +119,24 @@ class PaperWriter {
     int count_ = 0;
 };
 
+std::string plan_words(const std::vector<Study>& studies, const std::vector<std::string>& files) {
+    std::string text;
+    for (const Study& s : studies)
+        text +=
+            fmt::format("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model), s.request.end_time,
+                        s.because, s.request.horizon ? ", and again for its reproducible horizon" : "");
+    for (const std::string& file : files) text += fmt::format("write     {}\n", file);
+    return text;
+}
+
 int act(const PaperArguments& args) {
     const RunOptions options = run_options(args.common, args.directory);
     Studies studies;
-    const std::vector<Job> jobs = jobs_of(args, studies);
-    const auto findings = prepare_findings(studies);
-    const std::vector<Study> all = studies.take();
+    std::vector<Job> jobs = jobs_of(args);
     if (args.common.dry_run) {
-        std::string text;
-        for (const Study& s : all)
-            text += fmt::format("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model),
-                                s.request.end_time, s.because,
-                                s.request.horizon ? ", and again for its reproducible horizon" : "");
-        for (const std::string& file : files_of(args, jobs)) text += fmt::format("write     {}\n", file);
-        print_text(text);
+        prepare(jobs, {}, studies);
+        prepare_findings(studies);
+        print_text(plan_words(studies.take(), files_of(args, jobs)));
         return 0;
     }
     PaperWriter writer(args);
@@ -132,6 +145,14 @@ int act(const PaperArguments& args) {
     const std::optional<Cache> cache = open_cache(options.no_cache);
     Motions motions(cache ? &*cache : nullptr, nullptr, progress,
                     {thread_count(options.threads), options.quiet, options.verbose});
+    prepare(
+        jobs,
+        [&](const sim::Problem& problem, const sim::Request& request) {
+            return motions.find(problem, request, request.enough ? 0 : request.end_time);
+        },
+        studies);
+    const auto findings = prepare_findings(studies);
+    const std::vector<Study> all = studies.take();
     for (const Study& study : all) motions.want(study.problem, {study.request}, study.because);
     motions.make();
     std::vector<sim::Result> made;

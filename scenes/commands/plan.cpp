@@ -19,7 +19,7 @@ int act(const PlanArguments& args) {
     print_plans(scenes, options, args.common.json);
     for (const Scene& scene : scenes)
         if (scene.sweep && !args.common.json)
-            print_text("\n" + sweep_plan(SweepGrid(scene), thread_count(options.threads), false));
+            print_text("\n" + sweep_plan(SweepGrid(scene), {}, thread_count(options.threads), false));
     return 0;
 }
 

@@ -152,10 +152,24 @@ void apply_view(const RenderArguments& args, render::View& view) {
                                               : render::Theme::light;
 }
 
+// "--fps belongs to films; --at makes one picture"
 void refuse_options(std::initializer_list<std::pair<const std::optional<std::string>*, const char*>> options,
-                    const std::string& why) {
+                    const char* of, const std::string& but) {
     for (const auto& [given, name] : options)
-        if (*given) throw UsageError(fmt::format("{} {}", name, why));
+        if (*given) throw UsageError(fmt::format("{} belongs to {}; {}", name, of, but));
+}
+
+void refuse_options_of_films(const RenderArguments& args) {
+    refuse_options({{&args.from, "--from"},
+                    {&args.to, "--to"},
+                    {&args.fps, "--fps"},
+                    {&args.speed, "--speed"},
+                    {&args.duration, "--duration"},
+                    {&args.codec, "--codec"},
+                    {&args.poster, "--poster"},
+                    {&args.frames, "--frames"},
+                    {&args.shard, "--shard"}},
+                   "films", "--at makes one picture");
 }
 
 // A still of lines: the figure "strobe" at one instant, for print.
@@ -164,18 +178,15 @@ FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) 
         throw UsageError(fmt::format("-o {}: name the instant with --at for one picture of lines", args.file));
     if (!args.others.empty())
         throw UsageError(fmt::format("-o {} shows one motion; name one scene, or a .png file", args.file));
-    refuse_options({{&args.from, "--from"}, {&args.to, "--to"}, {&args.fps, "--fps"}, {&args.speed, "--speed"}},
-                   "belongs to films; --at makes one picture");
+    refuse_options_of_films(args);
     refuse_options({{&args.size, "--size"},
                     {&args.style, "--style"},
-                    {&args.codec, "--codec"},
                     {&args.background, "--background"},
                     {&args.show, "--show"},
-                    {&args.comparison, "--comparison"},
-                    {&args.poster, "--poster"},
-                    {&args.duration, "--duration"}},
-                   fmt::format("belongs to films and pictures of pixels; -o {} is drawn in lines, as `beamcam figure "
-                               "strobe --at` draws it, which takes --width and --column",
+                    {&args.comparison, "--comparison"}},
+                   "films and pictures of pixels",
+                   fmt::format("-o {} is drawn in lines, as `beamcam figure strobe --at` draws it, which takes "
+                               "--width and --column",
                                args.file));
     FigureOutput figure;
     figure.file = args.file;
@@ -189,8 +200,7 @@ FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) 
 Output still(const RenderArguments& args, const VideoOutput& film, bool numbered) {
     if (ending_of(args.file) != ".png" || numbered)
         throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
-    if (args.from || args.to || args.fps || args.speed)
-        throw UsageError("--at makes one picture; --from, --to, --fps and --speed belong to films");
+    refuse_options_of_films(args);
     return StillOutput{film, args.file, instant_argument("--at", *args.at)};
 }
 
@@ -206,7 +216,7 @@ Output played(const RenderArguments& args, VideoOutput film) {
                     {&args.shard, "--shard"},
                     {&args.poster, "--poster"},
                     {&args.duration, "--duration"}},
-                   fmt::format("belongs to films and pictures; -o {} is none", args.file));
+                   "films and pictures", fmt::format("-o {} plays the motion itself", args.file));
     film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
     film.compare.clear();
     if (ending == ".glb") return ModelOutput{film, args.file, film.span};
@@ -216,6 +226,8 @@ Output played(const RenderArguments& args, VideoOutput film) {
 }
 
 Output sequence(const RenderArguments& args, const VideoOutput& film, bool numbered) {
+    refuse_options({{&args.poster, "--poster"}, {&args.codec, "--codec"}}, "films",
+                   fmt::format("-o {} makes pictures already", args.file));
     if (!numbered)
         throw UsageError(fmt::format(
             "-o {}: name the instant with --at for one picture, or put #### in the name for a sequence", args.file));
@@ -233,8 +245,6 @@ Output render_output(const RenderArguments& args, VideoOutput film) {
         "-o", args.file,
         {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".pdf", ".svg", ".eps", ".html", ".glb"});
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
-    if (args.poster && ending == ".png")
-        throw UsageError(fmt::format("--poster belongs to films; -o {} makes pictures already", args.file));
     if (args.at) return still(args, film, numbered);
     if (ending == ".html" || ending == ".glb") return played(args, std::move(film));
     if (ending == ".png") return sequence(args, film, numbered);
@@ -267,7 +277,6 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
 Ask asked_part(const RenderArguments& args, const Scene& scene) {
     Ask ask;
     if (!args.frames && !args.shard) return ask;
-    if (args.at) throw UsageError("--at makes one picture; --frames and --shard belong to films");
     if (args.frames && args.shard) throw UsageError("--frames and --shard exclude each other; keep one");
     if (args.shard) return shard_argument(*args.shard);
     const Plan made = plan(scene);

@@ -8,6 +8,7 @@
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/sweeps.hpp"
+#include "scenes/format/checks.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/sweep/make_points.hpp"
@@ -127,9 +128,15 @@ Scene with_options(Scene scene, const SweepArguments& args) {
     return scene;
 }
 
+void judge_value(const SweepArguments& args, std::string_view diagram, const Scene& scene) {
+    const std::string problem = problem_with_value(diagram, args.value.value_or(""), scene);
+    if (!problem.empty()) throw UsageError(fmt::format("--value {}: {}", *args.value, problem));
+}
+
 // As the scene describes its own film, if it has one.
 SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
     if (const auto why = recipe_named("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
+    judge_value(args, "bifurcation", scene);
     SweepFilmOutput film;
     for (const Output& output : scene.outputs)
         if (const auto* own = std::get_if<SweepFilmOutput>(&output)) film = *own;
@@ -151,6 +158,7 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     diagram.figure = args.figure.value_or(usual_diagram(scene));
     if (const auto why = recipe_named(diagram.figure)->refusal(scene))
         throw UsageError(fmt::format("--figure {}: {}", diagram.figure, *why));
+    judge_value(args, diagram.figure, scene);
     diagram.value = args.value.value_or("");
     diagram.column = args.column;
     diagram.lang = args.lang == "zh" ? Lang::zh : Lang::en;
@@ -201,6 +209,14 @@ void refuse_idle_options(const SweepArguments& args) {
     if (args.value && !args.film) throw UsageError("--value belongs to --diagram");
 }
 
+std::vector<PlannedFile> planned_files(const Plan& plan) {
+    std::vector<PlannedFile> files;
+    for (const DataFile& d : plan.data)
+        if (d.file != "-") files.push_back({d.file, d.stage + (d.content.empty() ? "" : ", " + d.content)});
+    for (const FigureFile& f : plan.figures) files.push_back({f.file, "figure, " + f.figure});
+    return files;
+}
+
 int act(const SweepArguments& args) {
     judge_parts(args);
     refuse_idle_options(args);
@@ -226,7 +242,8 @@ int act(const SweepArguments& args) {
             *args.emit, command_of(args), args.file,
             static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
     else
-        print_text(sweep_plan(grid, thread_count(options.threads), args.common.json));
+        print_text(
+            sweep_plan(grid, planned_files(plan(scene, options.ask)), thread_count(options.threads), args.common.json));
     return 0;
 }
 

@@ -51,7 +51,7 @@ std::string collision_caption(const sim::Problem& problem, const sim::Collision&
         told(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "",
         c.count == 1 ? ""
                      : filled(en ? "; less than {} s apart they are one collision" : "；间隔小于 {} s 者归为同一次碰撞",
-                              number(problem.contact.collision_gap, 3)));
+                              number(sim::collision_gap(problem), 3)));
     if (c.force_peak)
         text += filled(en ? "; peak force {} N" : "；峰值力 {} N",
                        told(*c.force_peak, other ? other->force_peak : std::nullopt));

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_curves.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -17,10 +18,15 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
+// Of places on the beam: metres, or what suits a smaller beam.
+Measure measure_of_places(const std::vector<double>& x) { return measure_of("m", largest(x)); }
+std::string places_label(const Measure& measure) { return "$x_{\\r{c}}$ / " + measure.unit; }
+
 // The first collision alone, in which the place moves by less than its mark in the whole.
 std::optional<render::figure::Inset> first_collision(const sim::Collision& c, double end,
                                                      const std::vector<double>& time, const std::vector<double>& force,
-                                                     const std::vector<double>& x, const Panel& whole, bool en) {
+                                                     const std::vector<double>& x, double factor, const Panel& whole,
+                                                     bool en) {
     Panel panel;
     panel.title = en ? "first collision" : "首次碰撞";
     panel.x.label = "($t$ − $t_{1}$) / ms";
@@ -35,7 +41,7 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
         if (time[i] < c.t_start || time[i] > last) continue;
         const bool touching = force[i] > 0 && std::isfinite(x[i]);
         s.x.push_back((time[i] - c.t_start) * 1e3);
-        s.y.push_back(touching ? x[i] * 1e3 : std::nan(""));
+        s.y.push_back(touching ? x[i] * factor : std::nan(""));
         s.value.push_back(touching ? force[i] : std::nan(""));
     }
     if (std::count_if(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); }) < 2) return std::nullopt;
@@ -54,14 +60,16 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     s.every_point = true;
     for (const sim::Impact& hit : result.impacts) {
         s.x.push_back(hit.t_start);
-        s.y.push_back(hit.x * 1e3);
+        s.y.push_back(hit.x);
         s.value.push_back(hit.impulse_n * 1e3);
     }
+    const Measure measure = measure_of_places(s.y);
+    s.y = scaled(std::move(s.y), measure.factor);
     Panel panel;
     panel.x.label = "$t$ / s";
     panel.x.from = 0;
     panel.x.to = end;
-    panel.y.label = "$x_{\\r{c}}$ / mm";
+    panel.y.label = places_label(measure);
     panel.legend = Legend::none;
     panel.color_bar = render::figure::ColorBar{
         .label = "$J$ / (mN s)", .from = 0, .to = *std::max_element(s.value.begin(), s.value.end())};
@@ -82,6 +90,7 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
 struct Places {
     Series on_beam, on_cam;
     double strongest = 0;
+    Measure measure = {};  // on the beam
 };
 Places places_of(const sim::Table& t, double radius) {
     const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
@@ -93,12 +102,14 @@ Places places_of(const sim::Table& t, double radius) {
         if (!(n[i] > 0) || !std::isfinite(x[i] + s[i])) continue;
         out.on_beam.x.push_back(time[i]);
         out.on_cam.x.push_back(time[i]);
-        out.on_beam.y.push_back(x[i] * 1e3);
+        out.on_beam.y.push_back(x[i]);
         out.on_cam.y.push_back(s[i] / radius * 180 / std::numbers::pi);
         out.on_beam.value.push_back(n[i]);
         out.strongest = std::max(out.strongest, n[i]);
     }
     out.on_cam.value = out.on_beam.value;
+    out.measure = measure_of_places(out.on_beam.y);
+    out.on_beam.y = scaled(std::move(out.on_beam.y), out.measure.factor);
     return out;
 }
 
@@ -138,10 +149,10 @@ Figure forceful_places(const sim::Problem& problem, const sim::Result& result, c
           cam = places_panel(std::move(places.on_cam), places.strongest, end);
     beam.letter = "a", cam.letter = "b";
     beam.title = en ? "on the beam" : "梁上", cam.title = en ? "on the cam" : "凸轮上";
-    beam.y.label = "$x_{\\r{c}}$ / mm", cam.y.label = "$s_{\\r{c}}$/$R$ / °";
+    beam.y.label = places_label(places.measure), cam.y.label = "$s_{\\r{c}}$/$R$ / °";
     if (const sim::Collision* first = collision_of(problem, result, 1))
         if (auto inset = first_collision(*first, end, column(t, ChannelKind::t), column(t, ChannelKind::contact_force),
-                                         column(t, ChannelKind::contact_x), beam, en))
+                                         column(t, ChannelKind::contact_x), places.measure.factor, beam, en))
             beam.insets = {std::move(*inset)};
     Figure figure;
     figure.name = "contact-places";

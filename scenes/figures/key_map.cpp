@@ -30,8 +30,6 @@ figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
     return {filled(text, shown), rgb(kPeriodColors[shown - 1])};
 }
 
-constexpr const char* kMapValues[] = {"class", "exponent", "impacts_per_period"};
-
 // A number of the point, or the mean of a column of its samples; NaN: none.
 double map_value(const SweptPoints& points, const output::StoredPoint& p, const std::string& value) {
     if (value == "exponent") return std::isfinite(p.exponent) ? p.exponent : sim::kNan;

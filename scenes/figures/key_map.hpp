@@ -7,6 +7,9 @@
 
 namespace beamcam::scenes {
 
+// What a map shows beside columns of the samples; the first is usual.
+inline constexpr const char* kMapValues[] = {"class", "exponent", "impacts_per_period"};
+
 // `value`: "class", "exponent", "impacts_per_period" or a column of the samples, whose mean is shown; empty: the class.
 // Throws PictureError for another, or where no point has the number.
 render::figure::Figure key_map(const SweptPoints& points, const std::string& value);

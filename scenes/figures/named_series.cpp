@@ -1,5 +1,7 @@
-// Figures by name that are a series: the hub angle, the same for three speeds of the cam, the vibration of the tip.
+// Figures by name that are a series: the hub angle, the same for three speeds of the cam, the vibration of the tip, the
+// energy balance.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/figures/series.hpp"
 
@@ -10,6 +12,7 @@ using sim::ChannelKind;
 
 constexpr Words kAngleTitle{"Hub angle", "转角"};
 constexpr Words kSpeedsTitle{"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"};
+constexpr Words kEnergyTitle{"Energy balance", "能量账目"};
 constexpr Words kTipTitle{"Transverse vibration of the free end", "自由端的横向振动"};
 
 FigureMaker prepare_keys(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -46,6 +49,50 @@ FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& st
                           how.lang, studies);
 }
 
+// What the first panel shows, and the closure where there is a second.
+std::string energy_caption(const render::figure::Figure& figure, Lang lang) {
+    const bool en = lang == Lang::en, both = figure.panels.size() > 1;
+    std::vector<std::string> names;
+    for (const render::figure::Series& s : figure.panels.front().series) names.push_back(s.label);
+    names.pop_back();  // the balance
+    const Words closure{
+        ". (b) Magnitude of the change of that balance, which the exact solution keeps at zero; what is below "
+        "10^{−12} of the largest energy is rounding and lies on the lower edge",
+        "。(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘"};
+    return filled(en ? "Energy: {}{}; the black line is their balance" : "能量：{}{}；黑线为其平衡", both ? "(a) " : "",
+                  fmt::format("{}", fmt::join(names, en ? ", " : "、"))) +
+           (both ? closure.in(lang) : "");
+}
+
+FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    using Kind = ChannelKind;
+    const auto say = [&](const char* en, const char* zh) { return Words{en, zh}.in(how.lang); };
+    const std::vector<Kind> stored{Kind::energy_kinetic, Kind::energy_potential, Kind::energy_elastic,
+                                   Kind::energy_contact},
+        lost{Kind::loss_structural, Kind::loss_contact, Kind::loss_friction}, work{Kind::work_cam, Kind::work_drive};
+    std::vector<Kind> all = stored;
+    all.insert(all.end(), lost.begin(), lost.end());
+    const SeriesKeys keys{
+        .panels = {{.channels = {{Kind::energy_kinetic, 0}}, .label = "$E$"},
+                   {.channels = {{Kind::energy_residual, 0}}, .logarithmic = true, .label = "|$ΔE$|"}}};
+    return prepare_series(
+        scene, keys,
+        {.name = "energy",
+         .title = kEnergyTitle.in(how.lang),
+         .caption = {},
+         .aspect = 1.05,
+         .weight = 0.75,
+         .sums = {{say("kinetic", "动能"), {Kind::energy_kinetic}},
+                  {say("potential", "重力势能"), {Kind::energy_potential}},
+                  {say("bending and contact", "弯曲与接触能"), {Kind::energy_elastic, Kind::energy_contact}},
+                  {say("lost", "损失"), lost},
+                  {say("work done on it", "外功"), work},
+                  {say("sum − work", "总和 − 外功"), all, work}},
+         .horizon = false,
+         .caption_of = energy_caption},
+        how.lang, studies);
+}
+
 std::optional<std::string> needs_vibration(const Scene& scene) {
     if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
     return "a rigid beam does not vibrate; choose another beam.model";
@@ -56,6 +103,7 @@ std::optional<std::string> needs_vibration(const Scene& scene) {
 const Recipe kSeries{"series", {"Any channels, of one motion or of several", "任意通道"}, no_refusal, prepare_keys};
 const Recipe kAngle{"angle", kAngleTitle, no_refusal, prepare_angle};
 const Recipe kSpeeds{"speeds", kSpeedsTitle, needs_cam, prepare_speeds};
+const Recipe kEnergy{"energy", kEnergyTitle, no_refusal, prepare_energy};
 const Recipe kTipVibration{"tip-vibration", kTipTitle, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

@@ -33,7 +33,7 @@ std::optional<PrefixedUnit> unit_of(const std::string& label) {
     if (at == std::string::npos) return std::nullopt;
     const std::string text = label.substr(at + 3);
     constexpr render::Prefix kPrefixes[] = {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"m", 1e-3}, {"µ", 1e-6}, {"n", 1e-9}};
-    for (const char* base : {"m", "N", "J", "s"})
+    for (const char* base : {"m", "N", "J", "s", "Hz"})
         for (const render::Prefix& prefix : kPrefixes)
             if (text == std::string(prefix.symbol) + base)
                 return PrefixedUnit{label.substr(0, at), prefix.factor, base};
@@ -58,8 +58,12 @@ class Largest {
 
 // By what the numbers under this label are multiplied, and the label then.
 std::pair<double, std::string> change(const std::string& label, double largest) {
+    if (!(largest > 0) || (largest >= kSmallest && largest < kLargest)) return {1, label};
+    constexpr std::string_view kThousandths = " / 10^{−3}", kMillionths = " / 10^{−6}";
+    if (label.ends_with(kThousandths) && largest < kSmallest)
+        return {1e3, label.substr(0, label.size() - kThousandths.size()) + std::string(kMillionths)};
     const std::optional<PrefixedUnit> unit = unit_of(label);
-    if (!unit || !(largest > 0) || (largest >= kSmallest && largest < kLargest)) return {1, label};
+    if (!unit) return {1, label};
     const render::Prefix prefix = render::prefix_for(largest * unit->factor);
     return {unit->factor / prefix.factor, unit->symbol + " / " + prefix.symbol + unit->base};
 }

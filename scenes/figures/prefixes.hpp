@@ -5,8 +5,9 @@
 
 namespace beamcam::scenes {
 
-// Axes and colour bars in m, N, J or s, with or without a prefix, whose numbers would need a power of ten beside them
-// get another prefix: "$w$ / mm" with 10^{−6} becomes "$w$ / nm". Others stay as they are.
+// Axes and colour bars in m, N, J, s or Hz, with or without a prefix, whose numbers would need a power of ten beside
+// them get another prefix: "$w$ / mm" with 10^{−6} becomes "$w$ / nm". Thousandths become millionths. Others stay as
+// they are.
 void choose_prefixes(render::figure::Figure& figure);
 
 }  // namespace beamcam::scenes

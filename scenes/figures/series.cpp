@@ -53,8 +53,10 @@ Figure series_figure(const SeriesPlan& plan, const SeriesWords& words, const Res
     figure.stack = figure.share_x = true;
     figure.aspect = words.aspect > 0 ? words.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
     figure.title = words.title.empty() ? usual_title(plan) : words.title;
-    figure.caption = series_caption(plan, words.caption.empty() ? series_subject(plan.keys, plan.lang) : words.caption,
-                                    figure, results);
+    const std::string subject = words.caption_of        ? words.caption_of(figure, plan.lang)
+                                : words.caption.empty() ? series_subject(plan.keys, plan.lang)
+                                                        : words.caption;
+    figure.caption = series_caption(plan, subject, figure, results);
     std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
     for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.study]);
     figure.accuracy = accuracy(runs, plan.lang);
@@ -65,9 +67,10 @@ Figure series_figure(const SeriesPlan& plan, const SeriesWords& words, const Res
 
 FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesWords& words, Lang lang,
                            Studies& studies) {
-    return [plan = plan_series(scene, keys, words.name, lang, studies), words](const Results& results) {
-        return series_figure(plan, words, results);
-    };
+    SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
+    plan.sums = words.sums, plan.horizon = words.horizon;
+    complete(plan, scene, words.name, studies);
+    return [plan, words](const Results& results) { return series_figure(plan, words, results); };
 }
 
 }  // namespace beamcam::scenes

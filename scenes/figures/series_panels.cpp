@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "render/base/error.hpp"
@@ -46,15 +47,17 @@ class SeriesPanelMaker {
     std::vector<Panel> make() {
         panel_.title = keys_.title;
         if (plan_.keys.apart) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
-        panel_.name = name(keys_.channels.front());
+        if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::figure::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
         if (!keys_.right.empty()) panel_.right.emplace();
         add_side({planned_.left, keys_.channels, false});
         if (panel_.right) add_side({planned_.right, keys_.right, true});
-        panel_.legend = curves_ > 1 ? Legend::direct : Legend::none;
+        panel_.legend = has_sums() ? Legend::box : curves_ > 1 ? Legend::direct : Legend::none;
+        if (has_sums()) panel_.share = 2.2;
         if (plan_.abscissa.is_time()) add_instants();
         std::vector<Panel> out;
+        if (is_rounding_) return out;
         out.push_back(std::move(panel_));
         if (differences_.series.empty()) return out;
         finish_differences();
@@ -63,18 +66,25 @@ class SeriesPanelMaker {
     }
 
   private:
+    bool has_sums() const { return planned_.number == 0 && !plan_.sums.empty(); }
+    // On a logarithmic axis what the energy balance changes by is a magnitude.
+    bool is_closure() const {
+        return keys_.logarithmic && keys_.channels.front().kind == sim::ChannelKind::energy_residual;
+    }
+
     void add_side(Side side) {
         read(side);
         Axis& axis = side.right ? *panel_.right : panel_.y;
         const bool own_label = !side.right && !keys_.label.empty();
         axis.label =
             axis_label(own_label ? keys_.label : fmt::format("{}", fmt::join(side.symbols, ", ")), side.measure.unit);
-        for (std::size_t i = 0; i < side.curves.size(); ++i) add_curve(side, i);
+        for (std::size_t i = 0; i < side.curves.size(); ++i) has_sums() ? add_sum(side, i) : add_curve(side, i);
         if (std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end()) add_data(side);
         if (side.right) return;
         for (auto* limit : {&axis.from, &axis.to})
             if (*limit) **limit *= side.measure.factor;
         for (const double at : keys_.lines) panel_.rules.push_back({.at = at * side.measure.factor});
+        if (is_closure()) begin_at_rounding(side);
     }
 
     // The rows of the curves; panels of motions apart have one unit.
@@ -89,15 +99,22 @@ class SeriesPanelMaker {
         if (!(most > 0) && std::ranges::none_of(side.rows, has_values))
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
-        side.measure = measure_of(unit(first, plan_.motions.front().problem), most);
+        const std::string si = unit(first, plan_.motions.front().problem);
+        side.measure = plan_.sums.empty() ? measure_of(si, most) : Measure{1, si};
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
-                filled(plan_.abscissa.is_frequency() ? "|{}|" : "{}", render::print_symbol(channel)));
+                filled(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}", render::print_symbol(channel)));
     }
     sim::Table rows_of(const SeriesCurve& curve) const {
         sim::Table rows = plan_.rows(curve, results_);
-        rows.values.back() = above_zero(std::move(rows.values.back()), curve.channel);
+        if (!curve.sum) rows.values.back() = above_zero(std::move(rows.values.back()), curve.channel);
+        for (double& v : rows.values.back())
+            if (is_closure()) v = std::max(std::abs(v), rounding(curve));
         return rows;
+    }
+    // Below it the balance is rounding, another on every machine.
+    double rounding(const SeriesCurve& curve) const {
+        return 1e-12 * results_[plan_.motions[curve.motion].study]->energy_scale;
     }
     double largest_of_all(bool right) const {
         double most = 0;
@@ -106,6 +123,30 @@ class SeriesPanelMaker {
                 for (const SeriesCurve& curve : right ? panel.right : panel.left)
                     most = std::max(most, largest(rows_of(curve).values.back()));
         return most;
+    }
+
+    // The lower edge of the axis; where all of it is rounding, and there are other panels, nothing is shown.
+    void begin_at_rounding(const Side& side) {
+        double floor = 0, most = 0;
+        for (std::size_t i = 0; i < side.curves.size(); ++i)
+            floor = std::max(floor, rounding(side.curves[i])),
+            most = std::max(most, largest(side.rows[i].values.back()));
+        if (!panel_.y.from && floor > 0) panel_.y.from = floor * side.measure.factor;
+        is_rounding_ = plan_.keys.panels.size() > 1 && !(floor > 0 && most > 10 * floor);
+    }
+
+    // One of several channels that is nothing throughout is left out.
+    void add_sum(const Side& side, std::size_t i) {
+        const SeriesSum& sum = plan_.sums[*side.curves[i].sum];
+        const std::vector<double>& values = side.rows[i].values.back();
+        if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
+        constexpr int kBlack = 6;
+        Series& s = panel_.series.emplace_back();
+        s.label = sum.label;
+        s.x = plan_.abscissa.of(side.rows[i], first_.problem), s.y = values;
+        s.solid = !sum.minus.empty();
+        s.look = s.solid ? kBlack : curves_++;
+        s.weight = s.solid ? 1 : weight_;
     }
 
     // Paler where θ is not reproducible.
@@ -199,7 +240,7 @@ class SeriesPanelMaker {
         const double from = plan_.keys.from, to = plan_.end;
         if (plan_.keys.impacts)
             add_rules(impact_rules(result, from, to));
-        else if (planned_.motions.size() == 1)
+        else if (planned_.motions.size() == 1 && plan_.horizon)
             add_rules(horizon_rules(result, from, to));
         add_rules(note_rules(plan_.keys.notes, result, from, to, planned_.number == 0));
     }
@@ -218,7 +259,8 @@ class SeriesPanelMaker {
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
-    int curves_ = 0;  // so far, on both axes and with data: the look of the next one
+    bool is_rounding_ = false;  // all that it would show
+    int curves_ = 0;            // so far, on both axes and with data: the look of the next one
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "scenes/figures/series_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "scenes/figures/series_spectrum.hpp"
@@ -44,6 +45,21 @@ std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesM
     return tables.size() - 1;
 }
 
+// One table for all sums, with the rows that the first of their channels needs.
+void add_sums(const SeriesPlan& plan, std::size_t motion, Studies& studies, std::vector<SeriesCurve>& curves) {
+    constexpr int kSumRows = 8001;  // to begin with: energies swing with whatever the beam does
+    std::vector<sim::ChannelKind> all;
+    for (const SeriesSum& sum : plan.sums)
+        for (const auto* kinds : {&sum.plus, &sum.minus})
+            for (const sim::ChannelKind kind : *kinds)
+                if (std::ranges::find(all, kind) == all.end()) all.push_back(kind);
+    const sim::Channel first{all.front(), 0};
+    all.erase(all.begin());
+    const std::size_t table =
+        studies.curve(plan.motions[motion].study, {plan.keys.from, plan.end, kSumRows}, {}, first, all);
+    for (std::size_t k = 0; k < plan.sums.size(); ++k) curves.push_back({first, motion, table, k});
+}
+
 PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions, Studies& studies) {
     PlannedPanel out{number, std::move(motions), {}, {}};
     const SeriesPanel& keys = plan.keys.panels[number];
@@ -52,8 +68,24 @@ PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std
             for (const std::size_t motion : out.motions)
                 curves.push_back({channel, motion, table_of(plan, channel, plan.motions[motion], studies)});
     };
-    add(keys.channels, out.left);
+    if (number == 0 && !plan.sums.empty())
+        for (const std::size_t motion : out.motions) add_sums(plan, motion, studies, out.left);
+    else
+        add(keys.channels, out.left);
     add(keys.right, out.right);
+    return out;
+}
+
+sim::Table summed(const sim::Table& rows, const SeriesSum& sum) {
+    sim::Table out{{rows.channels[0], rows.channels[1]}, {rows.values[0], std::vector<double>(rows.rows(), 0)}};
+    const auto add = [&](const std::vector<sim::ChannelKind>& kinds, double sign) {
+        for (const sim::ChannelKind kind : kinds) {
+            const std::vector<double>& values = column(rows, kind);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (std::isfinite(values[i])) out.values[1][i] += sign * values[i];
+        }
+    };
+    add(sum.plus, 1), add(sum.minus, -1);
     return out;
 }
 
@@ -61,19 +93,20 @@ PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std
 
 sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) const {
     const sim::Table& rows = results[motions[curve.motion].study]->tables[curve.table];
+    if (curve.sum) return summed(rows, sums[*curve.sum]);
     return abscissa.is_frequency() ? spectrum_table(rows, keys.x_high) : rows;
 }
 
 std::vector<Lost> SeriesPlan::lost(const sim::Result& result) const {
-    return abscissa.is_frequency() ? std::vector<Lost>{} : unreliable(result, end);
+    return abscissa.is_frequency() || !horizon ? std::vector<Lost>{} : unreliable(result, end);
 }
 
-SeriesPlan plan_series(const Scene& scene, const SeriesKeys& keys, const char* name, Lang lang, Studies& studies) {
-    SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
+void complete(SeriesPlan& plan, const Scene& scene, const char* name, Studies& studies) {
+    const SeriesKeys& keys = plan.keys;
     plan.motions = motions_of(scene, keys);
     for (SeriesMotion& motion : plan.motions) {
         motion.study = studies.of(motion.problem, plan.end, name);
-        studies.horizon(motion.study);
+        if (plan.horizon) studies.horizon(motion.study);
         if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
             studies.turning_points(motion.study);
     }
@@ -84,7 +117,6 @@ SeriesPlan plan_series(const Scene& scene, const SeriesKeys& keys, const char* n
     for (std::size_t group = 0; group < (keys.apart ? all.size() : 1); ++group)
         for (std::size_t number = 0; number < keys.panels.size(); ++number)
             plan.panels.push_back(planned(plan, number, keys.apart ? std::vector{group} : all, studies));
-    return plan;
 }
 
 }  // namespace beamcam::scenes

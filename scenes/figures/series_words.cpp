@@ -92,6 +92,7 @@ std::string undrawn_words(const SeriesPlan& plan) {
 // How far the curves can be relied on, and what data are held against them.
 std::string trust_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
     const double from = plan.keys.from;
+    if (!plan.horizon) return undrawn_words(plan);
     if (plan.abscissa.is_frequency())
         return spectrum_words(plan.motions.front().problem, from, plan.end, plan.lang) +
                measured_spectrum_words(plan.measured, plan.lang);

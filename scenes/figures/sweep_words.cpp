@@ -100,8 +100,8 @@ std::string words_of_point(const Swept& swept, std::uint64_t point, Lang lang) {
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    std::string text = fmt::format("{} = {:.6g}{}", figure::to_plain(symbol_of(axis.name)), points.data.place(point)[0],
-                                   axis.unit == "1" ? "" : " " + axis.unit);
+    std::string text = fmt::format("{} = {:.{}g}{}", figure::to_plain(symbol_of(axis.name)),
+                                   points.data.place(point)[0], kValueDigits, axis.unit == "1" ? "" : " " + axis.unit);
     text += lang == Lang::en ? ": " : "：";
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
     if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);

@@ -98,6 +98,15 @@ std::string usual_diagram(const Scene& scene) {
     return kPoincare.name;
 }
 
+std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene) {
+    std::vector<std::string> known;
+    if (diagram != kBifurcation.name) known.assign(std::begin(kMapValues), std::end(kMapValues));
+    for (const sim::SampleColumnInfo& column : sim::sample_columns())
+        if (scene.sweep->sampling.kind == sim::SampleKind::impacts || !column.of_impacts)
+            known.emplace_back(column.name);
+    return known;
+}
+
 std::vector<std::string> diagram_names() {
     std::vector<std::string> names;
     for (const Recipe& recipe : recipes())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/scene/scene.hpp"
@@ -12,5 +13,7 @@ namespace beamcam::scenes {
 std::vector<std::string> diagram_names();
 // The one that suits the scene's sweep.
 std::string usual_diagram(const Scene& scene);
+// What the diagram can show of the points of the scene's sweep, by the key "value".
+std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene);
 
 }  // namespace beamcam::scenes

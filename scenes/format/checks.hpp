@@ -42,4 +42,7 @@ void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each 
 // Why a span has no frames, or too many; empty when it is fine.
 std::string problem_with_span(const FrameSpan& span, double end_time);
 
+// Why a diagram cannot show this of the points of the scene's sweep; empty: it can.
+std::string problem_with_value(std::string_view diagram, const std::string& value, const Scene& scene);
+
 }  // namespace beamcam::scenes

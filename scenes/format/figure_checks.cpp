@@ -5,7 +5,9 @@
 
 #include "render/plot/text.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
 
@@ -149,6 +151,12 @@ void judge_series(ObjectReader& r, FigureOutput& figure) {
 
 }  // namespace
 
+std::string problem_with_value(std::string_view diagram, const std::string& value, const Scene& scene) {
+    const std::vector<std::string> known = diagram_values(diagram, scene);
+    if (value.empty() || std::ranges::find(known, value) != known.end()) return "";
+    return fmt::format("the samples have no column {}{}", in_quotes(value), suggestion_or_list(value, known));
+}
+
 void judge_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     refuse_mixed_units(r, "channels", panel.channels);
     refuse_mixed_units(r, "right", panel.right);
@@ -167,8 +175,13 @@ void judge_figure(ObjectReader& r, FigureOutput& figure) {
     judge_own_keys(r, figure, recipe);
     if (figure.figure == "series") judge_series(r, figure);
     if (!r.has("figure") || r.findings().any()) return;  // judged when the physics is known
-    if (const auto refusal = refusal_of(*recipe, r.context().scene))
-        r.fail(r.place("figure"), "figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
+    const Scene& scene = r.context().scene;
+    if (const auto refusal = refusal_of(*recipe, scene))
+        return r.fail(r.place("figure"), "figure",
+                      fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
+    if (const std::string problem = recipe->of_sweep ? problem_with_value(recipe->name, figure.value, scene) : "";
+        !problem.empty())
+        r.fail(r.place("value"), "value", fmt::format("{}: {}", r.path("value"), problem));
 }
 
 }  // namespace beamcam::scenes

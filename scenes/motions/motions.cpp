@@ -203,24 +203,31 @@ void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
 }
 
 std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {
-    const auto replay = [&](const sim::Trajectory& trajectory) {
-        sim::Effort effort;
-        auto results = sim::replay(job.problem, trajectory, job.requests, progress, &effort);
-        const std::lock_guard lock(mutex_);
-        effort_.add(effort);
-        return results;
+    // Events that are searched for may lie in a shorter one.
+    const bool search = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.enough.has_value(); });
+    const auto replay = [&](const sim::Trajectory& trajectory) -> std::optional<std::vector<sim::Result>> {
+        const bool whole = trajectory.end() >= job.until;
+        if (!whole && !search) return std::nullopt;
+        try {
+            sim::Effort effort;
+            auto results = sim::replay(job.problem, trajectory, job.requests, progress, &effort);
+            const std::lock_guard lock(mutex_);
+            effort_.add(effort);
+            return results;
+        } catch (const std::invalid_argument&) {
+            if (whole) throw;
+            return std::nullopt;
+        }
     };
-    if (const auto known = known_.find(job.key); known != known_.end()) {
-        const sim::Trajectory trajectory(job.problem, known->second);
-        if (trajectory.end() >= job.until) return replay(trajectory);
-    }
+    if (const auto known = known_.find(job.key); known != known_.end())
+        if (auto results = replay(sim::Trajectory(job.problem, known->second))) return results;
     if (!cache_) return std::nullopt;
-    const auto numbers = cache_->load(job.key, job.until);
+    const auto numbers = cache_->load(job.key, search ? 0 : job.until);
     if (!numbers) return std::nullopt;
     try {
         auto results = replay(sim::Trajectory(job.problem, numbers));
         const std::lock_guard lock(mutex_);
-        ++from_cache_;
+        if (results) ++from_cache_;
         return results;
     } catch (const std::invalid_argument&) {  // whole by its checksum, yet no trajectory of this motion
         cache_->drop(job.key);
@@ -244,7 +251,7 @@ std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress&
     effort_.add(effort);
     if (remember && writer.complete()) known_[job.key] = remembered;
     if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
-    if (entry->commit(job.until, writer.steps(), words_about(job.problem)))
+    if (entry->commit(writer.reached(), writer.steps(), words_about(job.problem)))
         ++kept_;
     else if (options_.verbose)
         output::tell("the motion was not kept for later runs: {}\n", entry->why());

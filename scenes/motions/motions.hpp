@@ -40,8 +40,8 @@ class Motions {
     // What a failed integration reached; nothing where it was another motion that failed.
     const std::vector<sim::Result>& reached(std::size_t wish) const { return wishes_[wish].reached; }
 
-    // At once, for whoever must know it before anything else can be asked. The motion is remembered until `far` [s], so
-    // that wishes until then cost no second integration.
+    // At once, for whoever must know it before anything else can be asked. The motion is remembered as far as the
+    // request needs, at least until `far` [s], so that wishes until then cost no second integration.
     sim::Result find(const sim::Problem& problem, const sim::Request& request, double far);
 
     const sim::Effort& effort() const { return effort_; }

@@ -149,9 +149,9 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     if (planned.settled) {
         how = with_event_times(std::move(how), {}, planner.scene().end_time);
     } else {  // the events may be anywhere in the scene
-        how.series.from = 0, how.series.to.reset();
-        how.series.from_event.reset(), how.series.to_event.reset(), how.series.at.reset();
-        planner.find_events();
+        planned.ends_at = series.at ? series.at : series.to_event;
+        planner.find_events(series.to.value_or(planner.scene().end_time), !planned.ends_at);
+        how = without_events(std::move(how));
     }
     prepare_figure(planned, planner.scene(), how);
     if (recipe_named(figure)->of_sweep) {

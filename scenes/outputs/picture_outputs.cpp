@@ -1,11 +1,10 @@
 // Outputs "video", "frames" and "still": pictures of the mechanism and its charts.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
+#include "scenes/plan/picture_times.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -114,7 +113,8 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
         [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.show); },
         "What stands around the panels: all, a preset (talk: no parameters, no accuracy; paper: labels, legend and "
         "clock, "
-        "since the caption tells the rest; clean: nothing), or an object that leaves parts out.");
+        "since the caption tells the rest; clean: nothing), or an object that leaves parts out. Without the legend the "
+        "picture does not say by how much it exaggerates deflection.");
     v.object(
         written_if(picture.view.colors != render::OwnColors{}, "palette"),
         [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.colors); },
@@ -365,10 +365,8 @@ void PageOutput::plan(Planner& planner, std::size_t output) const {
     p.picture.view = view;
     p.picture.view.style = render::Style::flat;
     p.span = span;
-    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
-    const double end = span.to.value_or(planner.scene().end_time),
-                 rate = kFewestPoses / std::max(end - span.from, 1e-9);
-    if (rate > span.fps.value()) p.span.fps = {static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1};
+    const double end = span.to.value_or(planner.scene().end_time);
+    p.span.fps = rate_of_page(span.fps, span.from, end);
     planner.add(std::move(p), end);
 }
 

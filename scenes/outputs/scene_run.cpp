@@ -83,7 +83,10 @@ void SceneRun::find_impacts(double far) {
     settle(
         plan_, scene_,
         [&](const sim::Problem& problem, const sim::Request& request) {
-            return context_.motions.find(problem, request, &problem == &scene_.problem ? far : request.end_time);
+            return context_.motions.find(problem, request,
+                                         &problem == &scene_.problem ? far
+                                         : request.enough            ? 0
+                                                                     : request.end_time);
         },
         [&](std::size_t output, const std::string& why) { refuse(output, why); });
     context_.times.simulate += seconds_since(start);
@@ -194,6 +197,9 @@ void SceneRun::write_pictures(std::size_t picture) {
             "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
             "far from where it touches\n",
             p.file, film.exaggeration(), *wanted);
+    if (film.exaggeration() > 1 && !p.picture.view.show.legend)
+        context_.say("note: {} shows deflection ×{:g} and does not say so; its caption has to\n", p.file,
+                     film.exaggeration());
     if (film.cuts_title())
         context_.say("warning: {} shows only the beginning of the title: {}\n", p.file,
                      no_room_to_write(p.picture.size));

@@ -16,6 +16,7 @@
 #include "scenes/figures/growing_diagram.hpp"
 #include "scenes/figures/make.hpp"
 #include "scenes/figures/sweep_words.hpp"
+#include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/forms.hpp"
 #include "scenes/outputs/sweep_shots.hpp"
@@ -152,6 +153,7 @@ class SweepFilm {
         setup.view.show = kBesideDiagram;
         setup.layout = render::LayoutNode{};
         setup.units = scene_.units;
+        setup.digits = kValueDigits;
         setup.poses = shot.poses;
         setup.impacts = shot.impacts;
         const double speed = how_.turns * cam_period(shot.problem);  // of time
@@ -226,6 +228,7 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
     if (const std::string missing = without_room(film.size); !missing.empty())
         r.findings().warning(r.has("size") ? r.place("size").place : r.node()->place,
                              fmt::format("{} leaves no room to write {}; a larger \"size\" would", r.what(), missing));
+    refuse("value", problem_with_value("bifurcation", film.value, scene));
     refuse("fps", output::rate_problem(codec, film.fps.value()));
     if (film.crf && !output::quality_scale(codec)) refuse("crf", "this codec has no quality to choose; remove it");
 }

@@ -38,7 +38,8 @@ std::optional<Cost> cost(const History& history, const sim::Problem& problem, co
 }  // namespace
 
 void estimate(Plan& plan, const Scene& scene, const History& history, int threads) {
-    if (plan.simulation) plan.simulation->cost = cost(history, scene.problem, *plan.simulation);
+    if (plan.simulation && plan.simulation->until_events.empty())
+        plan.simulation->cost = cost(history, scene.problem, *plan.simulation);
     for (Variant& v : plan.variants) v.simulation.cost = cost(history, v.problem, v.simulation);
     for (Pictures& p : plan.pictures) {
         for (ComparedMotion& each : p.compared)

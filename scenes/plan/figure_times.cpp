@@ -7,6 +7,7 @@
 
 #include "render/base/error.hpp"
 #include "scenes/figures/prefixes.hpp"
+#include "scenes/plan/event_search.hpp"
 #include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
@@ -24,10 +25,6 @@ void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& 
     figure.studies = studies.take();
     const std::string own = Studies::key(scene.problem);
     for (Study& study : figure.studies) study.of_scene = Studies::key(study.problem) == own;
-}
-
-const sim::Problem& counted_motion(const Scene& scene, const FigureOutput& how) {
-    return how.series.compare.empty() ? scene.problem : how.series.compare.front().problem;
 }
 
 bool looks_at_apexes(const FigureOutput& how) {
@@ -49,6 +46,24 @@ FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, doubl
         throw render::PictureError(fmt::format("figure {}: its begin, {}, is not before its end, {}", how.figure,
                                                words(from_event, series.from), words(to_event, end)));
     how.series = std::move(series);
+    return how;
+}
+
+FigureOutput with_found_times(const FigureOutput& how, const Scene& scene, const FindImpacts& find) {
+    const SeriesKeys& keys = how.series;
+    if (!keys.looks_at_impacts()) return with_event_times(how, {}, scene.end_time);
+    const sim::Problem& counted = keys.compare.empty() ? scene.problem : keys.compare.front().problem;
+    const sim::Request request = events_until(keys.to.value_or(scene.end_time), looks_at_apexes(how));
+    const bool ends_at_event = keys.to_event || keys.at;
+    return with_event_times(how, find_events(counted, request, ends_at_event ? bounds_of(keys) : Bounds(), find),
+                            scene.end_time);
+}
+
+FigureOutput without_events(FigureOutput how) {
+    SeriesKeys& keys = how.series;
+    if (keys.from_event || keys.at) keys.from = 0;
+    if (keys.to_event || keys.at) keys.to.reset();
+    keys.from_event.reset(), keys.to_event.reset(), keys.at.reset();
     return how;
 }
 

@@ -25,6 +25,7 @@ Json motion_stage(const sim::Problem& problem, const sim::Request& request, cons
 
 Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
     Json stage = motion_stage(problem, simulation.request, simulation.until_because);
+    if (!simulation.until_events.empty()) stage["until_events"] = simulation.until_events;
     stage["horizon"] = simulation.horizon;
     stage["from_cache"] = simulation.from_cache;
     stage["keep"] = simulation.keep;

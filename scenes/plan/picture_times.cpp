@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/base/error.hpp"
+#include "scenes/plan/event_search.hpp"
 #include "scenes/plan/figure_times.hpp"
+#include "scenes/scene/time_map.hpp"
+#include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -13,11 +17,11 @@ namespace {
 // A still of an instant is chosen by what led to it; one of an impact, which is found in the whole motion, by that.
 double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
 
-sim::Request events_until(double end, bool apexes) {
-    sim::Request request;
-    request.end_time = end;
-    request.turning_points = apexes;
-    return request;
+void end_at_event(Pictures& p, const sim::Result& motion) {
+    if (!p.ends_at_event()) return;
+    p.end_time = instant_of(*p.span.to_event, motion);
+    if (p.kind == Pictures::Kind::page)
+        p.span.fps = rate_of_page(p.span.fps, with_times(p.span, motion).from, p.end_time);
 }
 
 bool looks_at_apexes(const Pictures& p) {
@@ -28,14 +32,18 @@ bool looks_at_apexes(const Pictures& p) {
 }
 
 FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& motion) {
-    if (!times.frames.empty()) add_moves(times, p.picture.view, p.span.fps.value(), motion, p.span.to.has_value());
+    const bool shortened = p.span.to || p.ends_at_event();
+    if (!times.frames.empty()) add_moves(times, p.picture.view, p.span.fps.value(), motion, shortened);
     add_exposures(times, p.picture.view, p.span.fps.value(), p.end_time);
     return times;
 }
 
 // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
-FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
-    const sim::Result first = find(p.compared.front().problem, events_until(p.end_time, looks_at_apexes(p)));
+FilmTimes times_of_compared(Pictures& p, const FindImpacts& find) {
+    const sim::Result first = find_events(p.compared.front().problem, events_until(p.end_time, looks_at_apexes(p)),
+                                          p.ends_at_event() ? bounds_of(p) : Bounds(), find);
+    end_at_event(p, first);
+    for (ComparedMotion& each : p.compared) each.request.end_time = p.end_time;
     std::vector<sim::Impact> all = first.impacts;
     for (std::size_t i = 1; i < p.compared.size(); ++i) {
         const sim::Result other = find(p.compared[i].problem, events_until(p.end_time, false));
@@ -49,6 +57,12 @@ FilmTimes times_of_compared(const Pictures& p, const FindImpacts& find) {
 }
 
 }  // namespace
+
+FrameRate rate_of_page(FrameRate fps, double from, double to) {
+    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
+    const double rate = kFewestPoses / std::max(to - from, 1e-9);
+    return rate > fps.value() ? FrameRate{static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1} : fps;
+}
 
 FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
     return with_moves(p,
@@ -128,28 +142,39 @@ void settle_each(std::vector<T>& all, const RefusePicture& refuse, const Settle&
 }  // namespace
 
 void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
+    Bounds bounds;
+    const auto add_bounds = [&](const Bounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
+    for (const Pictures& p : plan.pictures)
+        if (!p.settled && p.compared.empty()) add_bounds(bounds_of(p));
+    for (const FigureFile& f : plan.figures)
+        if (const SeriesKeys& keys = output_of(f, scene).series; !f.settled && keys.compare.empty())
+            add_bounds(bounds_of(keys));
+    if (plan.all_impacts) bounds.clear();
     std::optional<sim::Result> found;
     const auto own = [&]() -> const sim::Result& {
-        if (!found) found = find(scene.problem, events_until(*plan.impacts_until, looks_at_apexes(plan, scene)));
+        if (!found)
+            found = find_events(scene.problem, events_until(*plan.impacts_until, looks_at_apexes(plan, scene)), bounds,
+                                find);
         return *found;
     };
     settle_each(plan.pictures, refuse, [&](Pictures& p) {
         sim::Request none;
-        if (p.compared.empty())
-            put_times(p, plan.simulation->request, times_of(p, own()));
-        else
-            put_times(p, none, times_of_compared(p, find));
+        if (!p.compared.empty()) return put_times(p, none, times_of_compared(p, find));
+        end_at_event(p, own());
+        put_times(p, plan.simulation->request, times_of(p, own()));
+        plan.simulation->look_until(p.end_time, p.file);
     });
     settle_each(plan.figures, refuse, [&](FigureFile& f) {
         const FigureOutput& how = output_of(f, scene);
-        const sim::Problem& counted = counted_motion(scene, how);
-        const double end = scene.end_time;
+        const bool of_scene = how.series.compare.empty();
         prepare_figure(f, scene,
-                       &counted == &scene.problem
-                           ? with_event_times(how, own(), end)
-                           : with_event_times(how, find(counted, events_until(end, looks_at_apexes(how))), end));
+                       of_scene ? with_event_times(how, own(), scene.end_time) : with_found_times(how, scene, find));
+        for (const Study& study : f.studies)
+            if (study.of_scene) plan.simulation->look_until(end_of(study.request), f.file);
     });
     plan.impacts_until.reset();
+    if (plan.simulation) plan.simulation->until_events.clear();
+    note_ends(plan);
 }
 
 }  // namespace beamcam::scenes

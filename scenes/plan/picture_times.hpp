@@ -13,4 +13,7 @@ void choose_frames(Pictures& p, const FilmTimes& times);
 // Puts the instants where the motions are asked for them; `request` is that of the scene's own.
 void put_times(Pictures& p, sim::Request& request, FilmTimes times);
 
+// Of a page that goes from one instant to the other [s]: `fps`, or more where the motion is short.
+FrameRate rate_of_page(FrameRate fps, double from, double to);
+
 }  // namespace beamcam::scenes

@@ -13,6 +13,12 @@ namespace beamcam::scenes {
 
 Plan plan(const Scene& scene, const Ask& ask, const Known& known) { return Planner(scene, ask, known).make(); }
 
+void Simulation::look_until(double t, const std::string& file) {
+    if (!(t > request.end_time) && !until_because.empty()) return;
+    request.end_time = std::max(t, request.end_time);
+    until_because = file;
+}
+
 bool Plan::needs_gl() const {
     return std::any_of(pictures.begin(), pictures.end(),
                        [](const Pictures& p) { return p.picture.view.style != render::Style::flat; });
@@ -71,6 +77,19 @@ std::vector<sim::Request> requests_of(const Plan& plan) {
     return all;
 }
 
+void note_ends(Plan& plan) {
+    if (!plan.simulation) return;
+    std::vector<double>& ends = plan.simulation->ends;
+    ends.clear();
+    for (Pictures& p : plan.pictures) {
+        p.until.reset();
+        if (!p.compared.empty() || !(p.end_time < plan.simulation->request.end_time)) continue;
+        const auto at = std::ranges::find(ends, p.end_time);
+        p.until = static_cast<std::size_t>(at - ends.begin());
+        if (at == ends.end()) ends.push_back(p.end_time);
+    }
+}
+
 std::string no_room(const Size& size) {
     return fmt::format(
         "{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them", size.width,
@@ -106,8 +125,9 @@ void note_unwritten(Plan& plan, const Scene& scene) {
 }
 
 bool is_slow_motion(const Pictures& p) {
-    return p.picture.compare.empty() && (p.span.speed.around || p.span.speed.factor <= 0.1 ||
-                                         (p.span.duration && p.end_time - p.span.from <= 0.1 * *p.span.duration));
+    return p.picture.compare.empty() &&
+           (p.span.speed.around || p.span.speed.factor <= 0.1 ||
+            (p.span.duration && !p.ends_at_event() && p.end_time - p.span.from <= 0.1 * *p.span.duration));
 }
 
 bool Pictures::makes_poster() const { return poster && std::ranges::binary_search(draw, *poster); }

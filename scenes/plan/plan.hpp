@@ -51,12 +51,16 @@ struct Cost {
 struct Simulation {
     sim::Request request;
     std::string until_because;  // the output that looks furthest: "fall.mp4"
+    // Where outputs end at events that are yet to be found, and may look further: "impact 3, for f.pdf".
+    std::vector<std::string> until_events = {};
     // Pictures that end before the run: each tells of impacts and energy as if the run ended with it.
     std::vector<double> ends;  // [s], distinct
     bool horizon = false;      // somebody asks until when it is reproducible: further runs
     bool from_cache = false;   // a kept trajectory goes far enough
     bool keep = false;         // for later runs
     std::optional<Cost> cost;
+
+    void look_until(double t, const std::string& file);
 };
 
 // Other physics than the scene's, that figures compare it with: what serves all that look at it.
@@ -85,7 +89,7 @@ struct Pictures {
     Encoding encoding;        // of video
     bool collisions = false;  // a strip of a film shows them one by one
     bool settled = true;    // false: the instants of frames or of the charts' rows are not known before the impacts are
-    double end_time = 0;    // nothing is looked at beyond it [s]
+    double end_time = 0;    // nothing is looked at beyond it; if it ends at an event, at most, until settled [s]
     long first_frame = 0;   // number of the first frame; the others follow
     Ask ask;                // which of them are asked for
     std::set<long> there;   // numbers of those that are finished
@@ -113,14 +117,16 @@ struct Pictures {
     std::optional<Cost> cost;
 
     bool makes_poster() const;  // it is among those that are drawn
+    bool ends_at_event() const { return kind != Kind::still && span.to_event.has_value(); }
 };
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
     // False: it begins or ends at events; studies and maker are of the whole scene until they are known.
     bool settled = true;
-    std::vector<Study> studies = {};  // what it looks at, as if it were alone
-    FigureMaker make = {};            // from their results
+    std::optional<Instant> ends_at = {};  // the event
+    std::vector<Study> studies = {};      // what it looks at, as if it were alone
+    FigureMaker make = {};                // from their results
     std::optional<Cost> cost = {};
 };
 
@@ -155,8 +161,11 @@ struct Skipped {
 
 struct Plan {
     std::optional<Simulation> simulation;
-    // Until when a first run has to find impacts, because pictures and figures that are not settled look at them.
+    // Until when, at most, a first run has to find events, because pictures and figures that are not settled look at
+    // them.
     std::optional<double> impacts_until;
+    bool all_impacts =
+        false;  // some look at all until then; else the run may end once it has the events that they name
     std::vector<Variant> variants;
     std::string sweep;           // the first file that shows the points of the scene's sweep; empty: none
     bool sweep_goes_on = false;  // and a film shows how motions go on from their ends, which no NetCDF file has
@@ -177,6 +186,9 @@ Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
 // What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
 // in their order. None without a simulation.
 std::vector<sim::Request> requests_of(const Plan& plan);
+
+// Notes which of its pictures end before the run.
+void note_ends(Plan& plan);
 
 // Why a picture leaves out Pictures::too_small.
 std::string no_room(const Size& size);

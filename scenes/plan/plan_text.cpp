@@ -84,11 +84,12 @@ std::string file_cost(const std::optional<Cost>& cost) {
 }
 
 std::string simulation_words(const Simulation& simulation, const sim::Problem& problem) {
-    const sim::Request& request = simulation.request;
-    std::string words = request.end_time > 0
-                            ? fmt::format("{}; until {:g} s, because of {}", model_words(problem), request.end_time,
-                                          simulation.until_because)
-                            : fmt::format("{}; the initial state only, nothing to integrate", model_words(problem));
+    const double end = simulation.request.end_time;
+    std::string words = model_words(problem) + "; ",
+                events = fmt::format("{}", fmt::join(simulation.until_events, ", "));
+    if (end > 0) words += fmt::format("until {:g} s, because of {}", end, simulation.until_because);
+    if (!events.empty()) words += fmt::format("{}until {}", end > 0 ? ", or, if that is later, " : "", events);
+    if (!(end > 0) && events.empty()) words += "the initial state only, nothing to integrate";
     if (simulation.from_cache) words += "; kept from an earlier run";
     if (simulation.keep) words += "; kept for later runs, unless it is short";
     if (simulation.horizon) words += "; further runs find until when it is reproducible";
@@ -108,8 +109,12 @@ std::string span_words(const Pictures& p, const std::vector<double>& times) {
                                film_times(alone, p.end_time, {}).frames.size(), p.span.from, p.end_time,
                                p.span.fps.value());
         }
-        return fmt::format("frames of {:g} s to {:g} s at {:g} a second, as many as the impacts ask for", p.span.from,
-                           p.end_time, p.span.fps.value());
+        const auto bound = [](const std::optional<Instant>& event, double t) {
+            return name_of(event.value_or(Instant{.t = t}));
+        };
+        return fmt::format("frames of {} to {} at {:g} a second, as many as the impacts ask for",
+                           bound(p.span.from_event, p.span.from), bound(p.span.to_event, p.end_time),
+                           p.span.fps.value());
     }
     if (still) return fmt::format("one picture of {:g} s", times.front());
     return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", p.draw.size(),
@@ -145,8 +150,8 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
     if (plan.impacts_until)
         line("impacts",
-             fmt::format("a first run until {:g} s finds them: outputs below begin, stand or slow down at them",
-                         *plan.impacts_until));
+             fmt::format("a first run until {:g} s{} finds them: outputs below begin, end, stand or slow down at them",
+                         *plan.impacts_until, plan.all_impacts ? "" : ", or until it has them,"));
     if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared)

@@ -92,24 +92,17 @@ Plan Planner::make() {
 }
 
 void Planner::finish_simulation() {
-    const double end = simulation_.request.end_time;
-    for (Pictures& p : plan_.pictures) {
-        if (!p.compared.empty() || !(p.end_time < end)) continue;
-        std::vector<double>& ends = simulation_.ends;
-        const auto at = std::find(ends.begin(), ends.end(), p.end_time);
-        p.until = static_cast<std::size_t>(at - ends.begin());
-        if (at == ends.end()) ends.push_back(p.end_time);
-    }
     simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
     for (const sim::Request& of_figure : figures_ask_)
         simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
     settle_cache(simulation_, known_.kept_until);
     plan_.simulation = std::move(simulation_);
+    note_ends(plan_);
 }
 
 // `keep` says so far whether it is worth it.
 void Planner::settle_cache(Simulation& simulation, std::optional<double> kept_until) const {
-    simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time;
+    simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time && simulation.until_events.empty();
     simulation.keep = simulation.keep && known_.keeps && !simulation.from_cache;
 }
 
@@ -119,10 +112,12 @@ double Planner::run_end() const { return std::max(scene_.end_time, known_.until)
 
 void Planner::look_until(double t, const std::string& file) {
     needed_ = true;
-    if (t > simulation_.request.end_time || simulation_.until_because.empty()) {
-        simulation_.request.end_time = std::max(t, simulation_.request.end_time);
-        simulation_.until_because = file;
-    }
+    simulation_.look_until(t, file);
+}
+
+void Planner::look_until(const Instant& event, const std::string& file) {
+    needed_ = true;
+    simulation_.until_events.push_back(fmt::format("{}, for {}", name_of(event), file));
 }
 
 std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Channel> channels) {
@@ -156,13 +151,13 @@ void Planner::add(Pictures p, double ends) {
     if (p.settled)
         put_times(p, simulation_.request, std::move(times));
     else
-        plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), ends);
+        find_events(ends, !p.ends_at_event());
     plan_.pictures.push_back(std::move(p));
 }
 
 void Planner::add_own_motion(Pictures& p, double ends) {
     sim::Request& request = simulation_.request;
-    look_until(ends, p.file);
+    p.ends_at_event() ? look_until(*p.span.to_event, p.file) : look_until(ends, p.file);
     if (p.picture.horizon) ask_for_horizon();
     p.poses = request.poses.size();
     request.poses.push_back({});
@@ -187,16 +182,19 @@ void Planner::add_compared(Pictures& p) {
 }
 
 void Planner::add(FigureFile figure) {
-    for (const Study& study : figure.studies) add_study(study, figure.file);
+    for (const Study& study : figure.studies) add_study(study, figure);
     plan_.figures.push_back(std::move(figure));
 }
 
-void Planner::find_events() { plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), scene_.end_time); }
+void Planner::find_events(double until, bool all) {
+    plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), until);
+    plan_.all_impacts = plan_.all_impacts || all;
+}
 
 // A figure's run joins others of its motion.
-void Planner::add_study(const Study& study, const std::string& file) {
+void Planner::add_study(const Study& study, const FigureFile& figure) {
     if (study.of_scene) {
-        look_until(end_of(study.request), file);
+        figure.ends_at ? look_until(*figure.ends_at, figure.file) : look_until(end_of(study.request), figure.file);
         figures_ask_.push_back(study.request);
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
@@ -209,10 +207,7 @@ void Planner::add_study(const Study& study, const std::string& file) {
         same = plan_.variants.end() - 1;
     }
     Simulation& all = same->simulation;
-    if (all.until_because.empty() || end_of(study.request) > all.request.end_time) {
-        all.request.end_time = std::max(all.request.end_time, end_of(study.request));
-        all.until_because = file;
-    }
+    all.look_until(end_of(study.request), figure.file);
     all.horizon = all.horizon || study.request.horizon;
     all.keep = all.keep || worth_keeping(study.problem, study.request);
 }
@@ -239,7 +234,7 @@ void Planner::note_skipped() {
                     : finished_ > 0        ? "everything is there already"
                                            : "no output looks at the motion");
     const double end = plan_.simulation->request.end_time;
-    if (end < scene_.end_time)
+    if (end < scene_.end_time && plan_.simulation->until_events.empty())
         skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");
     if (!scene_.problem.cam) skip("contact", "the scene has no cam");
     if (plan_.simulation->from_cache) skip("integration", "the motion is kept from an earlier run");

@@ -21,6 +21,7 @@ class Planner {
     double run_end() const;
     // The scene's motion is needed until `t` [s], because of `file`.
     void look_until(double t, const std::string& file);
+    void look_until(const Instant& event, const std::string& file);
     std::size_t add_table(std::vector<double> times, std::vector<sim::Channel> channels);  // its index
     sim::Request& request() { return simulation_.request; }
     void ask_for_sweep(const std::string& file) {
@@ -32,14 +33,14 @@ class Planner {
 
     void add(Pictures p, double ends);  // `ends`: the latest instant that the pictures can look at [s]
     void add(FigureFile figure);
-    // Of a figure that is not settled: the motions are needed until the end of the scene, for their events.
-    void find_events();
+    // Of what is not settled: its motion is searched for events; for `all` until then, or for those that it names.
+    void find_events(double until, bool all);
     void add(DataFile data) { plan_.data.push_back(std::move(data)); }
 
   private:
     void finish_simulation();
     void settle_cache(Simulation& simulation, std::optional<double> kept_until) const;
-    void add_study(const Study& study, const std::string& file);
+    void add_study(const Study& study, const FigureFile& figure);
     void add_own_motion(Pictures& p, double ends);
     void add_compared(Pictures& p);
     void note_left_frames(const Pictures& p, std::size_t count);

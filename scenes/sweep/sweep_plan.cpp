@@ -19,7 +19,7 @@ constexpr double kCommonColumns = 9;
 
 }  // namespace
 
-std::string sweep_plan(const SweepGrid& grid, int threads, bool json) {
+std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& files, int threads, bool json) {
     const SweepCost cost = cost_of(grid);
     const int used = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads), grid.tasks()));
     const double seconds = cost.seconds / std::max(used, 1);
@@ -34,6 +34,9 @@ std::string sweep_plan(const SweepGrid& grid, int threads, bool json) {
         add(out, "rows", number_node(std::round(rows)));
         add(out, "csv_bytes", number_node(std::round(rows * columns * kTextOfNumber)));
         add(out, "npz_bytes", number_node(std::round(rows * columns * kNumber)));
+        Node made = array_node();
+        for (const PlannedFile& each : files) made.items.push_back(text_node(each.file));
+        add(out, "files", std::move(made));
         return to_text(out);
     }
     std::string text = "sweep\n";
@@ -44,6 +47,7 @@ std::string sweep_plan(const SweepGrid& grid, int threads, bool json) {
     text += fmt::format("  about {:.2g} s on {}\n", seconds, counted(used, "thread"));
     text += fmt::format("  about {:.2g} rows: {:.2g} MB of CSV, {:.2g} MB of NPZ\n", rows,
                         1e-6 * rows * columns * kTextOfNumber, 1e-6 * rows * columns * kNumber);
+    for (const PlannedFile& each : files) text += fmt::format("  {}: {}\n", each.file, each.content);
     return text;
 }
 

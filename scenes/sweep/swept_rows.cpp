@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
+#include "output/data/netcdf_library.hpp"
 #include "output/data/table_reader.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "scenes/sweep/problem_family.hpp"
@@ -23,10 +25,18 @@ std::vector<double> lasting_classes() {
     return numbers;
 }
 
+// A NetCDF file has the rows that the same sweep has as .csv.
+output::NamedTable sweep_table(const std::string& file) {
+    if (!file.ends_with(".nc")) return output::read_table(file);
+    std::ostringstream text;
+    output::write_sweep_csv(text, output::netcdf_library().open(file));
+    return output::parse_csv(text.str(), file);
+}
+
 }  // namespace
 
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to) {
-    const output::NamedTable table = output::read_table(file);
+    const output::NamedTable table = sweep_table(file);
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
         if (const std::vector<double>* found = table.find(name)) return *found;
         throw UsageError(
@@ -48,7 +58,7 @@ SweptImpacts swept_impacts(const std::string& file, const std::string& key, doub
 }
 
 sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int row) {
-    const output::NamedTable table = output::read_table(file);
+    const output::NamedTable table = sweep_table(file);
     const auto index = static_cast<std::size_t>(row - 1);
     if (index >= table.rows()) throw UsageError(fmt::format("--row {}: {} has {} rows", row, file, table.rows()));
     const auto value = [&](const char* name) {

@@ -9,7 +9,7 @@
 
 namespace beamcam::scenes {
 
-// The impacts of a .csv or .npz table of `sweep --sample impacts` where the key lies between two values. Throws
+// The impacts of a .csv, .npz or .nc table of `sweep --sample impacts` where the key lies between two values. Throws
 // UsageError where a column is missing.
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to);
 

@@ -62,6 +62,13 @@ void Recorder::begin(const Phase& first_phase, const std::vector<double>& y) {
     note_balance();
 }
 
+bool Recorder::has_enough() const {
+    const std::optional<EventCounts>& enough = request_.enough;
+    const std::size_t touches = result_.impacts.size(), releases = touches - (impact_open_ ? 1 : 0);
+    return enough && touches >= enough->touches && releases >= enough->releases &&
+           result_.collisions.size() >= enough->collisions;
+}
+
 void Recorder::phase(const Phase& phase) {
     evaluator_.set_phase(phase);
     finder_->set_phase(phase);
@@ -312,7 +319,7 @@ void Recorder::touch(double t, const double* y, const ContactState& c) {
     impact.at_touch = touch_state(t, y, c);
     if (problem_.contact.model == ContactModel::compliant) impact.force_peak = c.force;
     std::vector<Collision>& collisions = result_.collisions;
-    const bool joins = !collisions.empty() && t - collisions.back().t_end.value_or(t) < problem_.contact.collision_gap;
+    const bool joins = !collisions.empty() && t - collisions.back().t_end.value_or(t) < collision_gap(problem_);
     if (!joins) {
         Collision collision;
         collision.t_start = t;

@@ -33,6 +33,7 @@ class Recorder {
     void finish(double t, const double* y, const RunStatistics& statistics);
 
     double end() const { return end_; }
+    bool has_enough() const;  // events, where the request says how many
     Result& result() { return result_; }
 
   private:

@@ -24,6 +24,10 @@ RecorderSet::RecorderSet(const System& system, std::span<const Request> requests
     }
 }
 
+bool RecorderSet::done() const {
+    return std::ranges::all_of(done_, [](char done) { return done != 0; });
+}
+
 void RecorderSet::begin(const Phase& phase, const std::vector<double>& y) {
     y_.resize(y.size());
     for (Recorder& r : recorders_) r.begin(phase, y);
@@ -79,7 +83,7 @@ void RecorderSet::resume(double t, const std::vector<double>& y, const Phase& ph
     for (Recorder& r : recorders_) {
         if (!is_recording(r)) continue;
         r.phase(phase);
-        if (r.end() > t) continue;
+        if (r.end() > t && !r.has_enough()) continue;
         const PointSegment point(t, y);
         r.record({&point, t, t, true});
         finish(r, t, y.data(), statistics);

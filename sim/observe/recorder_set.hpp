@@ -18,6 +18,7 @@ class RecorderSet {
 
     RecorderSet(const System& system, std::span<const Request> requests);
     double end() const { return end_; }  // the furthest that anybody looks [s]
+    bool done() const;                   // all have what their requests ask for
 
     void begin(const Phase& phase, const std::vector<double>& y);
     // From `from` to `to`, where an event follows or not. `known` are the summary of an earlier run. Returns the

@@ -37,6 +37,10 @@ struct PointRequest {
     double x = 0;               // arc position, 0…L [m]
     std::vector<double> times;  // [s]
 };
+// Events of a motion since its start; a collision begins with its first touch.
+struct EventCounts {
+    std::size_t touches = 0, releases = 0, collisions = 0;
+};
 struct Request {
     double end_time = 0;  // [s]
     std::vector<TableRequest> tables;
@@ -45,6 +49,8 @@ struct Request {
     std::vector<Channel> extrema;  // located on the dense output
     bool turning_points = true;    // apexes and zero crossings of θ, which need a look at every ripple
     bool horizon = false;          // during which intervals θ is reproducible (horizon.hpp); costs more runs
+    // The run ends at the event with which the motion has had as many of each kind; else at the end above.
+    std::optional<EventCounts> enough = {};
 };
 
 }  // namespace beamcam::sim

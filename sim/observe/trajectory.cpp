@@ -269,6 +269,7 @@ void TrajectoryWriter::end(double t) {
     }
     flush();
     ended_ = true;
+    reached_ = t;
 }
 
 // ---- reader --------------------------------------------------------------------------------------
@@ -294,7 +295,6 @@ Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSourc
 }
 
 void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
-    if (recorders.end() > end_) throw std::invalid_argument("the trajectory ends before the request");
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> segments;
     const auto segment_of = [&](SegmentKind kind) -> StoredSegment& {
         std::unique_ptr<StoredSegment>& made = segments[kind];
@@ -304,7 +304,6 @@ void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
     RunStatistics statistics;
     const RecorderSet::StatisticsSource so_far = [&] { return statistics; };
     std::vector<double> y;
-    double reached = 0;
     Feed feed(*numbers_);
     for (bool over = false; !over && !feed.over();) {
         auto [kind, n] = feed.next();
@@ -326,7 +325,6 @@ void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
                 StoredSegment& segment = segment_of(static_cast<SegmentKind>(n.whole()));
                 segment.load(t0, t1, n.rest());
                 recorders.record(segment, from, to, event, so_far, has_summary ? &summary : nullptr);
-                reached = to;
                 // What follows at the same instant still belongs to a request that ends here.
                 over = recorders.end() < to || (recorders.end() == to && !event);
                 break;
@@ -346,8 +344,7 @@ void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
                 const std::span<const double> state = n.rest();
                 y.assign(state.begin(), state.end());
                 recorders.resume(t, y, phase, so_far);
-                reached = t;
-                over = recorders.end() <= t;
+                over = recorders.end() <= t || recorders.done();
                 break;
             }
             case kEnd:
@@ -355,7 +352,7 @@ void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
                 break;
         }
     }
-    if (reached < recorders.end()) throw std::invalid_argument("the trajectory has a gap");
+    if (!recorders.done()) throw std::invalid_argument("the trajectory ends before the request");
 }
 
 std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem) {

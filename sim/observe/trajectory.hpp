@@ -33,6 +33,7 @@ class TrajectoryWriter {
     // False once a segment was more than numbers: then nothing more is handed on and the rest is worthless.
     bool complete() const { return ended_ && !broken_; }
     long steps() const { return steps_; }
+    double reached() const { return reached_; }  // where it ended [s]
 
   private:
     void put_event(int kind, double t, const std::vector<double>& y, const ContactState& contact);
@@ -41,6 +42,7 @@ class TrajectoryWriter {
     Sink sink_;
     std::vector<double> buffer_;
     long steps_ = 0;
+    double reached_ = 0;
     bool broken_ = false, ended_ = false;
 };
 
@@ -58,7 +60,8 @@ class Trajectory {
     Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
     Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
     double end() const { return end_; }
-    // Tells it again, as far as the recorders looks: at most to `end`. Few of the numbers are held at once.
+    // Tells it again, as far as the recorders look. Throws std::invalid_argument where it ends before. Few of the
+    // numbers are held at once.
     void play(const Problem& problem, RecorderSet& recorders) const;
 
   private:

@@ -24,6 +24,13 @@ double contact_stiffness(const Problem& problem) {
     return 4.0 / 3.0 / compliance * std::sqrt(cam.radius);  // (S29)
 }
 
+// 20 ms of a beam of 1 m that falls on Earth; without gravity as if it did.
+double collision_gap(const Problem& problem) {
+    constexpr double kEarth = 9.81;  // [m/s²]
+    const double g = problem.gravity == 0 ? kEarth : std::fabs(problem.gravity);
+    return problem.contact.collision_gap.value_or(0.02 * std::sqrt(problem.beam.length * kEarth / g));
+}
+
 double contact_offset(const Problem& problem) { return problem.contact.offset.value_or(0.5 * problem.beam.depth); }
 
 CamPose cam_pose(const Cam& cam, double t) {

@@ -131,7 +131,7 @@ struct Contact {
     Friction friction;
     std::optional<double> offset = 0.0;  // d [m], >= 0, of the contact face; absent: "half-depth"
     ApproachFloor approach_floor;
-    double collision_gap = 0.02;  // [s]: impacts closer than this form one collision
+    std::optional<double> collision_gap;  // [s]: impacts closer than this form one collision; absent: "auto"
 };
 
 // ---- initial state, solver -------------------------------------------------------------------
@@ -167,6 +167,7 @@ struct Problem {
 Basis resolved_basis(const Problem& problem);      // never `automatic`
 double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
 double contact_offset(const Problem& problem);     // d [m]
+double collision_gap(const Problem& problem);      // [s]; "auto": in proportion to the time of a fall, √(L/g)
 double cam_period(const Problem& problem);         // 2π/|ω|; 1 s with a cam at rest or without a cam [s]
 double turn_fraction(double turns);                // without the whole ones: 0 … 1
 // Turns after the start at which the cam's angle is ψ: 0 … 1.

@@ -68,7 +68,7 @@ std::vector<Result> Run::integrate() {
         std::vector<Result> partials = output_.fail(state_);
         throw SolverError(explain(failure), state_.t, std::move(partials));
     }
-    return output_.finish();
+    return output_.finish(state_);
 }
 
 void Run::start() {

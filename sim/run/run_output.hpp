@@ -17,7 +17,7 @@ class RunOutput {
         : recorders_(system, requests), keep_(keep), observer_(observer), statistics_(std::move(statistics)) {}
 
     double end() const { return observer_ ? std::max(recorders_.end(), observer_->end()) : recorders_.end(); }
-    bool done() const { return observer_ && observer_->done(); }
+    bool done() const { return observer_ ? observer_->done() : recorders_.done(); }
     void begin(const RunState& s) {
         recorders_.begin(s.phase, s.y);
         if (keep_) keep_->begin(s.phase, s.y);
@@ -43,8 +43,8 @@ class RunOutput {
         if (keep_) keep_->resume(s.t, s.y, s.phase, statistics_());
         if (observer_) observer_->resume(s.t, s.y, s.phase);
     }
-    std::vector<Result> finish() {
-        if (keep_) keep_->end(end());
+    std::vector<Result> finish(const RunState& s) {
+        if (keep_) keep_->end(s.t);
         return recorders_.results();
     }
     std::vector<Result> fail(const RunState& s) {

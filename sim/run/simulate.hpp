@@ -50,8 +50,8 @@ Result simulate(const Problem& problem, const Request& request, const Progress& 
 std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress = {},
                              TrajectoryWriter* keep = nullptr, Effort* effort = nullptr);
 
-// The same from a trajectory that was kept, which must reach as far as the requests: the same bits again. A
-// horizon still costs its other runs.
+// The same from a trajectory that was kept: the same bits again. A horizon still costs its other runs. Throws
+// std::invalid_argument where the trajectory does not reach as far as the requests.
 std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
                            const Progress& progress = {}, Effort* effort = nullptr);
 

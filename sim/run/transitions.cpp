@@ -44,7 +44,7 @@ void Transitions::touch() {
     enter_phase();
     const double approach = -contact_now().gap_rate;
     const ApproachFloor& floor = problem().contact.approach_floor;
-    const bool same_collision = last_release_ && state_.t - *last_release_ < problem().contact.collision_gap;
+    const bool same_collision = last_release_ && state_.t - *last_release_ < collision_gap(problem());
     if (!same_collision) first_approach_ = approach;
     state_.phase.approach =
         std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);

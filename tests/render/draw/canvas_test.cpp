@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "render/plot/sheet.hpp"
@@ -27,6 +28,22 @@ TEST(Canvas, APictureThatCairoGaveUpIsAnError) {
         give_up(canvas);
     };
     EXPECT_THROW(draw(), std::runtime_error);
+}
+
+// Where the ground is not known every text has an outline, in a film without a paper.
+TEST(Canvas, TextsAreOutlinedInAColourThatIsNotTheirOwn) {
+    const auto covered = [](std::optional<Color> outline, Color ink, std::optional<Color> halo) {
+        Image image(80, 40);
+        Canvas canvas(image, fonts());
+        canvas.outline = outline;
+        canvas.text({10, 30}, "mm", {.size = 20, .color = ink, .halo = halo});
+        return std::ranges::count_if(image.pixels, [](std::uint32_t pixel) { return pixel != 0; });
+    };
+    const Color white = rgb(0xffffff), black = rgb(0x000000);
+    const auto bare = covered({}, black, {});
+    EXPECT_GT(covered(white.faded(0.8), black, {}), 1.3 * static_cast<double>(bare));
+    EXPECT_EQ(covered(white.faded(0.8), black, rgb(0xff0000)), covered(white.faded(0.8), black, {}));
+    EXPECT_EQ(covered(white.faded(0.8), white, {}), bare);
 }
 
 TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {

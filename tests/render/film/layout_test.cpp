@@ -85,6 +85,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
 TEST(Layout, LettersAtAxesHaveAFiftiethOfTheHeight) {
     for (const auto& [w, h] : {std::pair{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {854, 480}, {640, 360}})
         EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * h) << w << "x" << h;
+    // In pictures that are no wider than high, of the width.
+    for (const auto& [w, h] : {std::pair{1080, 1920}, {1080, 1080}, {720, 1280}})
+        EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * w) << w << "x" << h;
     const Layout usual = layout(1920, 1080, std::vector<PanelSpec>{}),
                  large = layout(1920, 1080, std::vector<PanelSpec>{}, 1, {}, {.size = 1.3});
     EXPECT_NEAR(large.tick, 1.3 * usual.tick, 1e-9);

@@ -188,6 +188,56 @@ TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
     EXPECT_EQ(drawn(brief, gone + 1), drawn(longer, gone + 1));
 }
 
+// One that begins within the same frame and lasts is seen with its own force, which may be smaller.
+TEST(Peaks, GiveWayToAContactThatLasts) {
+    FilmSetup setup = test::synthetic_film({.duration = 1.2});
+    setup.width = 640, setup.height = 360;
+    setup.view.style = Style::flat;
+    setup.layout = LayoutNode{};
+    sim::Impact brief, lasting;
+    brief.t_start = 0.301, brief.t_end = 0.302, brief.force_peak = 100;
+    lasting.t_start = 0.304, lasting.t_end = 0.4, lasting.force_peak = 100;
+    setup.impacts = {brief, lasting};
+    Film both(setup);
+    setup.impacts[0].force_peak.reset();  // nothing to hold; the rings are the same
+    Film alone(setup);
+    setup.impacts = {brief};
+    Film held(setup);
+    const int touch = 19;
+    for (int k : {touch, touch + 2, touch + 6}) EXPECT_EQ(drawn(both, k), drawn(alone, k)) << k;
+    EXPECT_NE(drawn(held, touch + 6), drawn(alone, touch + 6));
+}
+
+// What leads from a caption to the contact goes beside the disc, not over it.
+TEST(Captions, LeadToTheContactBesideTheDisc) {
+    FilmSetup setup = test::synthetic_film({.duration = 0.8});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = Style::flat;
+    setup.layout = LayoutNode{};
+    Film without(setup);
+    setup.callouts = {{0, 47, "touching"}};
+    Film with(setup);
+    int touching = 0;
+    for (int frame = 0; frame < 48; frame += 3) {
+        const sim::Pose pose = setup.pose(static_cast<std::size_t>(frame));
+        if (!pose.nearest || !pose.nearest->touching) continue;
+        ++touching;
+        const Camera camera = with.geometry(frame).camera;
+        const Vec2 centre = camera.to_pixels(pose.disc_centre);
+        const double radius = 0.9 * setup.problem.cam->radius * camera.scale;
+        const Image one = drawn(with, frame), other = drawn(without, frame);
+        EXPECT_NE(one, other);
+        int changed = 0;
+        for (int y = int(centre.y - radius); y < centre.y + radius; ++y)
+            for (int x = int(centre.x - radius); x < centre.x + radius; ++x)
+                if (const auto i = static_cast<std::size_t>(y * one.width + x);
+                    norm(Vec2{x + 0.5, y + 0.5} - centre) < radius && one.pixels[i] != other.pixels[i])
+                    ++changed;
+        EXPECT_EQ(changed, 0) << frame;
+    }
+    EXPECT_GT(touching, 0);
+}
+
 TEST(Captions, FadeAndKeepInsideWhereverTheyAreAnchored) {
     const Callout fading{10, 29, "", {}, 4};
     EXPECT_EQ(fading.opacity(9), 0);

@@ -117,13 +117,19 @@ TEST(OrbitsCommand, BeginsInTheStateOfARowOfASweep) {
         EXPECT_EQ(done.code, 0) << done.err;
         return nlohmann::json::parse(done.out)["orbits"][0];
     };
-    EXPECT_TRUE(first("--transient 10")["chatters"]);
+    EXPECT_TRUE(first("--transient '10 s'")["chatters"]);
     EXPECT_FALSE(first("--impacts 1 --transient 0 --scene loop.json")["chatters"]);
-    ASSERT_EQ(
-        shell(folder, "$BEAMCAM sweep loop.json --over cam.speed=45:46:2 --transient 40 --keep 4 -q -o r.csv").code, 0);
-    const nlohmann::json found = first("--transient 10 --sweep r.csv --row 6");  // of 46 rad/s
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM sweep loop.json --over cam.speed=45:46:2 --transient 40 --keep 4 -q -o r.csv && "
+                    "$BEAMCAM sweep loop.json --over cam.speed=45:46:2 --transient 40 --keep 4 -q -o r.nc")
+                  .code,
+              0);
+    const nlohmann::json found = first("--transient '10 s' --sweep r.csv --row 6");  // of 46 rad/s
     EXPECT_FALSE(found["chatters"]);
     EXPECT_EQ(found["impacts"], 1);
+    EXPECT_EQ(first("--transient '10 s' --sweep r.nc --row 6"), found);
+    // A plain number is turns of the cam, as of sweeps.
+    EXPECT_EQ(first("--transient '75 turns' --sweep r.csv --row 6"), first("--transient 75 --sweep r.csv --row 6"));
     EXPECT_NEAR(found["duration"], 2 * std::numbers::pi / 46, 1e-12);
     const output::NamedTable rows = output::read_table(folder / "r.csv");
     EXPECT_NEAR(found["touches"][0]["approach"], -(*rows.find("v_n_before"))[5], 1e-6);
@@ -135,7 +141,7 @@ TEST(OrbitsCommand, FollowsAMotionThatRestsOnTheCamBesideOneThatDoesNot) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished done =
-        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:54 --transient 20 -q --json " + kFallsToRest);
+        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:54 --transient '20 s' -q --json " + kFallsToRest);
     ASSERT_EQ(done.code, 0) << done.err;
     const nlohmann::json table = nlohmann::json::parse(done.out);
     ASSERT_EQ(table["branches"].size(), 2u);
@@ -224,7 +230,7 @@ TEST(OrbitsCommand, TellsWhatItCannotDo) {
 TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     const Folder folder;
     folder.write("s.json", kPressed);
-    const std::string command = "$BEAMCAM lyapunov s.json -q --transient 1 --duration '5 s' ";
+    const std::string command = "$BEAMCAM lyapunov s.json -q --transient '1 s' --duration '5 s' ";
     const Finished json = shell(folder, command + "--set contact.restitution=0.9 --json -o l.svg");
     ASSERT_EQ(json.code, 0) << json.err;
     const nlohmann::json found = nlohmann::json::parse(json.out);
@@ -239,6 +245,8 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
     EXPECT_THAT(shell(folder, command + "--count 1").out, HasSubstr("Lyapunov exponents over 5 s after 1 s"));
     EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json -q --transient '7.5 turns' --duration 1").out,
                 HasSubstr("after 1.0472 s"));  // at 45 rad/s
+    EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json -q --transient 7.5 --duration 1").out,
+                HasSubstr("after 1.0472 s"));
 }
 
 TEST(OrbitsCommand, RefusesOptionsThatWouldDoNothing) {

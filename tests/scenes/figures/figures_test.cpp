@@ -198,6 +198,38 @@ TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
     EXPECT_EQ(made.color_bar->label, "$F$ / N");
 }
 
+TEST(Prefixes, ServeFrequenciesAndThousandths) {
+    render::figure::Figure figure;
+    figure.panels.resize(1);
+    figure.panels[0].x.label = "$f$ / Hz", figure.panels[0].y.label = "d$w$/d$x$ / 10^{−3}";
+    figure.panels[0].series.resize(1);
+    figure.panels[0].series[0].x = {0, 2e5}, figure.panels[0].series[0].y = {0, -6e-3};
+    choose_prefixes(figure);
+    EXPECT_EQ(figure.panels[0].x.label, "$f$ / kHz");
+    EXPECT_NEAR(figure.panels[0].series[0].x[1], 200, 1e-9);
+    EXPECT_EQ(figure.panels[0].y.label, "d$w$/d$x$ / 10^{−6}");
+    EXPECT_NEAR(figure.panels[0].series[0].y[1], -6, 1e-12);
+}
+
+// Places along a beam of any size, in the unit that suits it; those of the paper in millimetres.
+TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
+    const auto label = [](const char* scene) {
+        const Scene s = scene_from(scene);
+        Studies studies;
+        const FigureMaker make = recipe_named("contact-places")->prepare(s, {}, studies);
+        std::vector<sim::Result> made;
+        for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
+        Results results;
+        for (const sim::Result& result : made) results.studies.push_back(&result);
+        return make(results).panels[0].y.label;
+    };
+    EXPECT_THAT(label(R"({"time": {"end": 0.4}})"), HasSubstr("/ mm"));
+    EXPECT_THAT(label(R"({"beam": {"length": 20, "area": 0.02, "second_moment": 2e-4, "density": 7850, "modes": 2,
+        "youngs_modulus": "210 GPa"}, "cam": {"centre": [6, 0], "radius": 2, "eccentricity": 0.5}, "time": {"end": 2}})"),
+                HasSubstr("/ m"));
+    EXPECT_THAT(label(R"({"contact": {"model": "restitution"}, "time": {"end": 0.4}})"), HasSubstr("/ mm"));
+}
+
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
     const auto figure = figure_of(scene_from("{}"), "deflection");
     const auto& slope = figure.panels[1].series;

@@ -145,6 +145,61 @@ TEST(Stretch, OfEventsReadsBackAsItWasWritten) {
     EXPECT_EQ(keys.to_event, (Instant{.kind = Instant::Kind::apex, .number = 3}));
 }
 
+// The first run, and that of the figure, end with the event that bounds it; another output takes them further.
+TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
+    const auto ends = [](const std::string& outputs, double& searched) {
+        const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
+        EXPECT_TRUE(reading.scene) << reading.report();
+        Plan made = plan(*reading.scene);
+        settle(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+            sim::Result found = sim::simulate(problem, request);
+            searched = found.end_time;
+            return found;
+        });
+        return made.simulation ? made.simulation->request.end_time : made.pictures[0].end_time;
+    };
+    sim::Request all;
+    all.end_time = 2;
+    const Reading plain = testing::read(R"({"time": {"end": 2}})");
+    const sim::Result whole = sim::simulate(plain.scene->problem, all);
+    const double third = whole.impacts.at(2).t_start, second = whole.collisions.at(1).t_start;
+    double searched = 0;
+    constexpr const char* kFigure =
+        R"({"type": "figure", "figure": "series", "channels": ["theta"], "to": "impact:3"})";
+    EXPECT_EQ(ends(kFigure, searched), third);
+    EXPECT_EQ(searched, third);
+    EXPECT_EQ(
+        ends(R"({"type": "video", "from": "touch", "to": "impact:3", "events": [{"at": "impact:9", "text": "later"}]})",
+             searched),
+        third);
+    EXPECT_EQ(searched, third);
+    EXPECT_EQ(
+        ends(
+            R"({"type": "video", "to": "collision:2", "compare": [{"label": "a"}, {"label": "b", "set": {"beam.modes": 3}}]})",
+            searched),
+        second);
+    // The apex of a rebound is known when it is over.
+    EXPECT_LT(ends(R"({"type": "figure", "figure": "strobe", "at": "apex:1"})", searched), second);
+    EXPECT_EQ(searched, second);
+    // What looks at all impacts, or at the end, needs all.
+    EXPECT_EQ(ends(std::string(kFigure) + R"(, {"type": "video", "speed": "impacts"})", searched), 2);
+    EXPECT_EQ(searched, 2);
+}
+
+TEST(Stretch, ThePlanNamesTheEventAtWhichItEnds) {
+    const auto words = [](const std::string& outputs) {
+        const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
+        return to_text(plan(*reading.scene), *reading.scene);
+    };
+    const std::string alone = words(R"({"type": "video", "file": "a.mp4", "to": "impact:3"})");
+    EXPECT_THAT(alone, HasSubstr("a first run until 2 s, or until it has them,"));
+    EXPECT_THAT(alone, HasSubstr("; until impact 3, for a.mp4"));
+    EXPECT_THAT(alone, HasSubstr("frames of 0 s to impact 3 at 60 a second"));
+    EXPECT_THAT(words(R"({"type": "figure", "figure": "strobe", "at": "release:2", "file": "a.pdf"},
+                         {"type": "video", "file": "b.mp4", "to": 0.5})"),
+                HasSubstr("until 0.5 s, because of b.mp4, or, if that is later, until release 2, for a.pdf"));
+}
+
 // A column of 5 ms holds most of a period of the first mode: an instant of it would show a vibration that is not there.
 TEST(Overviews, ColumnsOfAKymographHaveTheExtremesOfWhatIsFaster) {
     const auto figure = overview_of("kymograph", R"(, "to": 3)");

@@ -17,7 +17,7 @@ namespace beamcam::scenes {
 namespace {
 
 using testing::Folder, testing::Finished, testing::shell;
-using ::testing::HasSubstr;
+using ::testing::HasSubstr, ::testing::Not;
 
 // Distance of the drawn face, as the polygon that is filled, from the drawn disc.
 double drawn_gap(const render::DrawnBeam& beam, const sim::Pose& pose, double radius) {
@@ -342,6 +342,33 @@ TEST(Posters, OfAFilmThatWasShortenedAreItsLastFrame) {
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q --set time.end=0.2").code, 0);
     const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
     EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | tail -n 1").out, HasSubstr(poster));
+}
+
+// Nothing of it stands in the picture, as was asked for: then it is told.
+TEST(Films, WithoutALegendTheExaggerationIsToldOnTheCommandLine) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    const std::string still = "$BEAMCAM render s.json --at 0.3 --size 320x180 --style flat --force -o s.png";
+    EXPECT_THAT(shell(folder, still + " --show clean").err, HasSubstr("and does not say so; its caption has to"));
+    EXPECT_THAT(shell(folder, still).err, Not(HasSubstr("does not say so")));
+    EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("does not say so")));
+}
+
+TEST(Render, RefusesOptionsThatWouldDoNothingInOneWording) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    for (const auto& [arguments, words] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"--at 0.3 -o a.png --fps 10", "--fps belongs to films; --at makes one picture"},
+             {"--at 0.3 -o a.png --duration '4 s'", "--duration belongs to films; --at makes one picture"},
+             {"--at 0.3 -o a.png --frames 1:2", "--frames belongs to films; --at makes one picture"},
+             {"--at 0.3 -o a.pdf --poster 0.1", "--poster belongs to films; --at makes one picture"},
+             {"--at 0.3 -o a.pdf --size 64x64", "--size belongs to films and pictures of pixels; -o a.pdf is drawn"},
+             {"-o a-##.png --poster 0.1", "--poster belongs to films; -o a-##.png makes pictures already"},
+             {"-o a.html --shard 1/2", "--shard belongs to films and pictures; -o a.html plays the motion itself"}}) {
+        const Finished done = shell(folder, std::string("$BEAMCAM render s.json ") + arguments);
+        EXPECT_EQ(done.code, 2) << arguments;
+        EXPECT_THAT(done.err, HasSubstr(words)) << arguments;
+    }
 }
 
 TEST(Posters, AreAskedForAndRefusedInWords) {

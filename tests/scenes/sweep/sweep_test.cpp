@@ -207,6 +207,9 @@ TEST(SweepCommand, RefusesInWords) {
           {"--transient 1e19", 2, "up to 1e+09"},
           {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
+          {"--diagram d.pdf --value v_n", 2, "--value v_n: the samples have no column \"v_n\""},
+          {"--film f.mp4 --value class", 2, "no column \"class\""},
+          {"--film f.mp4 --sample apexes --value duration", 2, "no column \"duration\""},
           {"-o 'a b.nc' --emit slurm", 2, "letters, digits"},
           {"-o a.nc --emit slurm --shard 1/2", 2, "exclude each other"},
           {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},
@@ -225,6 +228,9 @@ TEST(SweepCommand, PlansPointsSecondsAndBytes) {
     EXPECT_GT(plan["seconds"].get<double>(), 0);
     EXPECT_GT(plan["csv_bytes"].get<double>(), 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.csv"));
+    const std::string files = shell(folder, "$BEAMCAM sweep s.json -n --film f.mp4 --diagram d.pdf -o r.csv").out;
+    for (const char* words : {"r.csv: sweep", "f.mp4: sweep-film, 900 frames", "d.pdf: figure, bifurcation"})
+        EXPECT_THAT(files, HasSubstr(words));
 }
 
 TEST(SweepCommand, CarriesAStateAlongTheValues) {

@@ -266,6 +266,42 @@ TEST(KeptTrajectory, GivesTheHorizonAfterTheRunsThatItIsComparedWith) {
     EXPECT_EQ(effort.integrations, 3);
 }
 
+// A run that ends at an event knows of what was before it what a longer one knows, kept or not.
+TEST(KeptTrajectory, OfAsManyEventsAsAreEnoughEndsAtTheLastOfThem) {
+    const Problem problem;
+    Request request;
+    request.end_time = 1.5;
+    const Result whole = simulate(problem, request);
+    ASSERT_GT(whole.collisions.size(), 1u);
+    const std::pair<EventCounts, double> cases[] = {{{.touches = 3}, whole.impacts[2].t_start},
+                                                    {{.releases = 2}, *whole.impacts[1].t_end},
+                                                    {{.collisions = 2}, whole.collisions[1].t_start},
+                                                    {{.touches = 1, .collisions = 2}, whole.collisions[1].t_start},
+                                                    {{.touches = 100'000}, 1.5}};
+    for (const auto& [enough, end] : cases) {
+        SCOPED_TRACE(::testing::Message() << "until " << end);
+        request.enough = enough;
+        std::vector<double> numbers;
+        TrajectoryWriter writer(
+            [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
+        const Result found = simulate(problem, {&request, 1}, {}, &writer).front();
+        EXPECT_EQ(found.end_time, end);
+        EXPECT_EQ(writer.reached(), end);
+        ASSERT_LE(found.impacts.size(), whole.impacts.size());
+        for (std::size_t i = 0; i < found.impacts.size(); ++i)
+            EXPECT_EQ(found.impacts[i].t_start, whole.impacts[i].t_start);
+        if (end < 1.5) {
+            EXPECT_LT(found.counters.steps, whole.counters.steps);
+        }
+        const Trajectory trajectory(problem, numbers);
+        EXPECT_EQ(replay(problem, trajectory, {&request, 1}).front().end_time, end);
+        Request until;  // the whole run that ends there
+        until.end_time = end;
+        until.tables = {{{0, 0.3 * end, end}, all_channels(problem)}};
+        expect_equal(replay(problem, trajectory, {&until, 1}).front(), simulate(problem, until));
+    }
+}
+
 TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {
     const Problem problem;
     const Kept kept = keep(problem, 0.3);

@@ -227,6 +227,21 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
     EXPECT_TRUE(validate(p).empty());
 }
 
+// It follows the size of the motion, unless the scene says it.
+TEST(Derived, ImpactsAreOfOneCollisionWithinASixteenthOfTheTimeOfAFall) {
+    Problem p;
+    EXPECT_EQ(collision_gap(p), 0.02);
+    for (const double length : {200e-6, 0.4, 20.0})
+        for (const double gravity : {9.81, 1.62, -9.81}) {
+            p.beam.length = length, p.gravity = gravity;
+            EXPECT_NEAR(collision_gap(p) / std::sqrt(length / std::abs(gravity)), 0.02 * std::sqrt(9.81), 1e-12);
+        }
+    p.gravity = 0;
+    EXPECT_NEAR(collision_gap(p), 0.02 * std::sqrt(20), 1e-12);
+    p.contact.collision_gap = 0;
+    EXPECT_EQ(collision_gap(p), 0);
+}
+
 TEST(Validate, TellsTheOneNumberThatMakesAScaleImpossible) {
     Problem p;
     p.beam.length = 5e-324;
