@@ -27,6 +27,12 @@ void Brush::use(Color color) {
     cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a);
 }
 
+std::vector<double> dashes(const std::vector<double>& pattern, double unit) {
+    std::vector<double> out = pattern;
+    for (double& length : out) length *= unit;
+    return out;
+}
+
 // ---- where the ink goes ------------------------------------------------------------------------
 
 void Brush::touch(const Box& box) {
@@ -78,7 +84,7 @@ void Brush::touch_path(double around, bool inside) {
 Box Brush::path_box() const {
     Bounds all;
     for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
-    return path_.empty() ? Box{} : Box{all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0};
+    return all.box();
 }
 
 void Brush::note(char what, std::initializer_list<double> numbers, std::string_view words) {
@@ -162,9 +168,7 @@ void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     const Vec2 u = way * (1 / length), v = sim::perp(u);
     const double tip = std::min(head.length, length);
     if (length > tip) {
-        move_to(from);
-        line_to(to - u * (0.8 * tip));
-        stroke({pen.color, pen.width, pen.dash, Cap::butt});
+        line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
     }
     move_to(to);
     line_to(to - u * tip + v * (head.half_width * tip));
@@ -205,6 +209,11 @@ void Brush::stroke(const Pen& pen) {
     });
     touch_path(pen.width / 2, false);  // joins are round
     new_path();
+}
+void Brush::line(Vec2 from, Vec2 to, const Pen& pen) {
+    move_to(from);
+    line_to(to);
+    stroke(pen);
 }
 
 }  // namespace beamcam::render

@@ -26,6 +26,8 @@ struct Pen {
     std::vector<double> dash = {};
     Cap cap = Cap::round;
 };
+// A pattern of dashes, each multiplied by `unit`.
+std::vector<double> dashes(const std::vector<double>& pattern, double unit);
 
 // In parts of its length: half its width, and how far from the tip its back stands on the shaft.
 struct ArrowHead {
@@ -49,6 +51,7 @@ class Brush {
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
+    void line(Vec2 from, Vec2 to, const Pen& pen);
 
     // Where ink went, while this is set: never too few tiles.
     Tiles* touched = nullptr;

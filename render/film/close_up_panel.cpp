@@ -59,9 +59,7 @@ class CloseUpPanel final : public Panel {
         const TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
-            canvas.move_to({plot_.x - 6 * u, y});
-            canvas.line_to({plot_.x, y});
-            canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+            canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
             canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * facts_.tick}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));

@@ -127,7 +127,7 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
     if (at_.facts.setup->view.tip_path) note_path();
-    lit_box_ = lit_box({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, at_.box, at_.unit);
+    lit_box_ = lit_box(seen.box(), at_.box, at_.unit);
     return needs;
 }
 
@@ -218,9 +218,8 @@ void MechanismPanel::draw_ground(Canvas& canvas) const {
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
     if (at.facts.setup->view.style == Style::solid) return;  // all is seen from moving places
     const Vec2 o = at.px({0, 0});
-    canvas.move_to({at.box.x, o.y});
-    canvas.line_to({at.box.right(), o.y});
-    canvas.stroke({at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
+    canvas.line({at.box.x, o.y}, {at.box.right(), o.y},
+                {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
     draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
 }
 

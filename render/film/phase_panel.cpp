@@ -75,9 +75,7 @@ class PhasePanel final : public Panel {
         const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
         for (double mark : x_.marks().values) {
             const double at = std::round(plot_.x + x_.along(plot_.w, x_.value(mark))) + 0.5;
-            canvas.move_to({at, plot_.y});
-            canvas.line_to({at, plot_.bottom()});
-            canvas.stroke(grid);
+            canvas.line({at, plot_.y}, {at, plot_.bottom()}, grid);
             const std::string text = fixed(mark, x_.marks().decimals);
             if (at + canvas.measure(text, label).w / 2 < room)
                 canvas.text({at, plot_.bottom() + 9.5 * u + facts_.tick}, text, label);

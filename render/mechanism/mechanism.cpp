@@ -163,9 +163,7 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, con
         canvas.line_to({o.x + x - 10 * u, o.y + foot + 12 * u});
     }
     canvas.stroke({p.muted, 1.5 * pen});
-    canvas.move_to({o.x - wide, o.y + foot});
-    canvas.line_to({o.x + wide, o.y + foot});
-    canvas.stroke({p.steel_edge, 2.4 * pen});
+    canvas.line({o.x - wide, o.y + foot}, {o.x + wide, o.y + foot}, {p.steel_edge, 2.4 * pen});
 }
 
 namespace {

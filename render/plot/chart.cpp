@@ -58,9 +58,7 @@ std::string RoundAxis::name(const std::string& symbol) const {
 void draw_levels(Canvas& canvas, const Palette& p, const RoundAxis& axis, const Box& plot, double u, double tick) {
     for (double mark : axis.marks().values) {
         const double at = std::round(plot.bottom() - axis.along(plot.h, axis.value(mark))) + 0.5;
-        canvas.move_to({plot.x, at});
-        canvas.line_to({plot.right(), at});
-        canvas.stroke({p.grid, std::max(1.0, u), {}, Cap::butt});
+        canvas.line({plot.x, at}, {plot.right(), at}, {p.grid, std::max(1.0, u), {}, Cap::butt});
         canvas.text({plot.x - 12 * u, at + 6.0 / 17 * tick}, fixed(mark, axis.marks().decimals),
                     {.size = tick, .color = p.muted, .align = HAlign::right});
     }
@@ -104,9 +102,7 @@ void Chart::draw_time_axis(Canvas& canvas, const Palette& p, const View& view) c
         if (windowed() && at < c_.time.low / c_.time_unit - 1e-9) continue;  // nothing was before the film
         double x = view.x(plot_, at * c_.time_unit);
         if (!windowed()) x = std::round(x) + 0.5;
-        canvas.move_to({x, axis});
-        canvas.line_to({x, axis + 6 * u});
-        canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+        canvas.line({x, axis}, {x, axis + 6 * u}, {p.muted, std::max(1.0, u), {}, Cap::butt});
         const std::string text = fixed(at, marks.decimals);
         const double half = canvas.measure(text, {.size = tick_}).w / 2;
         if (x + half < plot_.right() + 8 * u - unit.w - 10 * u &&  // the axis' name stands at the end of this line
@@ -184,6 +180,10 @@ void Chart::draw_bands(Canvas& canvas, const View& view, Range rows, bool past, 
     }
 }
 
+Pen Chart::pen(const Curve& curve, Color color, double width) const {
+    return {color, width * unit_, dashes(curve.dash, unit_), curve.dash.empty() ? Cap::round : Cap::butt};
+}
+
 void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const {
     draw_bands(canvas, view, rows, past, shift);
     bool first_curve = true;
@@ -199,11 +199,8 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
             draw_pale_past(canvas, view, rows, curve, shift);
             continue;
         }
-        std::vector<double> dash = curve.dash;
-        for (double& d : dash) d *= unit_;
         canvas.polyline(points);
-        canvas.stroke(
-            {past ? curve.color : curve.faint, (past ? 2.2 : 2) * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
+        canvas.stroke(pen(curve, past ? curve.color : curve.faint, past ? 2.2 : 2));
     }
     for (const ChartDot& d : c_.dots) {
         if (d.t < rows.low || d.t > rows.high) continue;
@@ -217,23 +214,20 @@ void Chart::draw_curves(Canvas& canvas, const View& view, Range rows, bool past,
         // Lanes share what three ticks need.
         const double tall = mark.lanes == 1 ? 10 * unit_ : std::min(8.0, 30.0 / mark.lanes) * unit_;
         const double foot = at.y - 1 - tall * mark.lane;
-        canvas.move_to({at.x, foot});
-        canvas.line_to({at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)});
-        canvas.stroke({mark.color, 1.8 * unit_, {}, Cap::butt});
+        canvas.line({at.x, foot}, {at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)},
+                    {mark.color, 1.8 * unit_, {}, Cap::butt});
     }
 }
 
 // The pale pieces first: a piece begins at the row before its interval, and the strong ones hide that.
 void Chart::draw_pale_past(Canvas& canvas, const View& view, Range rows, const Curve& curve, Vec2 shift) const {
-    std::vector<double> dash = curve.dash;
-    for (double& d : dash) d *= unit_;
     const auto piece = [&](double from, double to, Color color) {
         const Range times{std::max(from, rows.low), std::min(to, rows.high)};
         if (!(times.low < times.high)) return;
         canvas.polyline(points_within(curve.t, curve.v, times, true, [&](double t, double v) {
             return Vec2{view.x(plot_, t), y(v)} + shift;
         }));
-        canvas.stroke({color, 2.2 * unit_, dash, dash.empty() ? Cap::round : Cap::butt});
+        canvas.stroke(pen(curve, color, 2.2));
     };
     for (const Range& pale : curve.pale_within) piece(pale.low, pale.high, curve.pale);
     double from = rows.low;
@@ -253,9 +247,7 @@ void Chart::draw_ground(Canvas& canvas, const Palette& p) const {
         draw_time_axis(canvas, p, whole());
         draw_curves(canvas, whole(), c_.time, false, {});
     }
-    canvas.move_to({plot_.x, axis});
-    canvas.line_to({plot_.right(), axis});
-    canvas.stroke({p.muted, std::max(1.0, 1.3 * unit_), {}, Cap::butt});
+    canvas.line({plot_.x, axis}, {plot_.right(), axis}, {p.muted, std::max(1.0, 1.3 * unit_), {}, Cap::butt});
 }
 
 Image Chart::past(const Fonts& fonts) const {
@@ -345,9 +337,7 @@ void Chart::draw_moving(Canvas& canvas, const Palette& p, double t, std::span<co
     canvas.clip({from, box, cut - from, windowed() ? plot_.h + 9 : plot_.h + 16},
                 [&] { draw_curves(canvas, view, rows, true, {}); });
     const double x = cut - 0.5;
-    canvas.move_to({x, plot_.y - 6 * u});
-    canvas.line_to({x, plot_.bottom()});
-    canvas.stroke({p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
+    canvas.line({x, plot_.y - 6 * u}, {x, plot_.bottom()}, {p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const double at = y(readings[i]);
         // An instant between the curves' rows may lie beyond their range: its number is told, a dot would lie.

@@ -119,6 +119,7 @@ class Chart {
     int cursor_column(const View& view, double t) const;
     std::string told(double value) const;                                 // as a reading
     double widest_reading(Canvas& canvas, const TextStyle& style) const;  // [px]
+    Pen pen(const Curve& curve, Color color, double width) const;
     // Rows between two instants, drawn as past or as still to come.
     void draw_curves(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;
     void draw_bands(Canvas& canvas, const View& view, Range rows, bool past, Vec2 shift) const;

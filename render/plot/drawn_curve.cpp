@@ -14,12 +14,6 @@ constexpr int kFewMarkers = 8;         // along a line
 constexpr double kGrainsPerPixel = 4;  // grains: a pixel, in which swings are not told apart
 constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
 
-std::vector<double> dashes(const std::vector<double>& widths, double width) {
-    std::vector<double> out;
-    for (const double d : widths) out.push_back(d * width);
-    return out;
-}
-
 // Which markers later ones leave to be seen: of those within `apart` only the last.
 std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
     std::vector<bool> seen(points.size(), false);

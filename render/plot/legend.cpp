@@ -58,9 +58,7 @@ bool LegendBox::place_above(double width) {
 void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
     const Pen pen = curve_pen(s, style_);
     if (s.line && s.value.empty()) {
-        sheet_.move_to(left);
-        sheet_.line_to(left + Vec2{width, 0});
-        sheet_.stroke(pen);
+        sheet_.line(left, left + Vec2{width, 0}, pen);
     }
     if (s.every_point || s.some_markers)
         draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,

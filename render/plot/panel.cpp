@@ -330,9 +330,7 @@ void PanelDrawing::draw() {
     draw_insets();
     for (const Writing& w : writings_) {
         if (w.leader) {
-            sheet_.move_to(w.leader->first);
-            sheet_.line_to(w.leader->second);
-            sheet_.stroke({kMuted, 0.6 * style_.frame, {}, Cap::butt});
+            sheet_.line(w.leader->first, w.leader->second, {kMuted, 0.6 * style_.frame, {}, Cap::butt});
         }
         sheet_.text(w.at, w.markup, w.lettering);
     }
@@ -363,9 +361,9 @@ void PanelDrawing::draw_grounds() {
     }
     for (const Rule& r : panel_.rules) {
         const double place = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
-        sheet_.move_to(r.vertical ? Vec2{place, plot_.y} : Vec2{plot_.x, place});
-        sheet_.line_to(r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place});
-        sheet_.stroke({rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
+        sheet_.line(r.vertical ? Vec2{place, plot_.y} : Vec2{plot_.x, place},
+                    r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place},
+                    {rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
     }
     sheet_.unclip();
 }
@@ -385,9 +383,7 @@ void PanelDrawing::draw_insets() {
             sheet_.rectangle(from);
             sheet_.stroke(thin);
             for (const auto& [start, end] : connectors(from, inner.plot_)) {
-                sheet_.move_to(start);
-                sheet_.line_to(end);
-                sheet_.stroke(thin);
+                sheet_.line(start, end, thin);
             }
         }
         // Its numbers and labels, left and below, interrupt the connectors.

@@ -167,9 +167,7 @@ void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
                         : side == 'r' ? Vec2{-length, 0}
                         : side == 'b' ? Vec2{0, -length}
                                       : Vec2{0, length};
-        sheet_.move_to({x, y});
-        sheet_.line_to(Vec2{x, y} + in);
-        sheet_.stroke(pen);
+        sheet_.line({x, y}, Vec2{x, y} + in, pen);
         if (!labelled || t.label.empty()) continue;
         Lettering l = numbers();
         if (across) {
@@ -282,9 +280,7 @@ void PlotAxes::draw_color_bar() const {
     l.valign = VAlign::middle;
     for (const Tick& t : bar_->ticks()) {
         const double y = bar.bottom() - t.at * bar.h;
-        sheet_.move_to({bar.right(), y});
-        sheet_.line_to({bar.right() - (t.major ? 0.6 : 0.35) * style_.tick, y});
-        sheet_.stroke(pen);
+        sheet_.line({bar.right(), y}, {bar.right() - (t.major ? 0.6 : 0.35) * style_.tick, y}, pen);
         if (!t.label.empty()) sheet_.text({bar.right() + style_.gap, y}, t.label, l);
     }
     sheet_.rectangle(bar);

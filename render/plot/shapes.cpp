@@ -42,9 +42,7 @@ Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, 
 
 void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
-    std::vector<double> dash;
-    for (const double d : s.dash) dash.push_back(d * width);
-    const Pen pen{s.color, width, dash, Cap::butt};
+    const Pen pen{s.color, width, dashes(s.dash, width), Cap::butt};
     const double radius = s.radius_points > 0 ? s.radius_points : s.radius * camera.scale;
     std::vector<Vec2> points;
     for (const Vec2 p : s.points) points.push_back(camera.to_pixels(p));

@@ -382,7 +382,7 @@ Box Sheet::text(Vec2 at, std::string_view markup, const Lettering& l) {
         for (const double y : {dy - label.ascent, dy + label.descent})
             around.add({at.x + x * std::cos(l.turned) + y * std::sin(l.turned),
                         at.y - x * std::sin(l.turned) + y * std::cos(l.turned)});
-    const Box box{around.x0, around.y0, around.x1 - around.x0, around.y1 - around.y0};
+    const Box box = around.box();
     if (!label.pieces.empty()) written.push_back({box, label.smallest, std::string(markup)});
     return box;
 }

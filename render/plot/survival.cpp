@@ -84,9 +84,8 @@ class Field {
             canvas_.fill(color_of(outcomes[i]));
             if (outcomes[i] != sim::Outcome::failed) continue;
             for (double way : {0.0, 1.0}) {
-                canvas_.move_to({part.x, part.y + way * part.h});
-                canvas_.line_to({part.right(), part.y + (1 - way) * part.h});
-                canvas_.stroke({.color = rgb(0xffffff), .width = 1.5});
+                canvas_.line({part.x, part.y + way * part.h}, {part.right(), part.y + (1 - way) * part.h},
+                             {.color = rgb(0xffffff), .width = 1.5});
             }
         }
     }
@@ -137,9 +136,7 @@ void legend(Canvas& canvas, const std::vector<sim::StressResult>& results) {
         canvas.fill(color_of(outcome));
         if (outcome == sim::Outcome::failed)
             for (double way : {0.0, 1.0}) {
-                canvas.move_to({x, 78 + way * 20});
-                canvas.line_to({x + 20, 98 - way * 20});
-                canvas.stroke({.color = rgb(0xffffff), .width = 1.5});
+                canvas.line({x, 78 + way * 20}, {x + 20, 98 - way * 20}, {.color = rgb(0xffffff), .width = 1.5});
             }
         const Box text = canvas.text({x + 28, 94}, fmt::format("{}: {}", meaning(outcome), count),
                                      {.size = 17, .color = rgb(0x1c2530)});
