@@ -6,13 +6,20 @@
 #include <numbers>
 #include <utility>
 
+#include "render/base/error.hpp"
 #include "render/draw/cairo_status.hpp"
+#include "render/draw/label.hpp"
+#include "render/draw/surface.hpp"
 
 namespace beamcam::render {
 
-void Brush::begin(cairo_t* cr) {
+void Brush::begin(cairo_t* cr, const std::string& what) {
     cr_ = cr;
     exceptions_ = std::uncaught_exceptions();
+    if (cairo_status(cr) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+    if (cairo_status(cr) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("{} cannot be drawn: {}", what, cairo_status_to_string(cairo_status(cr))));
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
 }
 
 void Brush::end() {
@@ -214,6 +221,52 @@ void Brush::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);
     line_to(to);
     stroke(pen);
+}
+
+// ---- parts, images, labels ----------------------------------------------------------------------
+
+void Brush::clip(const Box& b, const std::function<void()>& draw) {
+    cairo_save(cr_);
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    cairo_clip(cr_);
+    const Box* before = std::exchange(limit_, &b);
+    draw();
+    limit_ = before;
+    cairo_restore(cr_);
+}
+
+void Brush::place(const Image& image, const Box& into, bool smooth) {
+    cairo_surface_t* const surface = surface_of(image);
+    cairo_save(cr_);
+    if (smooth) {
+        cairo_rectangle(cr_, into.x, into.y, into.w, into.h);
+        cairo_clip(cr_);
+    }
+    cairo_translate(cr_, into.x, into.y);
+    cairo_scale(cr_, into.w / image.width, into.h / image.height);
+    cairo_set_source_surface(cr_, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr_), smooth ? CAIRO_FILTER_BEST : CAIRO_FILTER_NEAREST);
+    if (smooth) cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
+    cairo_paint(cr_);
+    cairo_restore(cr_);
+    use({});
+    cairo_surface_destroy(surface);
+    touch(into);
+}
+void Brush::pixels(const Image& image, const Box& into) { place(image, into, false); }
+void Brush::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
+
+void Brush::set_down(const SetLabel& label, Vec2 at, double size, Color color,
+                     const std::function<void(const SetRun&, Vec2 at)>& write) {
+    for (std::vector<Vec2> rule : label.rules) {
+        for (Vec2& p : rule) p += at;
+        polyline(rule);
+        stroke({color, kRuleWidth * size});
+    }
+    for (const SetRun& run : label.runs) {
+        write(run, at + Vec2{run.x, run.y});
+        for (const Dot& dot : dots_above(run)) circle(at + dot.centre, dot.radius), fill(color);
+    }
 }
 
 }  // namespace beamcam::render

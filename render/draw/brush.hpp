@@ -33,7 +33,10 @@ std::vector<double> dashes(const std::vector<double>& pattern, double unit);
 struct ArrowHead {
     double length = 0, half_width = 0.42, back = 1;
 };
-enum class HAlign { left, centre, right };
+
+struct Image;
+struct SetLabel;
+struct SetRun;
 
 class Brush {
   public:
@@ -52,6 +55,12 @@ class Brush {
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
     void line(Vec2 from, Vec2 to, const Pen& pen);
+    // What `draw` draws shows within the box only.
+    void clip(const Box& box, const std::function<void()>& draw);
+    // The whole image, each pixel a rectangle.
+    void pixels(const Image& image, const Box& into);
+    // The same smoothly, made smaller or larger.
+    void image_fitted(const Image& image, const Box& into);
 
     // Where ink went, while this is set: never too few tiles.
     Tiles* touched = nullptr;
@@ -61,7 +70,8 @@ class Brush {
   protected:
     Brush() = default;
     ~Brush() noexcept(false) { end(); }
-    void begin(cairo_t* cr);     // takes it over; before anything is drawn
+    // Takes it over, before anything is drawn. Throws PictureError where Cairo cannot draw `what`.
+    void begin(cairo_t* cr, const std::string& what);
     void end();                  // while its surface is there; throws what Cairo could not draw
     void use(Color color);       // for what is painted next
     void touch(const Box& box);  // ink within it, blurred edges included
@@ -71,6 +81,9 @@ class Brush {
     void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
     // Paints the path, or the stencil called `name` that it made.
     void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
+    // The rules and dots of a label whose baseline begins here; `write` puts down the letters of each run.
+    void set_down(const SetLabel& label, Vec2 at, double size, Color color,
+                  const std::function<void(const SetRun&, Vec2 at)>& write);
     bool keeps_stencils() const { return stencils && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // what is painted in place of a colour, while it is set
@@ -78,6 +91,7 @@ class Brush {
 
   private:
     int exceptions_ = 0;  // in flight when drawing began
+    void place(const Image& image, const Box& into, bool smooth);
     void pass_line(Vec2 from, Vec2 to);
     void pass_arc(Vec2 centre, double radius, double from, double to);
     void touch_path(double around, bool inside);

@@ -7,7 +7,6 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,21 +18,12 @@
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render {
 
 std::string escape(std::string_view plain);
 std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
-
-enum class Weight { regular, medium, semibold };
-struct TextStyle {
-    double size = 16;  // [px]
-    Color color = {};
-    Weight weight = Weight::regular;
-    HAlign align = HAlign::left;
-    double max_width = 0;            // > 0: cut with an ellipsis there [px]
-    std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
-};
 
 class Canvas : public Brush {
   public:
@@ -50,12 +40,8 @@ class Canvas : public Brush {
     void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
-    // Fills the box with the whole of it, made smaller or larger.
-    void image_fitted(const Image& source, const Box& into);
     // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
-    // What `draw` draws shows within the box only.
-    void clip(const Box& box, const std::function<void()>& draw);
 
     // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
     std::string drawable(std::string_view plain) const;
@@ -68,7 +54,8 @@ class Canvas : public Brush {
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
 
   private:
-    Box formula(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);  // at the left
+    // A text with formulas, at the left.
+    Box set_parts(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);
 
     struct Handles;
     std::unique_ptr<Handles> handles_;

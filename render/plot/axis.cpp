@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render::figure {

@@ -47,8 +47,8 @@ std::string RoundAxis::name(const std::string& symbol) const {
     if (scale_ != 1 && by_prefix())
         unit = prefix_for(scale_).symbol + unit_;
     else if (scale_ != 1)
-        unit =
-            power_of_ten(static_cast<int>(std::lround(std::log10(scale_)))) + (unit_.empty() ? "" : "\u2009" + unit_);
+        unit = pango_power_of_ten(static_cast<int>(std::lround(std::log10(scale_)))) +
+               (unit_.empty() ? "" : "\u2009" + unit_);
     if (unit.empty()) return text;
     // A unit that is a quotient itself stands in brackets: dθ/dt / (rad/s).
     if (unit.find('/') != std::string::npos) unit = "(" + unit + ")";

@@ -113,7 +113,7 @@ void draw_density(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
         const double share = most == 1 ? 1 : std::log(shown[k]) / std::log(most);
         image.pixels[k] = pixel(sheet.shown(cloud.color).faded(kFaintest + (1 - kFaintest) * share));
     }
-    sheet.picture(image, grid.plot);
+    sheet.pixels(image, grid.plot);
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ void draw_cells(const Cells& cells, const PlotAxes& axes, Sheet& sheet) {
             for (std::size_t c = 0; c < columns; ++c)
                 image.pixels[(rows - 1 - row) * columns + c] = pixel(sheet.shown(cells.colors[row * columns + c]));
         const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
-        sheet.picture(image, {low.x, high.y, high.x - low.x, low.y - high.y});
+        sheet.pixels(image, {low.x, high.y, high.x - low.x, low.y - high.y});
         return;
     }
     for (std::size_t row = 0; row < rows; ++row)

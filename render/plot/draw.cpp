@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/panel.hpp"
-#include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
 namespace {

@@ -1,5 +1,5 @@
 // A figure as a value: panels of curves, bands, marks and shapes in the data's own numbers, with labels as markup
-// (text.hpp). Nothing here draws or computes; `draw` puts it on a Sheet.
+// (render/draw/markup.hpp). Nothing here draws or computes; `draw` puts it on a Sheet.
 #pragma once
 
 #include <limits>

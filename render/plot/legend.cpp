@@ -68,7 +68,7 @@ void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
 void LegendBox::draw() const {
     if (!box_) return;
     const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
-    Lettering l = words();
+    TextStyle l = words();
     l.valign = VAlign::middle;
     int k = 0;
     const auto next = [&] {

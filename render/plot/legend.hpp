@@ -25,7 +25,7 @@ class LegendBox {
     void draw() const;
 
   private:
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
+    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
     Box size(double width);
     void draw_sample(const Series& s, Vec2 left, double width) const;
 

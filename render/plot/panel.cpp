@@ -170,7 +170,7 @@ double PanelDrawing::place_insets() {
 // Around the mark, near first.
 PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     const Vec2 p = at(m.x, m.y, m.right);
-    Lettering l = numbers();
+    TextStyle l = numbers();
     l.color = look(m.look).color;
     const Box size = sheet_.measure(m.label, l);
     Writing best;
@@ -216,7 +216,7 @@ void PanelDrawing::place_marks() {
 
 // Small words on the rules that have them, where least is covered; the right end wins ties.
 void PanelDrawing::place_rules() {
-    Lettering l = numbers();
+    TextStyle l = numbers();
     l.color = kMuted;
     for (const Rule& r : panel_.rules) {
         const double along = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
@@ -270,7 +270,7 @@ double PanelDrawing::crowding(const Box& box, const DrawnCurve& own) const {
 }
 
 double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
-    Lettering l = words();
+    TextStyle l = words();
     l.color = color_of(curve.series());
     const Box size = sheet_.measure(curve.series().label, l);
     double least = std::numeric_limits<double>::infinity();
@@ -316,11 +316,11 @@ bool PanelDrawing::place_direct() {
 // ---- drawing -----------------------------------------------------------------------------------------
 
 void PanelDrawing::draw() {
-    draw_grounds();
-    sheet_.clip(plot_);
-    for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
-    for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
-    sheet_.unclip();
+    sheet_.clip(plot_, [&] { draw_grounds(); });
+    sheet_.clip(plot_, [&] {
+        for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
+        for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
+    });
     axes_.draw_frame();
     for (const Mark& m : panel_.marks) {
         const Vec2 p = at(m.x, m.y, m.right);
@@ -340,7 +340,6 @@ void PanelDrawing::draw() {
 }
 
 void PanelDrawing::draw_grounds() {
-    sheet_.clip(plot_);
     for (const Cells& cells : panel_.cells) draw_cells(cells, axes_, sheet_);
     for (const Span& s : panel_.spans) {
         const double a = at(s.from, 0).x, b = at(s.to, 0).x;
@@ -365,7 +364,6 @@ void PanelDrawing::draw_grounds() {
                     r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place},
                     {rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
     }
-    sheet_.unclip();
 }
 
 void PanelDrawing::draw_insets() {

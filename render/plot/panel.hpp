@@ -25,12 +25,12 @@ class PanelDrawing {
     struct Writing {
         Vec2 at;
         std::string markup;
-        Lettering lettering;
+        TextStyle lettering;
         std::optional<std::pair<Vec2, Vec2>> leader;
     };
 
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
-    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
+    TextStyle numbers() const { return {.size = style_.numbers, .color = kInk}; }
     Vec2 at(double x, double y, bool right = false) const { return axes_.at(x, y, right); }
     void make_curves();
     double place_boxes(bool legend_first);

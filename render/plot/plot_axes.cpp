@@ -10,7 +10,7 @@ namespace {
 constexpr double kLineStep = 1.25;  // between lines, in letters
 
 // In lines that the room holds, broken at spaces outside of formulas.
-std::vector<std::string> lines_of(const std::string& markup, double room, const Lettering& lettering, Sheet& sheet) {
+std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering, Sheet& sheet) {
     std::vector<std::string> lines;
     std::string word;
     int depth = 0;
@@ -169,7 +169,7 @@ void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
                                       : Vec2{0, length};
         sheet_.line({x, y}, Vec2{x, y} + in, pen);
         if (!labelled || t.label.empty()) continue;
-        Lettering l = numbers();
+        TextStyle l = numbers();
         if (across) {
             l.align = HAlign::centre;
             l.valign = VAlign::top;
@@ -197,7 +197,7 @@ void PlotAxes::draw_frame() const {
 void PlotAxes::draw_labels() const {
     const double step = kLineStep * style_.letters;
     const double number = sheet_.cap_height(style_.numbers) + drop();
-    Lettering l = words();
+    TextStyle l = words();
     l.align = HAlign::centre;
     if (lowest_ && !panel_.x.label.empty()) {
         l.valign = VAlign::top;
@@ -211,7 +211,7 @@ void PlotAxes::draw_labels() const {
         }
     }
     if (lowest_ && !x_->common().empty()) {
-        Lettering common = numbers();
+        TextStyle common = numbers();
         common.align = HAlign::right;
         common.valign = VAlign::top;
         sheet_.text({plot_.right(), plot_.bottom() + number + 2.4 * style_.gap}, x_->common(), common);
@@ -227,7 +227,7 @@ void PlotAxes::draw_labels() const {
             sheet_.text({x, plot_.centre().y}, line, l), x += step;
     }
     double y = plot_.y - style_.gap;
-    Lettering common = numbers();
+    TextStyle common = numbers();
     if (!y_->common().empty()) sheet_.text({plot_.x, y}, y_->common(), common);
     if (right_ && !right_->common().empty()) {
         common.align = HAlign::right;
@@ -260,11 +260,11 @@ void PlotAxes::draw_titles(double top, bool legend_above) const {
     const bool alone = y_->common().empty() && !legend_above;
     double y = top, x = plot_.x;
     if (alone) y = plot_.y - style_.gap - step * std::max(0.0, static_cast<double>(lines.size()) - 1);
-    Lettering title = words();
+    TextStyle title = words();
     if (!panel_.letter.empty()) {
-        title.bold = true;
+        title.weight = Weight::bold;
         x += sheet_.text({x, y}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
-        title.bold = false;
+        title.weight = Weight::regular;
     }
     for (const std::string& line : lines) sheet_.text({x, y}, line, title), y += step;
 }
@@ -276,7 +276,7 @@ void PlotAxes::draw_color_bar() const {
     for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
     sheet_.gradient(bar, colors);
     const Pen pen{kInk, style_.frame, {}, Cap::butt};
-    Lettering l = numbers();
+    TextStyle l = numbers();
     l.valign = VAlign::middle;
     for (const Tick& t : bar_->ticks()) {
         const double y = bar.bottom() - t.at * bar.h;

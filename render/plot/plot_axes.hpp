@@ -45,8 +45,8 @@ class PlotAxes {
     std::vector<std::string> title_lines() const;
     std::vector<std::string> label_lines(const Axis& axis) const;
     double label_height(const Axis& axis) const;  // of the lines beside the first
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
-    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
+    TextStyle numbers() const { return {.size = style_.numbers, .color = kInk}; }
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
     void draw_ticks(const AxisMap& axis, char side, bool labelled) const;
     void draw_labels() const;

@@ -20,7 +20,7 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
     return all;
 }
 
-Lettering lettering_of(const Shape& s, const Style& style) {
+TextStyle lettering_of(const Shape& s, const Style& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
@@ -29,7 +29,7 @@ Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, 
     Vec2 out{0, 0};
     for (const Shape& s : shapes) {
         if (s.kind != Shape::Kind::label) continue;
-        const Lettering l = lettering_of(s, style);
+        const TextStyle l = lettering_of(s, style);
         const double w = sheet.measure(s.markup, l).w;
         const double x = camera.to_pixels(s.points.at(0)).x + s.shift.x * l.size -
                          (l.align == HAlign::centre  ? w / 2
@@ -79,7 +79,7 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
-            const Lettering l = lettering_of(s, style);
+            const TextStyle l = lettering_of(s, style);
             sheet.text(points.at(0) + Vec2{s.shift.x * l.size, -s.shift.y * l.size}, s.markup, l);
             return;
         }

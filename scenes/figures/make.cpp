@@ -10,7 +10,7 @@
 #include "output/image/png.hpp"
 #include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
@@ -35,7 +35,7 @@ std::string whole_caption(const figure::Figure& f) {
 figure::Document document_of(const figure::Figure& f, const std::string& scene) {
     figure::Document d;
     d.title = f.title;
-    d.subject = figure::to_plain(whole_caption(f));
+    d.subject = render::to_plain(whole_caption(f));
     d.scene = scene;
     d.creator = fmt::format("beamcam {}", kVersion);
     d.created = creation_instant();
@@ -75,7 +75,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
                                                       {"Description", document.subject},
                                                       {"Software", document.creator},
                                                       {"beamcam-scene", scene},
-                                                      {"beamcam-accuracy", figure::to_plain(f.accuracy)}}});
+                                                      {"beamcam-accuracy", render::to_plain(f.accuracy)}}});
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ std::string scene_of_figure(Scene scene, FigureOutput how) {
 
 std::string caption_text(const figure::Figure& f, const std::string& file) {
     const std::string caption = whole_caption(f);
-    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", figure::to_latex(caption), f.name);
-    const std::string plain = figure::to_plain(caption) + "\n";
+    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", render::to_latex(caption), f.name);
+    const std::string plain = render::to_plain(caption) + "\n";
     if (ending(file) == ".tex") return "% " + plain + latex;
     return plain + "\n" + latex;
 }

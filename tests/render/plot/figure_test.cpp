@@ -11,10 +11,10 @@
 #include <set>
 
 #include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/panel.hpp"
 #include "render/plot/placement.hpp"
 #include "render/plot/reduce.hpp"
-#include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
 namespace {
@@ -40,7 +40,7 @@ TEST(FigureText, OneMarkupIsDrawnAndWrittenAsLatexAndPlain) {
     EXPECT_EQ(to_latex("$\\dot{θ}_{c}$"), "$\\dot{\\theta}_{c}$");
     EXPECT_EQ(to_latex("5 % & more"), "5 \\% \\& more");
     EXPECT_EQ(to_plain("a\\_b\\^\\$c\\\\d"), "a_b^$c\\d");
-    const std::vector<figure::Run> runs = parse_markup("$x_{\\r{max}}$2");
+    const std::vector<render::Run> runs = parse_markup("$x_{\\r{max}}$2");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_TRUE(runs[0].symbol);
     EXPECT_EQ(runs[1].script, -1);

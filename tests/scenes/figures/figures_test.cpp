@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
@@ -226,17 +226,17 @@ TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
 TEST(Figures, CaptionsStateTheAssumptionsInBothLanguages) {
     for (const Lang lang : {Lang::en, Lang::zh}) {
         const auto figure = figure_of(scene_from("{}"), "schematic", lang);
-        const std::string caption = render::figure::to_plain(figure.caption);
+        const std::string caption = render::to_plain(figure.caption);
         for (const char* value : {"e = 0.02 m", "K = 10⁸ N m", "0.7", "a = 0 m", "g = 9.81"})
             EXPECT_THAT(caption, HasSubstr(value));
         EXPECT_THAT(caption, HasSubstr(lang == Lang::en ? "assumptions" : "假定值"));
-        EXPECT_NO_THROW(render::figure::to_latex(figure.caption));
+        EXPECT_NO_THROW(render::to_latex(figure.caption));
     }
 }
 
 std::string caption_of(const std::string& text, const char* name, Lang lang = Lang::en) {
     const auto figure = figure_of(scene_from(text), name, lang);
-    return render::figure::to_plain(figure.caption + " " + figure.accuracy);
+    return render::to_plain(figure.caption + " " + figure.accuracy);
 }
 
 TEST(Captions, StateDriveAndStart) {
@@ -349,7 +349,7 @@ TEST(Figures, ModelsAreComparedInTheSameShapes) {
     EXPECT_LT(largest.at("1 paper"), 1e-2);
     EXPECT_GT(largest.at("2 second-order, hub–beam shapes"), 0.03);  // the basis, by itself
     EXPECT_EQ(largest.count("1 exact"), 0u);
-    const std::string caption = render::figure::to_plain(figure.caption);
+    const std::string caption = render::to_plain(figure.caption);
     EXPECT_THAT(caption, HasSubstr("2×10⁻⁵ rad between eq. (4) and first-order"));
     EXPECT_THAT(caption, HasSubstr("by 0.042 rad, which is no difference of the equations"));
 }
@@ -360,7 +360,7 @@ TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
     const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 2000}, "time": {"end": 10}})"), "models");
     EXPECT_GT(figure.panels[0].x.to, 0.3);
     EXPECT_LT(figure.panels[0].x.to, 2);
-    EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("Curves end where the work"));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("Curves end where the work"));
     for (std::size_t k : {1u, 2u})
         for (const auto& s : figure.panels[k].series)
             for (const double x : s.x) EXPECT_LE(x, figure.panels[0].x.to) << s.label;
@@ -513,9 +513,9 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
     EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
     EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
     EXPECT_THAT(figure.panels[1].series[1].x, ::testing::ElementsAre(2, 4, 8));
-    EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
     EXPECT_THROW(accuracy_figure({}, sim::Problem{}, Lang::en), render::PictureError);
-    EXPECT_NO_THROW(render::figure::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
+    EXPECT_NO_THROW(render::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
 }
 
 TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {

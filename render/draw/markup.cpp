@@ -1,4 +1,4 @@
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
@@ -335,4 +335,4 @@ static std::string plain_of(const std::vector<Run>& runs) {
 
 std::string to_plain(std::string_view markup) { return plain_of(parse_markup(markup)); }
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render
