@@ -163,6 +163,7 @@ std::string Canvas::drawable(std::string_view plain) const {
 }
 
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
+    if (markup.empty()) return {baseline.x, baseline.y, 0, 0};
     if (has_formula(markup)) {
         if (style.align != HAlign::left)
             baseline.x -= set_parts({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
@@ -196,6 +197,13 @@ Box Canvas::measure(const std::string& markup, const TextStyle& style) {
     PangoLayout* layout = laid_out(fonts_, face_of(style), markup);
     const Metrics m = metrics(layout);
     return {0, m.ink.y, m.advance, m.ink.h};
+}
+
+std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
+                            double room) {
+    for (const std::string& text : texts)
+        if (canvas.measure(text, style).w <= room) return text;
+    return *(texts.end() - 1);
 }
 
 }  // namespace beamcam::render

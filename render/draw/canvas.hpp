@@ -63,4 +63,8 @@ class Canvas : public Brush {
     const Fonts& fonts_;
 };
 
+// The first of the texts that is no wider than `room`; the last where none is.
+std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
+                            double room);
+
 }  // namespace beamcam::render

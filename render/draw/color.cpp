@@ -1,5 +1,7 @@
 #include "render/draw/color.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +67,11 @@ Color along(const std::array<Color, N>& stops, double share) {
 }
 
 }  // namespace
+
+std::string hex(Color color) {
+    const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", level(color.r), level(color.g), level(color.b));
+}
 
 const Palette& palette(Theme theme) {
     switch (theme) {

@@ -105,17 +105,13 @@ void keep_system_settings_out() {
 // Scripts from U+2E80 on. Pictographs, variation selectors and mathematical letters are none of them, and such a font
 // has none.
 bool needs_cjk(std::string_view utf8) {
-    for (std::size_t i = 0; i < utf8.size();) {
-        const auto lead = static_cast<unsigned char>(utf8[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-        std::uint32_t letter = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-        for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
-            letter = letter << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
+    const char* const end = utf8.data() + utf8.size();
+    for (const char* at = utf8.data(); at < end; at = g_utf8_next_char(at)) {
+        const gunichar letter = g_utf8_get_char_validated(at, end - at);
         if ((letter >= 0x2E80 && letter < 0xE000) || (letter >= 0xF900 && letter < 0xFB00) ||
             (letter >= 0xFE30 && letter < 0xFE50) || (letter >= 0xFF00 && letter < 0xFFF0) ||
             (letter >= 0x20000 && letter < 0x40000))
             return true;
-        i += length;
     }
     return false;
 }

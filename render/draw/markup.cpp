@@ -1,6 +1,7 @@
 #include "render/draw/markup.hpp"
 
 #include <fmt/format.h>
+#include <glib.h>
 
 #include <algorithm>
 #include <array>
@@ -45,13 +46,8 @@ constexpr std::array kLatexText{Pair{"–", "--"},
                                 Pair{"…", "\\dots{}"},
                                 Pair{"µ", "\\textmu{}"}};
 
-std::size_t sequence_length(char lead) {
-    const auto byte = static_cast<unsigned char>(lead);
-    return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
-}
-
 std::string_view next_character(std::string_view text, std::size_t at) {
-    return text.substr(at, sequence_length(text[at]));
+    return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
 }
 
 // ASCII and Greek letters; in mathematics they are set in italics.
@@ -314,7 +310,7 @@ std::string to_latex(std::string_view markup) { return latex_of(parse_markup(mar
 static std::string plain_of(const std::vector<Run>& runs) {
     const auto part = [](const std::vector<Run>& some) {
         const std::string text = plain_of(some);
-        const bool one = !text.empty() && sequence_length(text[0]) == text.size();
+        const bool one = !text.empty() && next_character(text, 0).size() == text.size();
         return one ? text : fmt::format("({})", text);
     };
     std::string out;

@@ -9,6 +9,8 @@
 
 namespace beamcam::render {
 
+inline ChartStyle chart_style(const FilmFacts& facts) { return {*facts.palette, facts.unit, facts.tick}; }
+
 class ChartPanel : public Panel {
     struct Shown final : State {
         double until = 0;  // the picture's first column that shows no past
@@ -16,11 +18,10 @@ class ChartPanel : public Panel {
 
   public:
     ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
-        : facts_(facts),
-          chart_(std::move(content), box, plot_area(box, facts.unit, facts.tick), facts.unit, facts.tick) {
+        : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit, facts.tick), chart_style(facts)) {
         past_ = chart_.past(*facts.fonts);
     }
-    void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas, *facts_.palette); }
+    void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas); }
     Box growing() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
     // What has been, column by column.
@@ -34,7 +35,7 @@ class ChartPanel : public Panel {
         shown = until;
     }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, *facts_.palette, facts_.at(0, frame), readings(frame));
+        chart_.draw_moving(canvas, facts_.at(0, frame), readings(frame));
     }
 
   protected:

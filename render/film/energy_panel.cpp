@@ -62,7 +62,7 @@ class EnergyPanel final : public ChartPanel {
         std::vector<double> base(t->size(), 0.0);
         double most = 0;
         for (const Part& part : parts(facts)) {
-            Band band{base, base, part.color};
+            ChartBand band{base, base, part.color};
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;

@@ -80,7 +80,7 @@ class CollisionPanel final : public Panel {
         if (anew) {
             s.texts.clear();
             kept.record = &s.texts;
-            s.chart->draw_ground(kept, *facts_.palette);
+            s.chart->draw_ground(kept);
             kept.record = nullptr;
             s.until = at.x;
         }
@@ -102,7 +102,7 @@ class CollisionPanel final : public Panel {
         if (t < s.chart->time().low || t > s.chart->time().high) return;
         std::vector<double> readings;
         for (const Channel channel : spec_.channels) readings.push_back(reading(facts_, 0, frame, channel));
-        s.chart->draw_moving(canvas, *facts_.palette, t, readings);
+        s.chart->draw_moving(canvas, t, readings);
     }
 
   private:
@@ -137,8 +137,8 @@ class CollisionPanel final : public Panel {
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
         const double t0 = start(which);
-        for (const Curve& all : curves_) {
-            Curve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
+        for (const ChartCurve& all : curves_) {
+            ChartCurve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
             for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
             const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
                        end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
@@ -146,7 +146,7 @@ class CollisionPanel final : public Panel {
                 curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
             c.curves.push_back(std::move(curve));
         }
-        return Chart(std::move(c), box_, plot_, facts_.unit, facts_.tick);
+        return Chart(std::move(c), box_, plot_, chart_style(facts_));
     }
 
     const FilmFacts& facts_;
@@ -155,7 +155,7 @@ class CollisionPanel final : public Panel {
     std::vector<Range> spans_;
     int last_ = -1;
     ChartContent content_;
-    std::vector<Curve> curves_;
+    std::vector<ChartCurve> curves_;
 };
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr int kFewMarkers = 8;         // along a line
-constexpr double kGrainsPerPixel = 4;  // grains: a pixel, in which swings are not told apart
-constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
+constexpr int kFewMarkers = 8;                // along a line
+constexpr double kGrainsPerPixel = 4;         // grains: a pixel, in which oscillations cannot be told apart
+constexpr double kTonesOfAnOscillation = 24;  // of a curve that is coloured by a value
 
 // Which markers later ones leave to be seen: of those within `apart` only the last.
 std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
@@ -99,13 +99,13 @@ DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : se
 // A million points draw and weigh as little as a few thousand.
 void DrawnCurve::lighten(double grain) {
     const Vec2 broken{std::nan(""), std::nan("")};
-    const std::vector<Swing> fast = swings(points_, kGrainsPerPixel * grain);
+    const std::vector<Envelope> fast = envelopes(points_, kGrainsPerPixel * grain);
     const std::size_t count = points_.size();
     if (!value_.empty()) {
         if (!fast.empty()) thin_out_tones(without(fast, count, true));
         return;
     }
-    for (const Swing& swing : fast) bands_.push_back(outline(swing, points_));
+    for (const Envelope& envelope : fast) bands_.push_back(outline(envelope, points_));
     line_ = reduce(taken(without(fast, count, false), points_, broken), grain);
     points_ = fast.empty() ? line_ : reduce(taken(without(fast, count, true), points_, broken), grain);
 }
@@ -117,7 +117,7 @@ void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double rise = i > 0 ? value[i] - value[i - 1] : 0;
         const int tones =
-            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
+            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfAnOscillation))) : 1;
         for (int k = 1; k < tones; ++k) {
             const double share = double(k) / tones;
             points_.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);

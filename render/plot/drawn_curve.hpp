@@ -1,4 +1,4 @@
-// A series on the sheet, reduced to what shows: a line, bands where it swings fast, tones of its values, markers.
+// A series on the sheet, reduced to what shows: a line, bands where it oscillates fast, tones of its values, markers.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ class DrawnCurve {
 
     const Series* series_;
     std::vector<Vec2> points_;
-    std::vector<std::vector<Vec2>> bands_;  // outlines of where it swings too fast to be told apart; not in `line_`
+    std::vector<std::vector<Vec2>> bands_;  // outlines of where it oscillates too fast to be told apart; not in `line_`
     std::vector<Vec2> line_;                // what is drawn as a line, for curves without values
     std::vector<double> value_;             // colour shares, for curves with values
 };

@@ -91,7 +91,7 @@ void PlotAxes::fit(double width, double height) {
     if (panel_.right) right_.emplace(*panel_.right, er, up, what_ + ", right axis");
     bar_.reset();
     if (panel_.color_bar)
-        bar_.emplace(Axis{.label = {},
+        bar_.emplace(Axis{.label = panel_.color_bar->label,
                           .scale = panel_.color_bar->scale,
                           .from = panel_.color_bar->from,
                           .to = panel_.color_bar->to,
@@ -138,17 +138,17 @@ Margins PlotAxes::margins() const {
     const double number = sheet_.cap_height(style_.numbers), letter = style_.letters;
     Margins m;
     m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap) +
-             label_height(panel_.y);
+             label_height(*y_);
     m.bottom = number / 2;
     if (lowest_) {
         m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop() : style_.gap;
-        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(panel_.x);
+        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(*x_);
     }
     m.top = number / 2 + 0.5;
     m.top = std::max(m.top, titles_height());
     if (!y_->common().empty() || (right_ && !right_->common().empty())) m.top += style_.numbers + style_.gap;
     m.right = 1.3 * style_.numbers;  // the last x number overhangs
-    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + label_height(*panel_.right);
+    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + label_height(*right_);
     if (bar_ && !panel_.color_bar->hidden)
         m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
@@ -204,7 +204,7 @@ void PlotAxes::draw_labels() const {
         double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
         // Clear of the power of ten at the right end.
         const double common = x_->common().empty() ? 0 : sheet_.measure(x_->common(), numbers()).w + 2 * style_.gap;
-        for (const std::string& line : label_lines(panel_.x)) {
+        for (const std::string& line : label_lines(*x_)) {
             const double half = 0.5 * sheet_.measure(line, l).w;
             const double x = common > 0 ? std::min(plot_.centre().x, plot_.right() - common - half) : plot_.centre().x;
             sheet_.text({x, y}, line, l), y += step;
@@ -218,13 +218,12 @@ void PlotAxes::draw_labels() const {
     }
     l.turned = std::numbers::pi / 2;
     l.valign = VAlign::baseline;
-    double x = plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap - label_height(panel_.y);
-    for (const std::string& line : label_lines(panel_.y)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
+    double x = plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap - label_height(*y_);
+    for (const std::string& line : label_lines(*y_)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
     if (right_) {
         l.valign = VAlign::top;
         x = plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
-        for (const std::string& line : label_lines(*panel_.right))
-            sheet_.text({x, plot_.centre().y}, line, l), x += step;
+        for (const std::string& line : label_lines(*right_)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
     }
     double y = plot_.y - style_.gap;
     TextStyle common = numbers();
@@ -239,10 +238,10 @@ std::vector<std::string> PlotAxes::title_lines() const {
     const double indent = panel_.letter.empty() ? 0 : 2 * style_.letters;
     return lines_of(panel_.title, width_ - indent, words(), sheet_);
 }
-std::vector<std::string> PlotAxes::label_lines(const Axis& axis) const {
-    return lines_of(axis.label, &axis == &panel_.x ? 1.1 * width_ : 1.05 * height_, words(), sheet_);
+std::vector<std::string> PlotAxes::label_lines(const AxisMap& axis) const {
+    return lines_of(axis.label(), &axis == &*x_ ? 1.1 * width_ : 1.05 * height_, words(), sheet_);
 }
-double PlotAxes::label_height(const Axis& axis) const {
+double PlotAxes::label_height(const AxisMap& axis) const {
     const std::size_t lines = label_lines(axis).size();
     return lines > 1 ? static_cast<double>(lines - 1) * kLineStep * style_.letters : 0;
 }
@@ -289,7 +288,7 @@ void PlotAxes::draw_color_bar() const {
     l.turned = std::numbers::pi / 2;
     l.align = HAlign::centre;
     l.valign = VAlign::top;
-    std::string label = panel_.color_bar->label;
+    std::string label = bar_->label();
     if (!bar_->common().empty()) label += "  (" + bar_->common() + ")";
     sheet_.text({bar.right() + 2.2 * style_.gap + widest_bar_, bar.centre().y}, label, l);
 }

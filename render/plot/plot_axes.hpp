@@ -43,8 +43,8 @@ class PlotAxes {
 
   private:
     std::vector<std::string> title_lines() const;
-    std::vector<std::string> label_lines(const Axis& axis) const;
-    double label_height(const Axis& axis) const;  // of the lines beside the first
+    std::vector<std::string> label_lines(const AxisMap& axis) const;
+    double label_height(const AxisMap& axis) const;  // of the lines beside the first
     TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
     TextStyle numbers() const { return {.size = style_.numbers, .color = kInk}; }
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers

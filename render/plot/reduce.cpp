@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 namespace {
 
 bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
@@ -108,12 +108,12 @@ PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) 
 
 }  // namespace
 
-std::vector<Swing> swings(std::span<const Vec2> points, double column) {
+std::vector<Envelope> envelopes(std::span<const Vec2> points, double column) {
     constexpr double kTurns = 2.5;      // heights of a column that the curve goes through in it
     constexpr std::size_t kFewest = 8;  // columns: a single one is drawn as it is
-    std::vector<Swing> all;
+    std::vector<Envelope> all;
     if (points.size() < 4 * kFewest || !increasing(points)) return all;
-    Swing now;
+    Envelope now;
     double before = 0;
     const auto close = [&] {
         if (now.least.size() >= kFewest) all.push_back(std::move(now));
@@ -141,25 +141,25 @@ std::vector<Swing> swings(std::span<const Vec2> points, double column) {
     return all;
 }
 
-std::vector<Vec2> outline(const Swing& swing, std::span<const Vec2> points) {
-    std::vector<Vec2> all{points[swing.first]};
-    for (const std::size_t k : swing.most) all.push_back(points[k]);
-    all.push_back(points[swing.last]);
-    for (auto k = swing.least.rbegin(); k != swing.least.rend(); ++k) all.push_back(points[*k]);
+std::vector<Vec2> outline(const Envelope& envelope, std::span<const Vec2> points) {
+    std::vector<Vec2> all{points[envelope.first]};
+    for (const std::size_t k : envelope.most) all.push_back(points[k]);
+    all.push_back(points[envelope.last]);
+    for (auto k = envelope.least.rbegin(); k != envelope.least.rend(); ++k) all.push_back(points[*k]);
     return all;
 }
 
-std::vector<std::size_t> without(const std::vector<Swing>& swings, std::size_t count, bool keep_extremes) {
+std::vector<std::size_t> without(const std::vector<Envelope>& envelopes, std::size_t count, bool keep_extremes) {
     std::vector<std::size_t> all;
     std::size_t next = 0;
-    for (const Swing& swing : swings) {
-        for (; next <= swing.first; ++next) all.push_back(next);
-        for (std::size_t c = 0; keep_extremes && c < swing.least.size(); ++c) {
-            all.push_back(std::min(swing.least[c], swing.most[c]));
-            all.push_back(std::max(swing.least[c], swing.most[c]));
+    for (const Envelope& envelope : envelopes) {
+        for (; next <= envelope.first; ++next) all.push_back(next);
+        for (std::size_t c = 0; keep_extremes && c < envelope.least.size(); ++c) {
+            all.push_back(std::min(envelope.least[c], envelope.most[c]));
+            all.push_back(std::max(envelope.least[c], envelope.most[c]));
         }
         if (!keep_extremes) all.push_back(kBreak);
-        next = swing.last;
+        next = envelope.last;
     }
     for (; next < count; ++next) all.push_back(next);
     return all;
@@ -177,4 +177,4 @@ std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
     return straightened(out, out.size() > kMany ? grain : 0.25 * grain);
 }
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

@@ -209,16 +209,13 @@ void Sheet::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
     const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
     const bool symbol = set.run.symbol;
     const LetterFace letters = face_of(set.run, style, set.size, fonts_);
-    const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
-    const Color ink = shown(style.color);
     handles_->texts += fmt::format(
-        R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="#{:02x}{:02x}{:02x}" xml:space="preserve">{}</text>)svg"
+        R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="{}" xml:space="preserve">{}</text>)svg"
         "\n",
         at.x, at.y, turned * 180 / std::numbers::pi,
         symbol || serif() ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
         letters.size * scale, symbol ? R"( font-style="italic")" : "",
-        letters.weight == Weight::bold ? R"( font-weight="bold")" : "", level(ink.r), level(ink.g), level(ink.b),
-        xml(set.run.text));
+        letters.weight == Weight::bold ? R"( font-weight="bold")" : "", hex(shown(style.color)), xml(set.run.text));
 }
 
 Box Sheet::measure(std::string_view markup, const TextStyle& style) const {

@@ -48,11 +48,6 @@ Ticks ticks(double low, double high, int most) {
     return out;
 }
 
-Range round_range(double low, double high, int most) {
-    const double step = ticks(low, high, most).step;
-    return {std::floor(low / step + kSlack) * step, std::ceil(high / step - kSlack) * step};
-}
-
 std::string fixed(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
     const bool zero = text.find_first_of("123456789") == std::string::npos;

@@ -98,6 +98,41 @@ TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
     EXPECT_THROW(AxisMap({.from = std::nan("")}, {}, 5, "test"), PictureError);
 }
 
+TEST(FigureAxis, UnitsGetThePrefixThatSuitsTheNumbers) {
+    const AxisMap small = axis(0, -3e-6, {.label = "$w$ / mm"});
+    EXPECT_EQ(small.label(), "$w$ / nm");
+    EXPECT_EQ(small.common(), "");
+    EXPECT_NEAR(small.told(-3e-6), -3, 1e-12);
+    EXPECT_THAT(labels(small), ::testing::Contains("−2"));
+    EXPECT_NEAR(small.place(-1e-6), axis(0, -3e-6, {.label = "$w$"}).place(-1e-6), 1e-12);
+    EXPECT_EQ(axis(0, 2e7, {.label = "$F$ / N"}).label(), "$F$ / MN");
+    // Usual numbers, and units without prefixes, stay as they are; so does a number that an offset is told beside.
+    EXPECT_EQ(axis(0, 300, {.label = "$F$ / N"}).label(), "$F$ / N");
+    EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).label(), "$θ$ / rad");
+    EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).common(), "×10^{−6}");
+    EXPECT_EQ(axis(0.37, 0.37 + 1e-6, {.label = "$x$ / m"}).label(), "$x$ / m");
+    EXPECT_THAT(axis(0.37, 0.37 + 1e-6, {.label = "$x$ / m"}).common(), HasSubstr("×10^{−6} +0.37"));
+}
+
+TEST(FigureAxis, OfAChartHasRoundEndsAndShortNumbers) {
+    const auto chart = [](double low, double high, const char* label) {
+        return AxisMap({.label = label, .tight = true, .round_ends = true, .short_numbers = true}, {true, low, high}, 5,
+                       "test");
+    };
+    const AxisMap angle = chart(0.23, 0.84, "θ / rad");
+    EXPECT_NEAR(angle.ends().low, 0.2, 1e-12);
+    EXPECT_NEAR(angle.ends().high, 1.0, 1e-12);
+    EXPECT_NEAR(angle.step(), 0.2, 1e-12);
+    EXPECT_THAT(labels(angle), ::testing::ElementsAre("0.2", "0.4", "0.6", "0.8", "1.0"));
+    EXPECT_EQ(angle.name(), "θ / rad");
+    EXPECT_EQ(chart(0, 0.05, "F / N").name(), "F / mN");
+    EXPECT_THAT(labels(chart(0, 0.05, "F / N")), ::testing::Contains("40"));
+    EXPECT_EQ(chart(0, 1e-6, "θ / rad").name(), "θ / (10<sup>−6</sup>\u2009rad)");
+    EXPECT_EQ(chart(0, 5, "dθ/dt / rad/s").name(), "dθ/dt / (rad/s)");
+    EXPECT_EQ(chart(0.785, 0.785 + 1e-6, "θ / rad").name(), "(θ − 0.785\u2009rad) / (10<sup>−9</sup>\u2009rad)");
+    EXPECT_EQ(chart(0, 2e-5, "n").name(), "n / 10<sup>−6</sup>");
+}
+
 TEST(FigureAxis, CountsHaveTicksAtWholeNumbersOnly) {
     EXPECT_THAT(labels(axis(1, 3, {.counts = true})), ::testing::ElementsAre("1", "2", "3"));
     for (const auto& [low, high] : {std::pair{1.0, 2.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 200.0}}) {
@@ -155,13 +190,13 @@ TEST(FigureReduce, NanBreaksTheLine) {
     EXPECT_TRUE(std::isnan(kept[1].x));
 }
 
-// 40 swings a column: the outline is the envelope, and little else is left to draw.
-TEST(FigureReduce, FastSwingsBecomeABandWithTheirEnvelope) {
+// 40 oscillations a column: the outline is the envelope, and little else is left to draw.
+TEST(FigureReduce, FastOscillationsBecomeABandWithTheirEnvelope) {
     const auto envelope = [](double x) { return 10 + 5 * std::exp(-x / 60); };
     std::vector<Vec2> points;
     for (int i = 0; i < 1'000'000; ++i)
         points.push_back({i * 1e-4, i % 7 == 3 ? std::nan("") : envelope(i * 1e-4) * std::sin(i * 0.0251327)});
-    const std::vector<Swing> fast = swings(points, 1);
+    const std::vector<Envelope> fast = envelopes(points, 1);
     ASSERT_EQ(fast.size(), 1u);
     EXPECT_EQ(fast[0].least.size(), 100u);
     EXPECT_EQ(fast[0].first, 0u);
@@ -182,14 +217,14 @@ TEST(FigureReduce, CurvesThatCanBeToldApartAreNoBands) {
     std::vector<Vec2> slow, orbit, apart;
     for (int i = 0; i < 100'000; ++i) {
         const double t = i * 1e-3;
-        slow.push_back({t, std::sin(3 * t)});  // half a swing a column
+        slow.push_back({t, std::sin(3 * t)});  // half an oscillation a column
         orbit.push_back({std::cos(500 * t), std::sin(500 * t)});
         apart.push_back({std::floor(t) * 2 + t - std::floor(t), std::sin(500 * t)});  // every second column
     }
-    EXPECT_TRUE(swings(slow, 1).empty());
-    EXPECT_TRUE(swings(orbit, 1).empty());
-    EXPECT_TRUE(swings(apart, 1).empty());
-    EXPECT_TRUE(swings({}, 1).empty());
+    EXPECT_TRUE(envelopes(slow, 1).empty());
+    EXPECT_TRUE(envelopes(orbit, 1).empty());
+    EXPECT_TRUE(envelopes(apart, 1).empty());
+    EXPECT_TRUE(envelopes({}, 1).empty());
 }
 
 TEST(FigurePlacement, GoesWhereNothingIs) {
@@ -228,9 +263,9 @@ Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi
     return {sheet.image(), sheet.written};
 }
 
-// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each
-// value.
-TEST(Figure, ABandLooksLikeItsSwings) {
+// The same band of ink, whether its oscillations are drawn one by one or as an outline, and whether it has a colour for
+// each value.
+TEST(Figure, ABandLooksLikeItsOscillations) {
     std::vector<double> x, y;
     for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
     Figure by_outline = plot(x, y), in_tones = by_outline;
@@ -382,14 +417,15 @@ TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
 
 // An inset becomes smaller, then is left out, rather than hiding a curve.
 TEST(Figure, AnInsetNeverCoversData) {
-    const auto written_in_inset = [](int swings) {
+    const auto written_in_inset = [](int oscillations) {
         std::vector<double> x, y;
-        for (int i = 0; i <= 4000; ++i) x.push_back(i / 4000.0), y.push_back(std::cos(2 * M_PI * swings * x.back()));
+        for (int i = 0; i <= 4000; ++i)
+            x.push_back(i / 4000.0), y.push_back(std::cos(2 * M_PI * oscillations * x.back()));
         Figure figure = plot(x, y);
         Panel inset;
         inset.x.label = "inset";
         inset.series = plot({0, 1}, {0, 1}).panels[0].series;
-        figure.panels[0].y.to = swings > 0 ? 1.1 : 3;
+        figure.panels[0].y.to = oscillations > 0 ? 1.1 : 3;
         figure.panels[0].insets.push_back({.panel = {inset}});
         const auto written = draw_png(figure).written;
         return std::ranges::count(written, "inset", &Sheet::Written::markup);

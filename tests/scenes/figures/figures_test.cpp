@@ -16,7 +16,6 @@
 #include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
@@ -173,29 +172,6 @@ TEST(Figures, AnyCollisionIsShownInCloseUp) {
     const Finished none = shell(folder, "$BEAMCAM figure s.json collision --collision 99 -o n.svg");
     EXPECT_EQ(none.code, 3);
     EXPECT_THAT(none.err, HasSubstr("collision 99 does not occur: there are "));
-}
-
-TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
-    render::figure::Panel panel;
-    panel.x.label = "$t$ / s", panel.y.label = "$w$ / mm";
-    panel.right = render::figure::Axis{.label = "$F$ / N"};
-    panel.series.resize(2);
-    panel.series[0].y = {0, -3e-6}, panel.series[1].y = {0, 2e7};
-    for (auto& series : panel.series) series.x = {0, 1};
-    panel.series[1].right = true;
-    panel.rules = {{.at = 1e-6}};
-    panel.color_bar = render::figure::ColorBar{.label = "$F$ / N", .from = 0, .to = 300};
-    render::figure::Figure figure;
-    figure.panels = {panel};
-    choose_prefixes(figure);
-    const auto& made = figure.panels[0];
-    EXPECT_EQ(made.x.label, "$t$ / s");
-    EXPECT_EQ(made.y.label, "$w$ / nm");
-    EXPECT_NEAR(made.series[0].y[1], -3, 1e-12);
-    EXPECT_NEAR(made.rules[0].at, 1, 1e-12);
-    EXPECT_EQ(made.right->label, "$F$ / MN");
-    EXPECT_NEAR(made.series[1].y[1], 20, 1e-12);
-    EXPECT_EQ(made.color_bar->label, "$F$ / N");
 }
 
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {

@@ -8,7 +8,6 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/fonts.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -87,7 +86,6 @@ Drawn drawn(const Scene& scene, const FigureOutput& how) {
     Results results;
     for (const sim::Result& run : runs) results.studies.push_back(&run);
     plot::Figure figure = make(results);
-    choose_prefixes(figure);
     const plot::Page page = plot::page_of(figure, *plot::column_named(how.column));
     const render::Fonts fonts(plot::needs_chinese(figure), render::Typefaces::print);
     const double w = plot::points(page.width), h = plot::points(page.height);
