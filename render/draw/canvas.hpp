@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "render/draw/area.hpp"
-#include "render/draw/brush.hpp"
 #include "render/draw/color.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
+#include "render/draw/painter.hpp"
 #include "render/draw/text_style.hpp"
 
 namespace beamcam::render {
@@ -25,7 +25,7 @@ namespace beamcam::render {
 std::string escape(std::string_view plain);
 std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
 
-class Canvas : public Brush {
+class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
     ~Canvas() noexcept(false);  // throws what Cairo could not draw: a picture is whole, or an error

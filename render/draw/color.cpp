@@ -118,10 +118,11 @@ double contrast(const Color& a, const Color& b) {
 }
 
 Color readable(const Palette& palette, Color color) {
-    constexpr double kLeast = 3;
+    constexpr double kLeastContrast = 3;
     constexpr int kSteps = 20;
     for (int k = 0; k < kSteps; ++k)
-        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps); contrast(mixed, palette.paper) >= kLeast)
+        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps);
+            contrast(mixed, palette.paper) >= kLeastContrast)
             return mixed;
     return palette.ink;
 }

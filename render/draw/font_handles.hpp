@@ -25,7 +25,7 @@ class LayoutCache {
     template <typename Make>
     PangoLayout* get(const std::string& key, Make make) {
         if (const auto known = latest_.find(key); known != latest_.end()) return known->second;
-        if (latest_.size() >= kMost) {
+        if (latest_.size() >= kMostLayouts) {
             drop(before_);
             before_ = std::exchange(latest_, {});
         }
@@ -35,7 +35,7 @@ class LayoutCache {
     void forget() { drop(latest_), drop(before_); }
 
   private:
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMostLayouts = 256;
     using Known = std::unordered_map<std::string, PangoLayout*>;
     static void drop(Known& layouts) {
         for (const auto& [key, layout] : layouts) g_object_unref(layout);

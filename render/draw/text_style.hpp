@@ -1,4 +1,4 @@
-// How a text stands: on a picture (Canvas) in pixels, on a sheet of paper (figure::Sheet) in points.
+// How a text stands: on a picture (Canvas) in pixels, on a sheet of paper (figure::PageCanvas) in points.
 #pragma once
 
 #include <optional>

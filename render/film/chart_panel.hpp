@@ -11,7 +11,7 @@ namespace beamcam::render {
 
 inline ChartStyle chart_style(const FilmFacts& facts) { return {*facts.palette, facts.unit, facts.tick}; }
 
-class ChartPanel : public Panel {
+class ChartPanel : public FilmPanel {
     struct Shown final : State {
         double until = 0;  // the picture's first column that shows no past
     };

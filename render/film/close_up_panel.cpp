@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kBelow = 1.35, kAbove = 1.9;  // heights shown, in largest penetrations
 
-class CloseUpPanel final : public Panel {
+class CloseUpPanel final : public FilmPanel {
   public:
     CloseUpPanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
@@ -275,7 +275,7 @@ class CloseUpPanel final : public Panel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<CloseUpPanel>(facts, slot);
 }
 

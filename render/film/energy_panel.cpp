@@ -146,7 +146,7 @@ class EnergyPanel final : public ChartPanel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<EnergyPanel>(facts, slot);
 }
 

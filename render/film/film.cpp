@@ -20,9 +20,9 @@ namespace beamcam::render {
 
 struct Film::Prepared {
     FilmFacts facts;
-    std::vector<std::unique_ptr<Panel>> panels;  // of the layer
-    const MechanismPanel* mechanism = nullptr;   // the first
-    Image ground;                                // all that never changes
+    std::vector<std::unique_ptr<FilmPanel>> panels;  // of the layer
+    const MechanismPanel* mechanism = nullptr;       // the first
+    Image ground;                                    // all that never changes
     std::vector<Box> ground_texts;
     std::string widest_speed;  // of all frames
     bool steady = true;        // one speed throughout
@@ -51,7 +51,7 @@ struct Film::Prepared {
     }
     void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
-                     const std::vector<std::unique_ptr<Panel::State>>& states) const;
+                     const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
     std::vector<int> stages(int frame) const;
     bool growing_apart = true;  // no two panels add to the same pixels
 
@@ -93,13 +93,13 @@ struct Film::Tools {
     }
 
     Fonts fonts;
-    std::vector<std::unique_ptr<Panel::State>> states;
+    std::vector<std::unique_ptr<FilmPanel::State>> states;
     Image kept;
     int kept_frame = -1;      // < 0: none
     std::vector<int> stages;  // of that frame
     Image picture;
     int frame = -1;  // that the picture shows; < 0: none
-    Stencils stencils;
+    CoverageCache coverage_cache;
     Tiles grown;    // where `kept` changed since the picture was drawn
     Tiles moved;    // where the picture may differ from `kept` as it was then
     Tiles changed;  // where the picture may differ from the one before
@@ -289,7 +289,7 @@ bool Film::repeats(int frame) const {
 }
 
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
-                                 const std::vector<std::unique_ptr<Panel::State>>& states) const {
+                                 const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
     draw_clock(canvas, frame);
 }
@@ -315,9 +315,9 @@ const Image& Film::draw(int frame) {
     Canvas canvas(t.picture, t.fonts);
     canvas.halos = !prepared_->facts.setup->view.transparent;
     canvas.touched = &t.moved;
-    if (Stencils::exact()) canvas.stencils = &t.stencils;
+    if (CoverageCache::exact()) canvas.coverage_cache = &t.coverage_cache;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
-    t.stencils.next_picture();
+    t.coverage_cache.next_picture();
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;

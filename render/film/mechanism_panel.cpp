@@ -28,7 +28,7 @@ constexpr double kFarTurn = 0.5;  // of the hub between places of the tip: furth
 
 // ---- prepared once for a film ----------------------------------------------------------------
 
-struct MechanismPanel::Threads final : Panel::State {
+struct MechanismPanel::Threads final : FilmPanel::State {
     Threads(const FilmFacts& facts, int member, double scale, const Box& box)
         : path(facts.setup->view.tip_path ? static_cast<int>(box.w) : 1,
                facts.setup->view.tip_path ? static_cast<int>(box.h) : 1),
@@ -58,7 +58,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : 
     find_shots();
 }
 
-std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
+std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
     return std::make_unique<Threads>(at_.facts, at_.member, at_.look.camera.scale, at_.box);
 }
 
@@ -377,7 +377,7 @@ std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     return out;
 }
 
-std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<MechanismPanel>(facts, slot);
 }
 

@@ -13,7 +13,7 @@
 
 namespace beamcam::render {
 
-class MechanismPanel final : public Panel {
+class MechanismPanel final : public FilmPanel {
   public:
     MechanismPanel(const FilmFacts& facts, const PanelSlot& slot);
 

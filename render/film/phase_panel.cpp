@@ -16,11 +16,11 @@ namespace {
 
 using sim::ChannelKind;
 
-struct Layers final : Panel::State {
+struct Layers final : FilmPanel::State {
     std::vector<GrowingLayer> layers;
 };
 
-class PhasePanel final : public Panel {
+class PhasePanel final : public FilmPanel {
   public:
     PhasePanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
@@ -144,7 +144,7 @@ class PhasePanel final : public Panel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<PhasePanel>(facts, slot);
 }
 

@@ -35,7 +35,7 @@ class StripPanel final : public ChartPanel {
 
 // The channel during one collision, from a little before its first touch: t₀ is that touch. It stays until the next
 // collision begins; before the first it shows that one's axes. All collisions share the axis of values.
-class CollisionPanel final : public Panel {
+class CollisionPanel final : public FilmPanel {
     struct Shown final : State {
         std::optional<Chart> chart;
         std::size_t which = 0;
@@ -160,7 +160,7 @@ class CollisionPanel final : public Panel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
     if (slot.spec.by_collision && facts.members() == 1 && facts.setup->problem.cam)
         return std::make_unique<CollisionPanel>(facts, slot);
     return std::make_unique<StripPanel>(facts, slot);

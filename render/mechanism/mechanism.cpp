@@ -120,9 +120,9 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
 }  // namespace
 
 double mark_unit(double beam_length, double unit) {
-    constexpr double kUsual = 640;   // of a beam at full size [px]
-    constexpr double kLeast = 0.25;  // a hub of 5 px
-    return std::clamp(beam_length / kUsual, std::min(kLeast, unit), unit);
+    constexpr double kUsual = 640;         // of a beam at full size [px]
+    constexpr double kSmallestHub = 0.25;  // a hub of 5 px
+    return std::clamp(beam_length / kUsual, std::min(kSmallestHub, unit), unit);
 }
 
 double mark_unit(const sim::Problem& problem, const Camera& camera, double unit) {

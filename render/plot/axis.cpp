@@ -14,8 +14,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kAir = 0.04;            // beyond the data, of the range
-constexpr double kSameRelative = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
+constexpr double kFreeBeyondData = 0.04;  // beyond the data, of the range
+constexpr double kRoundingRange = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
 constexpr double kLargestPower = 4, kSmallestPower = -2;  // powers of ten within which numbers need no common factor
 constexpr double kOffsetFrom = 2e-4;  // a range smaller than this part of its numbers gets a common offset
 
@@ -98,11 +98,11 @@ void AxisMap::linear(const Axis& axis, int most) {
     double largest = std::max(std::abs(low_), std::abs(high_));
     const int size = largest > 0 ? std::clamp(whole_log10(largest), -300, 300) : 0;
     double unit = ten_to(size), a = low_ / unit, b = high_ / unit;
-    if (b - a <= kSameRelative * std::max(std::abs(a), std::abs(b)) || !(b > a)) {
+    if (b - a <= kRoundingRange * std::max(std::abs(a), std::abs(b)) || !(b > a)) {
         const double half = a == 0 && b == 0 ? 1 : 0.1 * std::max(std::abs(a), std::abs(b));
         a -= half, b += half;
     } else {
-        const double air = axis.tight ? 0 : kAir * (b - a);
+        const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
         if (!axis.from && !(axis.with_zero && a == 0)) a -= air;
         if (!axis.to && !(axis.with_zero && b == 0)) b += air;
     }
@@ -190,7 +190,7 @@ std::string AxisMap::name() const {
 void AxisMap::logarithmic(const Axis& axis, int most) {
     double a = std::log10(low_), b = std::log10(high_);
     if (b - a < 1e-9) a -= 0.5, b += 0.5;
-    const double air = axis.tight ? 0 : kAir * (b - a);
+    const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
     if (!axis.from) a -= air;
     if (!axis.to) b += air;
     ends_.low = a;

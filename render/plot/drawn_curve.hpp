@@ -13,14 +13,14 @@ class DrawnCurve {
 
     const Series& series() const { return *series_; }
     const std::vector<Vec2>& points() const { return points_; }  // on the sheet
-    void draw(const Box& plot, const Style& style, Sheet& sheet) const;
+    void draw(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
   private:
     void lighten(double grain);
     void thin_out_tones(const std::vector<std::size_t>& kept);
-    void draw_tones(const Box& plot, const Style& style, Sheet& sheet) const;
-    void draw_line(const Style& style, Sheet& sheet) const;
-    void draw_markers(const Box& plot, const Style& style, Sheet& sheet) const;
+    void draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_line(const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
     const Series* series_;
     std::vector<Vec2> points_;
@@ -29,9 +29,10 @@ class DrawnCurve {
     std::vector<double> value_;             // colour shares, for curves with values
 };
 
-Pen curve_pen(const Series& series, const Style& style);
+Pen curve_pen(const Series& series, const PrintStyle& style);
 Color color_of(const Series& series);
-void draw_marker(Sheet& sheet, const Style& style, Marker shape, Vec2 at, double radius, Color color, bool hollow);
+void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 at, double radius, Color color,
+                 bool hollow);
 inline bool inside(const Box& b, Vec2 p, double slack = 0) { return b.contains({p.x, p.y, 0, 0}, slack); }
 
 }  // namespace beamcam::render::figure

@@ -5,7 +5,7 @@
 
 namespace beamcam::render::figure {
 namespace {
-constexpr double kSample = 2.6;  // length of a line in a legend, in letters
+constexpr double kSampleLength = 2.6;  // length of a line in a legend, in letters
 }  // namespace
 
 int LegendBox::entries() const {
@@ -16,7 +16,7 @@ int LegendBox::entries() const {
 }
 
 Box LegendBox::size(double width) {
-    const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
+    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
     double widest = 0;
     int rows = 0;
     const auto add = [&](const std::string& label) {
@@ -40,7 +40,7 @@ bool LegendBox::place_inside(OccupancyGrid& taken) {
     const Box& plot = taken.area();
     const Box box = size(plot.w);
     const Place place = best_place(taken, box.w, box.h, 1.6 * style_.gap);
-    if (panel_.legend != Legend::above && place.cost <= kCovers && box.w < plot.w && box.h < plot.h) {
+    if (panel_.legend != Legend::above && place.cost <= kFewCells && box.w < plot.w && box.h < plot.h) {
         box_ = place.box;
         taken.cover(place.box);
         return true;
@@ -67,7 +67,7 @@ void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
 
 void LegendBox::draw() const {
     if (!box_) return;
-    const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
+    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
     TextStyle l = words();
     l.valign = VAlign::middle;
     int k = 0;

@@ -12,10 +12,10 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kCell = 1.5;     // of the grid of what is covered: resolves letters [pt]
-constexpr double kOutside = 1e5;  // cost of a box that leaves the plot
-constexpr double kGrazes = 8;     // cells of data that the empty edge of an inset may touch
-constexpr int kMostDirect = 4;    // more labels than that are told apart better in a box
+constexpr double kCellSide = 1.5;        // of the grid of what is covered: resolves letters [pt]
+constexpr double kBeyondPlot = 1e5;      // cost of a box that leaves the plot
+constexpr double kTouchedByAnInset = 8;  // cells of data that the empty edge of an inset may touch
+constexpr int kMostDirectLabels = 4;     // more labels than that are told apart better in a box
 
 // Does the segment a–b enter the box?
 bool enters(const Box& box, Vec2 a, Vec2 b) {
@@ -45,7 +45,7 @@ std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) 
 
 }  // namespace
 
-PanelDrawing::PanelDrawing(const Panel& panel, const Style& style, Sheet& sheet, double width, double height,
+PanelDrawing::PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
                            bool lowest, const std::string& what)
     : panel_(panel),
       style_(style),
@@ -91,7 +91,7 @@ bool PanelDrawing::place(const Box& plot) {
 
 void PanelDrawing::make_curves() {
     curves_.clear();
-    taken_.emplace(plot_, kCell);
+    taken_.emplace(plot_, kCellSide);
     for (const Series& s : panel_.series) {
         const DrawnCurve& curve = curves_.emplace_back(s, axes_, sheet_.grain());
         if (s.line) taken_->cover(curve.points(), s.faded ? 0.7 : 1);
@@ -153,7 +153,7 @@ double PanelDrawing::place_insets() {
             const Margins m =
                 PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
             const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
-            if (data_->cost(place.box) > kGrazes) continue;
+            if (data_->cost(place.box) > kTouchedByAnInset) continue;
             placed = {place.box, w, h};
             cost += place.cost;
             taken_->cover(place.box);
@@ -174,7 +174,7 @@ PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     l.color = look(m.look).color;
     const Box size = sheet_.measure(m.label, l);
     Writing best;
-    double least = 10 * kOutside;
+    double least = 10 * kBeyondPlot;
     for (const double far : {1.0, 2.0, 3.5, 5.5, 8.0})
         for (int k = 0; k < 16; ++k) {
             const double turn = (k + 0.5) * std::numbers::pi / 8;
@@ -246,7 +246,8 @@ bool PanelDrawing::place_labels() {
         legend_.stand_at({plot_.x, plot_.y - margins().top + axes_.titles_height()});
         return settled;
     }
-    if (panel_.legend == Legend::direct && legend_.entries() <= kMostDirect && panel_.bands.empty() && place_direct())
+    if (panel_.legend == Legend::direct && legend_.entries() <= kMostDirectLabels && panel_.bands.empty() &&
+        place_direct())
         return true;
     return legend_.place_inside(*taken_);
 }
@@ -284,7 +285,7 @@ double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
                 const Vec2 middle{p.x + side * (size.w / 2 + style_.gap), p.y - up * (size.h / 2 + 1.0 * style_.gap)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
                 const double cover = taken_->cost(box.inset(-1));
-                if (cover >= kOutside) continue;
+                if (cover >= kBeyondPlot) continue;
                 const double cost = 10 * cover + 3 * std::max(0.0, crowding(box, curve)) +
                                     0.02 * (plot_.right() - middle.x) + std::abs(side);
                 if (cost >= least) continue;
@@ -301,7 +302,7 @@ bool PanelDrawing::place_direct() {
     for (const DrawnCurve& curve : curves_) {
         if (curve.series().label.empty()) continue;
         Writing label;
-        if (best_direct(curve, label) > 10 * kCovers + 12) {
+        if (best_direct(curve, label) > 10 * kFewCells + 12) {
             taken_ = before;
             writings_.resize(written);
             return false;

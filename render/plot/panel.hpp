@@ -11,8 +11,8 @@ namespace beamcam::render::figure {
 class PanelDrawing {
   public:
     // Works the axes out for a plot of about this size; `lowest`: x numbers and label are written here.
-    PanelDrawing(const Panel& panel, const Style& style, Sheet& sheet, double width, double height, bool lowest,
-                 const std::string& what);
+    PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
+                 bool lowest, const std::string& what);
 
     // Room that numbers, labels, colour bar and a legend above need around the plot.
     Margins margins() const;
@@ -48,8 +48,8 @@ class PanelDrawing {
     void draw_insets();
 
     const Panel& panel_;
-    const Style& style_;
-    Sheet& sheet_;
+    const PrintStyle& style_;
+    PageCanvas& sheet_;
     std::string what_;
     PlotAxes axes_;
     LegendBox legend_;
@@ -67,6 +67,6 @@ class PanelDrawing {
 };
 
 // A panel of shapes, without axes, within the box.
-void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box& box);
+void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, const Box& box);
 
 }  // namespace beamcam::render::figure

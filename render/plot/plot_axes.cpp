@@ -10,7 +10,8 @@ namespace {
 constexpr double kLineStep = 1.25;  // between lines, in letters
 
 // In lines that the room holds, broken at spaces outside of formulas.
-std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering, Sheet& sheet) {
+std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering,
+                                  PageCanvas& sheet) {
     std::vector<std::string> lines;
     std::string word;
     int depth = 0;

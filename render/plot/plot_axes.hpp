@@ -20,7 +20,7 @@ inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rg
 class PlotAxes {
   public:
     // `lowest`: x numbers and label are written here.
-    PlotAxes(const Panel& panel, const Style& style, Sheet& sheet, bool lowest, std::string what)
+    PlotAxes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, bool lowest, std::string what)
         : panel_(panel), style_(style), sheet_(sheet), lowest_(lowest), what_(std::move(what)) {}
 
     void fit(double width, double height);  // as many ticks as a plot of about this size has room for
@@ -52,8 +52,8 @@ class PlotAxes {
     void draw_labels() const;
 
     const Panel& panel_;
-    const Style& style_;
-    Sheet& sheet_;
+    const PrintStyle& style_;
+    PageCanvas& sheet_;
     bool lowest_;
     std::string what_;
     std::optional<AxisMap> x_, y_, right_, bar_;

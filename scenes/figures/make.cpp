@@ -55,8 +55,8 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f),
                               how.serif ? render::Typefaces::serif : render::Typefaces::print);
-    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark},
-                        fonts, document);
+    figure::PageCanvas sheet(
+        medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark}, fonts, document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }
@@ -67,7 +67,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
     static const std::map<std::string, figure::Medium> kVectors{
         {".pdf", figure::Medium::pdf}, {".svg", figure::Medium::svg}, {".eps", figure::Medium::eps}};
     if (const auto vector = kVectors.find(ending(how.file)); vector != kVectors.end())
-        return drawn(f, how, vector->second, document, [](figure::Sheet& sheet) { return sheet.bytes(); });
+        return drawn(f, how, vector->second, document, [](figure::PageCanvas& sheet) { return sheet.bytes(); });
     if (how.is_tiff())
         return output::encode_tiff(figure_image(f, how), {how.resolution(), document.title, document.creator});
     return output::encode_png(figure_image(f, how), {how.resolution(),
@@ -88,7 +88,7 @@ std::vector<std::string> files_of(const FigureOutput& how) {
 }
 
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
-    return drawn(f, how, figure::Medium::png, {}, [](figure::Sheet& sheet) { return sheet.image(); });
+    return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {

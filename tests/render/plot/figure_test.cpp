@@ -253,12 +253,12 @@ Figure plot(std::vector<double> x, std::vector<double> y) {
 
 struct Drawn {
     Image image;
-    std::vector<Sheet::Written> written;
+    std::vector<PageCanvas::Written> written;
 };
 Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi = 72) {
     const Page page = page_of(figure, *column_named(column));
     const Fonts fonts(needs_chinese(figure), Typefaces::print);
-    Sheet sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
+    PageCanvas sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
     draw(figure, page, sheet);
     return {sheet.image(), sheet.written};
 }
@@ -321,7 +321,7 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
     for (const Column& column : columns()) {
         const Drawn drawn = draw_png(figure, column.name);
         const Box page{0, 0, points(column.width), 1e4};
-        for (const Sheet::Written& w : drawn.written) {
+        for (const PageCanvas::Written& w : drawn.written) {
             EXPECT_GE(w.smallest, 6) << column.name << " " << w.markup;
             EXPECT_TRUE(page.contains(w.box, 0.01)) << column.name << " " << w.markup;
         }
@@ -388,7 +388,7 @@ TEST(Figure, NoTwoTextsCollideInTwoHundredRandomFigures) {
         const Page sheet = page_of(figure, column);
         const Box page{0, 0, points(sheet.width), points(sheet.height)};
         for (std::size_t i = 0; i < drawn.written.size(); ++i) {
-            const Sheet::Written& one = drawn.written[i];
+            const PageCanvas::Written& one = drawn.written[i];
             EXPECT_TRUE(page.contains(one.box, 1.5)) << seed << " " << column.name << ": " << one.markup;
             for (std::size_t k = 0; k < i; ++k)
                 EXPECT_FALSE(one.box.inset(0.5).overlaps(drawn.written[k].box.inset(0.5)))
@@ -428,7 +428,7 @@ TEST(Figure, AnInsetNeverCoversData) {
         figure.panels[0].y.to = oscillations > 0 ? 1.1 : 3;
         figure.panels[0].insets.push_back({.panel = {inset}});
         const auto written = draw_png(figure).written;
-        return std::ranges::count(written, "inset", &Sheet::Written::markup);
+        return std::ranges::count(written, "inset", &PageCanvas::Written::markup);
     };
     EXPECT_EQ(written_in_inset(0), 1);
     EXPECT_EQ(written_in_inset(30), 0);
@@ -458,7 +458,7 @@ TEST(Figure, NumbersAtACornerKeepApart) {
         figure.panels[0].x.from = 0, figure.panels[0].y.from = -1, figure.panels[0].y.to = 1;
         const auto written = draw_png(figure, column).written;
         const auto box_of = [&](const char* text) {
-            return std::ranges::find(written, text, &Sheet::Written::markup)->box;
+            return std::ranges::find(written, text, &PageCanvas::Written::markup)->box;
         };
         const double gap = box_of("0.0").y - std::max(box_of("−1.0").bottom(), 0.0);
         EXPECT_GT(gap, 1.5) << column;
@@ -496,7 +496,7 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
     document.title = "a < b";
     document.scene = "{}";
     const auto bytes = [&](Medium medium) {
-        Sheet sheet(medium, {points(page.width), points(page.height)}, fonts, document);
+        PageCanvas sheet(medium, {points(page.width), points(page.height)}, fonts, document);
         draw(figure, page, sheet);
         return sheet.bytes();
     };
@@ -509,7 +509,7 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
 std::string bytes_of(const Figure& figure, Medium medium, const Document& document) {
     const Page page = page_of(figure, *column_named("elsevier"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
+    PageCanvas sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
     draw(figure, page, sheet);
     return sheet.bytes();
 }
@@ -519,7 +519,7 @@ std::string bytes_of(const Figure& figure, Medium medium, const Document& docume
 TEST(Looks, OfSixtyFourCurvesAreAllDifferent) {
     std::set<std::pair<std::string, std::vector<double>>> seen;
     for (int k = 0; k < 64; ++k) {
-        const Look& each = look(k);
+        const LineStyle& each = look(k);
         EXPECT_TRUE(each.color == look(k % 8).color) << k;
         EXPECT_TRUE(seen.emplace(fmt::format("{} {} {}", each.color.r, each.color.g, each.color.b), each.dash).second)
             << k;
@@ -548,7 +548,7 @@ TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
     const Figure figure = plot({0, 1}, {0, 1});
     const Page page = page_of(figure, *column_named("slide"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(Medium::png, {points(page.width), points(page.height), 72, true}, fonts);
+    PageCanvas sheet(Medium::png, {points(page.width), points(page.height), 72, true}, fonts);
     draw(figure, page, sheet);
     const Color paper = on_dark(rgb(0xFFFFFF));
     const auto byte = [](double channel) { return static_cast<std::uint32_t>(std::lround(255 * channel)); };
@@ -586,7 +586,7 @@ TEST(Figure, LongSeriesMakeSmallFiles) {
     const Figure figure = plot(x, y);
     const Page page = page_of(figure, *column_named("elsevier"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(Medium::pdf, {points(page.width), points(page.height)}, fonts);
+    PageCanvas sheet(Medium::pdf, {points(page.width), points(page.height)}, fonts);
     draw(figure, page, sheet);
     EXPECT_LT(sheet.bytes().size(), 600'000u);
 }

@@ -64,7 +64,7 @@ std::string series(Dice& dice) {
 
 // What is written on the sheet, and the picture.
 struct Drawn {
-    std::vector<plot::Sheet::Written> written;
+    std::vector<plot::PageCanvas::Written> written;
     render::Image image;
     render::Box page;
     bool has_axes = true;
@@ -89,7 +89,7 @@ Drawn drawn(const Scene& scene, const FigureOutput& how) {
     const plot::Page page = plot::page_of(figure, *plot::column_named(how.column));
     const render::Fonts fonts(plot::needs_chinese(figure), render::Typefaces::print);
     const double w = plot::points(page.width), h = plot::points(page.height);
-    plot::Sheet sheet(plot::Medium::png, {w, h, kDpi}, fonts);
+    plot::PageCanvas sheet(plot::Medium::png, {w, h, kDpi}, fonts);
     plot::draw(figure, page, sheet);
     return {sheet.written, sheet.image(), {0, 0, w, h}, figure.panels.front().shapes.empty()};
 }

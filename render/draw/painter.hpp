@@ -1,5 +1,5 @@
-// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::Sheet) have in common.
-// Units are the drawing's own, y down.
+// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::PageCanvas) have in
+// common. Units are the drawing's own, y down.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/coverage_cache.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/draw/stencils.hpp"
 #include "render/draw/tiles.hpp"
 
 using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
@@ -38,10 +38,10 @@ struct Image;
 struct SetLabel;
 struct SetRun;
 
-class Brush {
+class Painter {
   public:
-    Brush(const Brush&) = delete;
-    Brush& operator=(const Brush&) = delete;
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
 
     void move_to(Vec2 p);
     void line_to(Vec2 p);
@@ -65,11 +65,11 @@ class Brush {
     // Where ink went, while this is set: never too few tiles.
     Tiles* touched = nullptr;
     // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
-    Stencils* stencils = nullptr;
+    CoverageCache* coverage_cache = nullptr;
 
   protected:
-    Brush() = default;
-    ~Brush() noexcept(false) { end(); }
+    Painter() = default;
+    ~Painter() noexcept(false) { end(); }
     // Takes it over, before anything is drawn. Throws PictureError where Cairo cannot draw `what`.
     void begin(cairo_t* cr, const std::string& what);
     void end();                  // while its surface is there; throws what Cairo could not draw
@@ -84,7 +84,7 @@ class Brush {
     // The rules and dots of a label whose baseline begins here; `write` puts down the letters of each run.
     void set_down(const SetLabel& label, Vec2 at, double size, Color color,
                   const std::function<void(const SetRun&, Vec2 at)>& write);
-    bool keeps_stencils() const { return stencils && touched && !limit_; }
+    bool keeps_coverage() const { return coverage_cache && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // what is painted in place of a colour, while it is set
     const Box* limit_ = nullptr;         // nothing is painted beyond
@@ -97,7 +97,7 @@ class Brush {
     void touch_path(double around, bool inside);
     Box path_box() const;
     std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
-    std::string key_;        // of the path, while stencils are kept
+    std::string key_;        // of the path, while coverage_cache are kept
     Vec2 start_, at_;        // of the open part of the path
     bool open_ = false;
 };

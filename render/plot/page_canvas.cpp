@@ -1,4 +1,4 @@
-#include "render/plot/sheet.hpp"
+#include "render/plot/page_canvas.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-ps.h>
@@ -52,7 +52,7 @@ std::string xml(std::string_view text) {
 
 }  // namespace
 
-struct Sheet::Handles {
+struct PageCanvas::Handles {
     std::string stream;  // of PDF, EPS and SVG; outlives the surface
     std::string texts;   // of SVG, where they are no outlines
     Image image;
@@ -70,9 +70,9 @@ namespace {
 // By the name's and the file's own words; in comments of EPS lines end and are short.
 void describe_eps(cairo_surface_t* eps, const Document& d) {
     const auto say = [&](const char* key, const std::string& text) {
-        constexpr std::size_t kLongest = 200;  // a line has 255 characters
+        constexpr std::size_t kLongestComment = 200;  // a line has 255 characters
         std::string line;
-        for (const char c : text.substr(0, kLongest)) line += c >= ' ' && c <= '~' ? c : ' ';
+        for (const char c : text.substr(0, kLongestComment)) line += c >= ' ' && c <= '~' ? c : ' ';
         if (!line.empty()) cairo_ps_surface_dsc_comment(eps, fmt::format("%%{}: {}", key, line).c_str());
     };
     say("Title", d.title);
@@ -94,7 +94,7 @@ void describe(cairo_surface_t* pdf, const Document& d) {
 
 }  // namespace
 
-Sheet::Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
+PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
     : medium_(medium), paper_(paper), document_(document), fonts_(fonts), handles_(std::make_unique<Handles>()) {
     Handles& h = *handles_;
     if (paper.dark) recolor_ = on_dark;
@@ -131,27 +131,27 @@ Sheet::Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Docume
     use(rgb(0xFFFFFF));
     cairo_paint(cr_);
 }
-Sheet::~Sheet() noexcept(false) { end(); }
+PageCanvas::~PageCanvas() noexcept(false) { end(); }
 
 // A quarter of a pixel, or of the 1/600 inch of a good printer.
-double Sheet::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? paper_.dpi : 600)); }
+double PageCanvas::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? paper_.dpi : 600)); }
 
-void Sheet::curve(std::span<const Vec2> points, const Pen& pen) {
+void PageCanvas::curve(std::span<const Vec2> points, const Pen& pen) {
     // To fill pixels, Cairo carries every edge of a path along from row to row: a long one goes in pieces, whose round
     // ends are the joins. A file keeps the path as it is.
-    constexpr std::size_t kLong = 10'000, kPiece = 128;  // points
-    if (medium_ != Medium::png || points.size() <= kLong || !pen.dash.empty()) {
+    constexpr std::size_t kLongPath = 10'000, kPointsOfAPiece = 128;  // points
+    if (medium_ != Medium::png || points.size() <= kLongPath || !pen.dash.empty()) {
         polyline(points);
         return stroke(pen);
     }
     const Pen part{pen.color, pen.width, {}, Cap::round};
-    for (std::size_t from = 0; from + 1 < points.size(); from += kPiece - 1) {
-        polyline(points.subspan(from, std::min(kPiece, points.size() - from)));
+    for (std::size_t from = 0; from + 1 < points.size(); from += kPointsOfAPiece - 1) {
+        polyline(points.subspan(from, std::min(kPointsOfAPiece, points.size() - from)));
         stroke(part);
     }
 }
 
-void Sheet::gradient(const Box& box, std::span<const Color> colors) {
+void PageCanvas::gradient(const Box& box, std::span<const Color> colors) {
     cairo_pattern_t* pattern = cairo_pattern_create_linear(0, box.bottom(), 0, box.y);
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const Color color = shown(colors[i]);
@@ -184,7 +184,7 @@ PangoLayout* layout_of(const Run& run, const TextStyle& style, double size, cons
 
 }  // namespace
 
-SetLabel Sheet::set(std::string_view markup, const TextStyle& style) const {
+SetLabel PageCanvas::set(std::string_view markup, const TextStyle& style) const {
     const auto extent = [&](const Run& run, double size) -> LetterMetrics::Extent {
         PangoRectangle logical;
         pango_layout_get_extents(layout_of(run, style, size, fonts_), nullptr, &logical);
@@ -193,7 +193,7 @@ SetLabel Sheet::set(std::string_view markup, const TextStyle& style) const {
     return set_label(parse_markup(markup), style.size, {extent, cap_height(1), kSmallestLetter});
 }
 
-void Sheet::write(const SetRun& set, Vec2 at, const TextStyle& style) {
+void PageCanvas::write(const SetRun& set, Vec2 at, const TextStyle& style) {
     if (medium_ == Medium::svg && document_.editable) return add_text(set, at, style);
     PangoLayout* letters = layout_of(set.run, style, set.size, fonts_);
     cairo_move_to(cr_, at.x, at.y - static_cast<double>(pango_layout_get_baseline(letters)) / PANGO_SCALE);
@@ -202,7 +202,7 @@ void Sheet::write(const SetRun& set, Vec2 at, const TextStyle& style) {
 }
 
 // An element of SVG; it stands behind everything that is drawn.
-void Sheet::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
+void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
     cairo_user_to_device(cr_, &at.x, &at.y);
     cairo_matrix_t matrix;
     cairo_get_matrix(cr_, &matrix);
@@ -218,12 +218,12 @@ void Sheet::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
         letters.weight == Weight::bold ? R"( font-weight="bold")" : "", hex(shown(style.color)), xml(set.run.text));
 }
 
-Box Sheet::measure(std::string_view markup, const TextStyle& style) const {
+Box PageCanvas::measure(std::string_view markup, const TextStyle& style) const {
     const SetLabel label = set(markup, style);
     return {0, -label.ascent, label.width, label.ascent + label.descent};
 }
 
-Box Sheet::text(Vec2 at, std::string_view markup, const TextStyle& style) {
+Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     const SetLabel label = set(markup, style);
     double dx = 0, dy = 0;
     if (style.align == HAlign::centre) dx = -label.width / 2;
@@ -268,13 +268,13 @@ std::string with_date(std::string eps, std::int64_t created) {
 
 // ---- the end -------------------------------------------------------------------------------------
 
-Image Sheet::image() {
+Image PageCanvas::image() {
     end();
     handles_->finish();
     return std::move(handles_->image);
 }
 
-std::string Sheet::bytes() {
+std::string PageCanvas::bytes() {
     cairo_show_page(cr_);
     end();
     handles_->finish();

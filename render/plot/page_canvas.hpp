@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "render/draw/brush.hpp"
 #include "render/draw/color.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
 #include "render/draw/label.hpp"
+#include "render/draw/painter.hpp"
 #include "render/draw/text_style.hpp"
 
 namespace beamcam::render::figure {
@@ -44,11 +44,11 @@ struct Paper {
 // No letter of a figure is smaller, sub- and superscripts included.
 inline constexpr double kSmallestLetter = 6;  // [pt]
 
-class Sheet : public Brush {
+class PageCanvas : public Painter {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
-    Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
-    ~Sheet() noexcept(false);
+    PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
+    ~PageCanvas() noexcept(false);
 
     Color shown(Color color) const { return recolor_ ? recolor_(color) : color; }  // on this paper
     double grain() const;  // the smallest distance that shows [pt]

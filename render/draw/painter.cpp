@@ -1,4 +1,4 @@
-#include "render/draw/brush.hpp"
+#include "render/draw/painter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace beamcam::render {
 
-void Brush::begin(cairo_t* cr, const std::string& what) {
+void Painter::begin(cairo_t* cr, const std::string& what) {
     cr_ = cr;
     exceptions_ = std::uncaught_exceptions();
     if (cairo_status(cr) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
@@ -22,14 +22,14 @@ void Brush::begin(cairo_t* cr, const std::string& what) {
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
 }
 
-void Brush::end() {
+void Painter::end() {
     if (!cr_) return;
     const cairo_status_t status = cairo_status(cr_);
     cairo_destroy(std::exchange(cr_, nullptr));
     if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
-void Brush::use(Color color) {
+void Painter::use(Color color) {
     const Color c = recolor_ ? recolor_(color) : color;
     cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a);
 }
@@ -42,7 +42,7 @@ std::vector<double> dashes(const std::vector<double>& pattern, double unit) {
 
 // ---- where the ink goes ------------------------------------------------------------------------
 
-void Brush::touch(const Box& box) {
+void Painter::touch(const Box& box) {
     if (!touched) return;
     const Box wide = box.inset(-1);  // antialiased edges reach into the next pixel
     if (!limit_) return touched->add(wide);
@@ -51,21 +51,21 @@ void Brush::touch(const Box& box) {
     if (!within.empty()) touched->add(within);
 }
 
-void Brush::pass(const Box& box) {
+void Painter::pass(const Box& box) {
     if (touched) path_.push_back(box);
 }
 
 // In pieces about as long as a tile, so that a slanted line keeps to few of them.
-void Brush::pass_line(Vec2 from, Vec2 to) {
-    constexpr double kPiece = 48, kMost = 1000;
-    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost));
+void Painter::pass_line(Vec2 from, Vec2 to) {
+    constexpr double kPieceLength = 48, kMostPieces = 1000;
+    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPieceLength), 1.0, kMostPieces));
     for (int i = 0; i < pieces; ++i) {
         const Vec2 a = from + (to - from) * (double(i) / pieces), b = from + (to - from) * (double(i + 1) / pieces);
         path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
     }
 }
 
-void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
+void Painter::pass_arc(Vec2 c, double radius, double from, double to) {
     const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
     const double step = (to - from) / pieces;
     const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
@@ -79,7 +79,7 @@ void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
 }
 
 // A stroke is near its path; a fill is anywhere between.
-void Brush::touch_path(double around, bool inside) {
+void Painter::touch_path(double around, bool inside) {
     if (!touched) return;
     if (!inside) {
         for (const Box& box : path_) touch(box.inset(-around));
@@ -88,46 +88,46 @@ void Brush::touch_path(double around, bool inside) {
     if (!path_.empty()) touch(path_box());
 }
 
-Box Brush::path_box() const {
+Box Painter::path_box() const {
     Bounds all;
     for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
     return all.box();
 }
 
-void Brush::note(char what, std::initializer_list<double> numbers, std::string_view words) {
-    if (!keeps_stencils()) return;
+void Painter::note(char what, std::initializer_list<double> numbers, std::string_view words) {
+    if (!keeps_coverage()) return;
     key_.append(1, what).append(words);
     key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
 }
 
-void Brush::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
-    if (keeps_stencils() && !name.empty() && stencils->paint(name, box, color, cr_, paint)) return;
+void Painter::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
+    if (keeps_coverage() && !name.empty() && coverage_cache->paint(name, box, color, cr_, paint)) return;
     use(color);
     paint(cr_);
 }
 
 // ---- paths -------------------------------------------------------------------------------------
 
-void Brush::move_to(Vec2 p) {
+void Painter::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
     note('m', {p.x, p.y});
     start_ = at_ = p, open_ = true;
 }
-void Brush::line_to(Vec2 p) {
+void Painter::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
     note('l', {p.x, p.y});
     if (!open_) start_ = at_ = p;  // as Cairo does
     if (touched) pass_line(at_, p);
     at_ = p, open_ = true;
 }
-void Brush::close() {
+void Painter::close() {
     cairo_close_path(cr_);
     note('z', {});
     if (touched && open_) pass_line(at_, start_);
     at_ = start_;
 }
 
-void Brush::polyline(std::span<const Vec2> points) {
+void Painter::polyline(std::span<const Vec2> points) {
     bool pen_down = false;
     for (Vec2 p : points) {
         if (std::isnan(p.x) || std::isnan(p.y)) {
@@ -139,7 +139,7 @@ void Brush::polyline(std::span<const Vec2> points) {
     }
 }
 
-void Brush::arc(Vec2 c, double radius, double from, double to) {
+void Painter::arc(Vec2 c, double radius, double from, double to) {
     if (to >= from)
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
@@ -151,7 +151,7 @@ void Brush::arc(Vec2 c, double radius, double from, double to) {
     at_ = place(to), open_ = true;
 }
 
-void Brush::circle(Vec2 c, double radius) {
+void Painter::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
@@ -160,7 +160,7 @@ void Brush::circle(Vec2 c, double radius) {
     start_ = at_ = c + Vec2{radius, 0}, open_ = true;
 }
 
-void Brush::rectangle(const Box& b) {
+void Painter::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
     note('r', {b.x, b.y, b.w, b.h});
     pass(b);
@@ -168,7 +168,7 @@ void Brush::rectangle(const Box& b) {
 }
 
 // A shaft and a filled head; an arrow shorter than its head is a smaller head.
-void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
+void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     const Vec2 way = to - from;
     const double length = norm(way);
     if (!(length > 0)) return;
@@ -187,23 +187,23 @@ void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
 
 // ---- ink ---------------------------------------------------------------------------------------
 
-void Brush::fill(Color c) {
+void Painter::fill(Color c) {
     fill_keeping_path(c);
     new_path();
 }
-void Brush::fill_keeping_path(Color c) {
+void Painter::fill_keeping_path(Color c) {
     // Cairo paints what is translucent inside faster than a stencil would.
     const bool kept = !key_.empty() && c.a == 1;
     ink(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
     touch_path(0, true);
 }
-void Brush::new_path() {
+void Painter::new_path() {
     cairo_new_path(cr_);
     path_.clear();
     key_.clear();
     open_ = false;
 }
-void Brush::stroke(const Pen& pen) {
+void Painter::stroke(const Pen& pen) {
     if (!key_.empty()) {
         note(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
         for (double length : pen.dash) note('d', {length});
@@ -217,7 +217,7 @@ void Brush::stroke(const Pen& pen) {
     touch_path(pen.width / 2, false);  // joins are round
     new_path();
 }
-void Brush::line(Vec2 from, Vec2 to, const Pen& pen) {
+void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);
     line_to(to);
     stroke(pen);
@@ -225,7 +225,7 @@ void Brush::line(Vec2 from, Vec2 to, const Pen& pen) {
 
 // ---- parts, images, labels ----------------------------------------------------------------------
 
-void Brush::clip(const Box& b, const std::function<void()>& draw) {
+void Painter::clip(const Box& b, const std::function<void()>& draw) {
     cairo_save(cr_);
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
     cairo_clip(cr_);
@@ -235,7 +235,7 @@ void Brush::clip(const Box& b, const std::function<void()>& draw) {
     cairo_restore(cr_);
 }
 
-void Brush::place(const Image& image, const Box& into, bool smooth) {
+void Painter::place(const Image& image, const Box& into, bool smooth) {
     cairo_surface_t* const surface = surface_of(image);
     cairo_save(cr_);
     if (smooth) {
@@ -253,11 +253,11 @@ void Brush::place(const Image& image, const Box& into, bool smooth) {
     cairo_surface_destroy(surface);
     touch(into);
 }
-void Brush::pixels(const Image& image, const Box& into) { place(image, into, false); }
-void Brush::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
+void Painter::pixels(const Image& image, const Box& into) { place(image, into, false); }
+void Painter::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
 
-void Brush::set_down(const SetLabel& label, Vec2 at, double size, Color color,
-                     const std::function<void(const SetRun&, Vec2 at)>& write) {
+void Painter::set_down(const SetLabel& label, Vec2 at, double size, Color color,
+                       const std::function<void(const SetRun&, Vec2 at)>& write) {
     for (std::vector<Vec2> rule : label.rules) {
         for (Vec2& p : rule) p += at;
         polyline(rule);
