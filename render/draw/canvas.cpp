@@ -27,16 +27,6 @@ std::string math(std::string_view symbol) {
                        symbol);
 }
 
-struct Canvas::Handles {
-    cairo_surface_t* surface = nullptr;
-    ~Handles() {
-        if (surface) {
-            cairo_surface_flush(surface);
-            cairo_surface_destroy(surface);
-        }
-    }
-};
-
 namespace {
 
 // The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
@@ -76,9 +66,8 @@ Metrics metrics(PangoLayout* layout) {
 
 }  // namespace
 
-Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), image_(image), fonts_(fonts) {
-    handles_->surface = surface_of(image);
-    begin(cairo_create(handles_->surface), fmt::format("a picture of {}×{} pixels", image.width, image.height));
+Canvas::Canvas(Image& image, const Fonts& fonts) : image_(image), fonts_(fonts) {
+    begin(surface_of(image), fmt::format("a picture of {}×{} pixels", image.width, image.height));
 }
 Canvas::~Canvas() noexcept(false) { end(); }
 

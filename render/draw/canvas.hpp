@@ -6,7 +6,6 @@
 
 #include <functional>
 #include <initializer_list>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,8 +56,6 @@ class Canvas : public Painter {
     // A text with formulas, at the left.
     Box set_parts(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);
 
-    struct Handles;
-    std::unique_ptr<Handles> handles_;
     const Image& image_;
     const Fonts& fonts_;
 };

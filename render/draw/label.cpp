@@ -130,14 +130,4 @@ SetLabel set_label(const std::vector<Run>& runs, double size, const LetterMetric
     return LabelSetter(size, letters).set(runs);
 }
 
-// Above the middle of the slanted letter.
-std::vector<Dot> dots_above(const SetRun& set) {
-    std::vector<Dot> dots;
-    for (int k = 0; k < set.run.dots; ++k) {
-        const double across = (k - 0.5 * (set.run.dots - 1)) * 0.22 * set.size;
-        dots.push_back({{set.x + 0.58 * set.advance + across, set.y - set.top - 0.14 * set.size}, 0.065 * set.size});
-    }
-    return dots;
-}
-
 }  // namespace beamcam::render

@@ -34,13 +34,6 @@ struct SetLabel {
 };
 SetLabel set_label(const std::vector<Run>& runs, double size, const LetterMetrics& letters);
 
-// Centre and radius of the dots above a run.
-struct Dot {
-    Vec2 centre;
-    double radius;
-};
-std::vector<Dot> dots_above(const SetRun& run);
-
 inline constexpr double kRuleWidth = 0.055;  // of the lines of fractions and roots, by the size of the letters
 
 }  // namespace beamcam::render

@@ -13,19 +13,23 @@
 
 namespace beamcam::render {
 
-void Painter::begin(cairo_t* cr, const std::string& what) {
-    cr_ = cr;
+void Painter::begin(cairo_surface_t* surface, const std::string& what) {
+    surface_ = surface;
+    cr_ = cairo_create(surface);
     exceptions_ = std::uncaught_exceptions();
-    if (cairo_status(cr) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
-    if (cairo_status(cr) != CAIRO_STATUS_SUCCESS)
-        throw PictureError(fmt::format("{} cannot be drawn: {}", what, cairo_status_to_string(cairo_status(cr))));
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("{} cannot be drawn: {}", what, cairo_status_to_string(cairo_status(cr_))));
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
 }
 
 void Painter::end() {
     if (!cr_) return;
-    const cairo_status_t status = cairo_status(cr_);
+    cairo_status_t status = cairo_status(cr_);
     cairo_destroy(std::exchange(cr_, nullptr));
+    cairo_surface_finish(surface_);  // writes what is left of a document
+    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_);
+    cairo_surface_destroy(surface_);
     if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
@@ -265,7 +269,12 @@ void Painter::set_down(const SetLabel& label, Vec2 at, double size, Color color,
     }
     for (const SetRun& run : label.runs) {
         write(run, at + Vec2{run.x, run.y});
-        for (const Dot& dot : dots_above(run)) circle(at + dot.centre, dot.radius), fill(color);
+        // Dots stand above the middle of the slanted letter.
+        for (int k = 0; k < run.run.dots; ++k) {
+            const double across = (k - 0.5 * (run.run.dots - 1)) * 0.22 * run.size;
+            circle(at + Vec2{run.x + 0.58 * run.advance + across, run.y - run.top - 0.14 * run.size}, 0.065 * run.size);
+            fill(color);
+        }
     }
 }
 

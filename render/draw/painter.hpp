@@ -15,7 +15,8 @@
 #include "render/draw/geometry.hpp"
 #include "render/draw/tiles.hpp"
 
-using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
+using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier): the library's own names
+using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
 
 namespace beamcam::render {
 
@@ -70,9 +71,10 @@ class Painter {
   protected:
     Painter() = default;
     ~Painter() noexcept(false) { end(); }
-    // Takes it over, before anything is drawn. Throws PictureError where Cairo cannot draw `what`.
-    void begin(cairo_t* cr, const std::string& what);
-    void end();                  // while its surface is there; throws what Cairo could not draw
+    // Takes the surface over, before anything is drawn. Throws PictureError where Cairo cannot draw `what` on it.
+    void begin(cairo_surface_t* surface, const std::string& what);
+    // Ends the drawing, what it is drawn on included: while that is there. Throws what Cairo could not draw.
+    void end();
     void use(Color color);       // for what is painted next
     void touch(const Box& box);  // ink within it, blurred edges included
     void pass(const Box& box);   // the path is there
@@ -90,6 +92,7 @@ class Painter {
     const Box* limit_ = nullptr;         // nothing is painted beyond
 
   private:
+    cairo_surface_t* surface_ = nullptr;
     int exceptions_ = 0;  // in flight when drawing began
     void place(const Image& image, const Box& into, bool smooth);
     void pass_line(Vec2 from, Vec2 to);
@@ -97,7 +100,7 @@ class Painter {
     void touch_path(double around, bool inside);
     Box path_box() const;
     std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
-    std::string key_;        // of the path, while coverage_cache are kept
+    std::string key_;        // of the path, while coverage is kept
     Vec2 start_, at_;        // of the open part of the path
     bool open_ = false;
 };

@@ -22,7 +22,7 @@ Box LegendBox::size(double width) {
     const auto add = [&](const std::string& label) {
         if (label.empty()) return;
         ++rows;
-        widest = std::max(widest, sheet_.measure(label, words()).w);
+        widest = std::max(widest, sheet_.measure(label, style_.words()).w);
     };
     for (const Series& s : panel_.series) add(s.label);
     for (const Band& b : panel_.bands) add(b.label);
@@ -68,7 +68,7 @@ void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
 void LegendBox::draw() const {
     if (!box_) return;
     const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
-    TextStyle l = words();
+    TextStyle l = style_.words();
     l.valign = VAlign::middle;
     int k = 0;
     const auto next = [&] {

@@ -26,7 +26,6 @@ class LegendBox {
     void draw() const;
 
   private:
-    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
     Box size(double width);
     void draw_sample(const Series& s, Vec2 left, double width) const;
 

@@ -12,7 +12,6 @@
 #include <numbers>
 
 #include "render/base/error.hpp"
-#include "render/draw/cairo_status.hpp"
 #include "render/draw/canvas.hpp"
 #include "render/draw/font_handles.hpp"
 #include "render/draw/markup.hpp"
@@ -52,19 +51,6 @@ std::string xml(std::string_view text) {
 
 }  // namespace
 
-struct PageCanvas::Handles {
-    std::string stream;  // of PDF, EPS and SVG; outlives the surface
-    std::string texts;   // of SVG, where they are no outlines
-    Image image;
-    cairo_surface_t* surface = nullptr;
-    // Writes what is left of a document.
-    void finish() {
-        cairo_surface_finish(surface);
-        require_success(cairo_surface_status(surface));
-    }
-    ~Handles() { cairo_surface_destroy(surface); }
-};
-
 namespace {
 
 // By the name's and the file's own words; in comments of EPS lines end and are short.
@@ -95,38 +81,34 @@ void describe(cairo_surface_t* pdf, const Document& d) {
 }  // namespace
 
 PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
-    : medium_(medium), paper_(paper), document_(document), fonts_(fonts), handles_(std::make_unique<Handles>()) {
-    Handles& h = *handles_;
+    : medium_(medium), paper_(paper), document_(document), fonts_(fonts) {
     if (paper.dark) recolor_ = on_dark;
     const double scale = paper.dpi / kPointsPerInch;
-    double unit = 1;  // device units of a point
+    const std::string what =
+        fmt::format("a figure of {:.4g} × {:.4g} mm", paper.width / points(1), paper.height / points(1));
     if (!(paper.width > 0 && paper.height > 0 && std::max(paper.width, paper.height) * scale <= kLargestSide))
         throw PictureError(
-            fmt::format("a figure of {:.4g} × {:.4g} mm at {:g} dpi cannot be drawn; its sides must be "
-                        "positive and at most {:g} pixels",
-                        paper.width / points(1), paper.height / points(1), paper.dpi, kLargestSide));
+            fmt::format("{} at {:g} dpi cannot be drawn; its sides must be positive and at most {:g} pixels", what,
+                        paper.dpi, kLargestSide));
+    double unit = 1;  // device units of a point
     if (medium == Medium::png) {
         // At least a pixel, and never less than the page.
-        h.image = Image(static_cast<int>(std::ceil(paper.width * scale - 1e-6)),
-                        static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
-        h.surface =
-            cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(h.image.pixels.data()),
-                                                CAIRO_FORMAT_ARGB32, h.image.width, h.image.height, 4 * h.image.width);
+        image_ = Image(static_cast<int>(std::ceil(paper.width * scale - 1e-6)),
+                       static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
         unit = scale;
+        begin(surface_of(image_), what);
     } else if (medium == Medium::eps) {
-        h.surface = cairo_ps_surface_create_for_stream(collect, &h.stream, paper.width, paper.height);
-        cairo_ps_surface_set_eps(h.surface, 1);
-        describe_eps(h.surface, document);
+        begin(cairo_ps_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
+        cairo_ps_surface_set_eps(cairo_get_target(cr_), 1);
+        describe_eps(cairo_get_target(cr_), document);
     } else if (medium == Medium::pdf) {
-        h.surface = cairo_pdf_surface_create_for_stream(collect, &h.stream, paper.width, paper.height);
-        describe(h.surface, document);
+        begin(cairo_pdf_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
+        describe(cairo_get_target(cr_), document);
     } else {
         unit = kMillimetresPerInch / kPointsPerInch;
-        h.surface = cairo_svg_surface_create_for_stream(collect, &h.stream, paper.width * unit, paper.height * unit);
-        cairo_svg_surface_set_document_unit(h.surface, CAIRO_SVG_UNIT_MM);
+        begin(cairo_svg_surface_create_for_stream(collect, &stream_, paper.width * unit, paper.height * unit), what);
+        cairo_svg_surface_set_document_unit(cairo_get_target(cr_), CAIRO_SVG_UNIT_MM);
     }
-    begin(cairo_create(h.surface),
-          fmt::format("a figure of {:.4g} × {:.4g} mm", paper.width / points(1), paper.height / points(1)));
     cairo_scale(cr_, unit, unit);
     use(rgb(0xFFFFFF));
     cairo_paint(cr_);
@@ -209,7 +191,7 @@ void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
     const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
     const bool symbol = set.run.symbol;
     const LetterFace letters = face_of(set.run, style, set.size, fonts_);
-    handles_->texts += fmt::format(
+    texts_ += fmt::format(
         R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="{}" xml:space="preserve">{}</text>)svg"
         "\n",
         at.x, at.y, turned * 180 / std::numbers::pi,
@@ -270,15 +252,13 @@ std::string with_date(std::string eps, std::int64_t created) {
 
 Image PageCanvas::image() {
     end();
-    handles_->finish();
-    return std::move(handles_->image);
+    return std::move(image_);
 }
 
 std::string PageCanvas::bytes() {
     cairo_show_page(cr_);
     end();
-    handles_->finish();
-    std::string file = std::move(handles_->stream);
+    std::string file = std::move(stream_);
     if (medium_ == Medium::eps) return with_date(std::move(file), document_.created);
     if (medium_ != Medium::svg) return file;
     // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.
@@ -293,7 +273,7 @@ std::string PageCanvas::bytes() {
                                      "<scene>{}</scene>\n</metadata>",
                                      xml(document_.title), xml(document_.subject), xml(document_.creator),
                                      xml(document_.scene)));
-    if (const std::size_t last = file.rfind("</svg>"); last != std::string::npos) file.insert(last, handles_->texts);
+    if (const std::size_t last = file.rfind("</svg>"); last != std::string::npos) file.insert(last, texts_);
     return file;
 }
 

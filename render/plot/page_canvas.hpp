@@ -5,7 +5,6 @@
 // as outlines or, on request, as text. The same calls give the same bytes.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -77,7 +76,6 @@ class PageCanvas : public Painter {
     std::string bytes();
 
   private:
-    struct Handles;
     bool serif() const { return fonts_.typefaces() == Typefaces::serif; }
     SetLabel set(std::string_view markup, const TextStyle& style) const;
     void write(const SetRun& run, Vec2 at, const TextStyle& style);
@@ -87,7 +85,9 @@ class PageCanvas : public Painter {
     Paper paper_;
     Document document_;
     const Fonts& fonts_;
-    std::unique_ptr<Handles> handles_;
+    Image image_;
+    std::string stream_;  // of PDF, EPS and SVG
+    std::string texts_;   // of SVG, where they are no outlines
 };
 
 }  // namespace beamcam::render::figure

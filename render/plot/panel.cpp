@@ -109,11 +109,13 @@ void PanelDrawing::make_curves() {
             taken_->cover(points, 0.5);
         }
     for (const Rule& r : panel_.rules) {
-        const Vec2 line[2] = {
-            r.vertical ? Vec2{axes_.along_x(r.at), plot_.y} : Vec2{plot_.x, axes_.along_y(r.at)},
-            r.vertical ? Vec2{axes_.along_x(r.at), plot_.bottom()} : Vec2{plot_.right(), axes_.along_y(r.at)}};
-        taken_->cover(line, 0.4);
+        taken_->cover(ends(r), 0.4);
     }
+}
+
+std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {
+    if (r.vertical) return {Vec2{axes_.along_x(r.at), plot_.y}, {axes_.along_x(r.at), plot_.bottom()}};
+    return {Vec2{plot_.x, axes_.along_y(r.at)}, {plot_.right(), axes_.along_y(r.at)}};
 }
 
 // What boxes cover when they are placed in this order; a legend that finds no room is dear.
@@ -170,7 +172,7 @@ double PanelDrawing::place_insets() {
 // Around the mark, near first.
 PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     const Vec2 p = at(m.x, m.y, m.right);
-    TextStyle l = numbers();
+    TextStyle l = style_.tick_numbers();
     l.color = look(m.look).color;
     const Box size = sheet_.measure(m.label, l);
     Writing best;
@@ -205,7 +207,7 @@ void PanelDrawing::place_marks() {
     }
     for (const Mark& m : panel_.marks) {
         if (m.label.empty()) continue;
-        const Box size = sheet_.measure(m.label, numbers());
+        const Box size = sheet_.measure(m.label, style_.tick_numbers());
         Writing best = best_at_mark(m);
         if (best.markup.empty()) continue;  // a plot too small for it
         taken_->cover(Box{best.at.x, best.at.y + size.y, size.w, size.h});
@@ -216,7 +218,7 @@ void PanelDrawing::place_marks() {
 
 // Small words on the rules that have them, where least is covered; the right end wins ties.
 void PanelDrawing::place_rules() {
-    TextStyle l = numbers();
+    TextStyle l = style_.tick_numbers();
     l.color = kMuted;
     for (const Rule& r : panel_.rules) {
         const double along = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
@@ -271,7 +273,7 @@ double PanelDrawing::crowding(const Box& box, const DrawnCurve& own) const {
 }
 
 double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
-    TextStyle l = words();
+    TextStyle l = style_.words();
     l.color = color_of(curve.series());
     const Box size = sheet_.measure(curve.series().label, l);
     double least = std::numeric_limits<double>::infinity();
@@ -359,12 +361,9 @@ void PanelDrawing::draw_grounds() {
         sheet_.close();
         sheet_.fill(pale(look(b.look).color, 0.72));
     }
-    for (const Rule& r : panel_.rules) {
-        const double place = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
-        sheet_.line(r.vertical ? Vec2{place, plot_.y} : Vec2{plot_.x, place},
-                    r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place},
+    for (const Rule& r : panel_.rules)
+        sheet_.line(ends(r)[0], ends(r)[1],
                     {rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
-    }
 }
 
 void PanelDrawing::draw_insets() {

@@ -1,6 +1,7 @@
 // One panel on a sheet: axes, curves and legend in a box, and labels that keep clear of them.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,9 @@ class PanelDrawing {
         std::optional<std::pair<Vec2, Vec2>> leader;
     };
 
-    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
-    TextStyle numbers() const { return {.size = style_.numbers, .color = kInk}; }
     Vec2 at(double x, double y, bool right = false) const { return axes_.at(x, y, right); }
     void make_curves();
+    std::array<Vec2, 2> ends(const Rule& rule) const;
     double place_boxes(bool legend_first);
     Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();

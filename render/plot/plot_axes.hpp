@@ -15,8 +15,6 @@ inline Box without(const Box& outer, const Margins& m) {
     return {outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
 }
 
-inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
-
 class PlotAxes {
   public:
     // `lowest`: x numbers and label are written here.
@@ -44,11 +42,9 @@ class PlotAxes {
   private:
     std::vector<std::string> title_lines() const;
     std::vector<std::string> label_lines(const AxisMap& axis) const;
-    double label_height(const AxisMap& axis) const;  // of the lines beside the first
-    TextStyle words() const { return {.size = style_.letters, .color = kInk}; }
-    TextStyle numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    double label_height(const AxisMap& axis) const;           // of the lines beside the first
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
-    void draw_ticks(const AxisMap& axis, char side, bool labelled) const;
+    void draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major, double minor) const;
     void draw_labels() const;
 
     const Panel& panel_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render::figure {
 
@@ -24,6 +25,8 @@ std::span<const Column> columns();
 const Column* column_named(std::string_view name);  // nullptr: none
 std::vector<std::string> column_names();
 
+inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
+
 // Sizes that follow from the column [pt].
 struct PrintStyle {
     double letters = 8;    // axis titles, legends, notes
@@ -33,6 +36,8 @@ struct PrintStyle {
     double tick = 3, minor_tick = 1.7;
     double gap = 3;       // between neighbours
     double marker = 2.0;  // radius
+    TextStyle words() const { return {.size = letters, .color = kInk}; }
+    TextStyle tick_numbers() const { return {.size = numbers, .color = kInk}; }
 };
 PrintStyle style_of(const Column& column);
 

@@ -92,14 +92,5 @@ TEST(Label, RootsCoverWhatIsInside) {
     EXPECT_NEAR(set("$\\frac{1}{2}\\sqrt{3}$").width, inside.width + set("$\\sqrt{3}$").width + 0.9, 1e-12);
 }
 
-TEST(Label, DotsStandOverTheirLetter) {
-    const SetLabel label = set("$\\ddot{1}$");
-    const std::vector<Dot> dots = dots_above(label.runs.at(0));
-    ASSERT_EQ(dots.size(), 2u);
-    EXPECT_NEAR((dots[0].centre.x + dots[1].centre.x) / 2, 0.58 * 5, 1e-12);
-    EXPECT_NEAR(dots[0].centre.y, -(0.7 + 0.14) * kSize, 1e-12);
-    EXPECT_TRUE(dots_above(set("1").runs.at(0)).empty());
-}
-
 }  // namespace
 }  // namespace beamcam::render
