@@ -204,35 +204,37 @@ const std::string_view* find(const std::array<Pair, N>& table, std::string_view 
     return it == table.end() ? nullptr : &it->second;
 }
 
+// Calls `visit` with each character, and with what follows it.
+template <class Visit>
+void each_character(std::string_view text, const Visit& visit) {
+    while (!text.empty()) {
+        const std::string_view c = next_character(text, 0);
+        text.remove_prefix(c.size());
+        visit(c, text);
+    }
+}
+
 std::string latex_math(std::string_view text) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
-        if (const std::string_view* known = find(kLatexMath, c)) {
-            out += *known;
-            // A command ends at the next letter.
-            const bool command = known->size() > 1 && known->front() == '\\' && known->back() != ' ';
-            if (command && at < text.size()) out += ' ';
-        } else {
-            out += c;
-        }
-    }
+    each_character(text, [&](std::string_view c, std::string_view rest) {
+        const std::string_view* known = find(kLatexMath, c);
+        out += known ? *known : c;
+        // A command ends at the next letter.
+        if (known && known->size() > 1 && known->front() == '\\' && known->back() != ' ' && !rest.empty()) out += ' ';
+    });
     return out;
 }
 
 std::string latex_text(std::string_view text) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
+    each_character(text, [&](std::string_view c, std::string_view) {
         if (const std::string_view* known = find(kLatexText, c))
             out += *known;
         else if (const std::string_view* sign = find(kLatexMath, c))
             out += fmt::format("${}$", *sign);
         else
             out += c;
-    }
+    });
     return out;
 }
 
@@ -278,14 +280,13 @@ std::string superscript(std::string_view text) {
                                         Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
                                         Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
+    bool all = true;
+    each_character(text, [&](std::string_view c, std::string_view) {
         const std::string_view* known = find(kRaised, c);
-        if (!known) return fmt::format("^{}", text);
-        out += *known;
-    }
-    return out;
+        all = all && known;
+        if (known) out += *known;
+    });
+    return all ? out : fmt::format("^{}", text);
 }
 
 }  // namespace

@@ -76,22 +76,18 @@ class CollisionPanel final : public FilmPanel {
             s.which = which;
             s.past = s.chart->past(kept.fonts());
         }
-        const Box at = s.chart->past_box();
         if (anew) {
             s.texts.clear();
             kept.record = &s.texts;
             s.chart->draw_ground(kept);
             kept.record = nullptr;
-            s.until = at.x;
+            s.until = s.chart->past_box().x;
         }
         const double t = now - start(which);
         if (!(t > s.chart->time().low)) return;
         // Once it is over nothing moves any more.
-        const double until =
-            std::max(s.until, t > s.chart->time().high ? plot_.right() + 1 : double(s.chart->past_column(t)));
-        kept.image_part(s.past, static_cast<int>(at.x), static_cast<int>(at.y),
-                        {s.until - at.x, 0, until - s.until, at.h});
-        s.until = until;
+        const double until = t > s.chart->time().high ? plot_.right() + 1 : s.chart->past_column(t);
+        show_past(kept, *s.chart, s.past, until, s.until);
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
