@@ -250,7 +250,7 @@ void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& pi
         const int from = first(within.x0, picture.width), to = first(within.x1, picture.width);
         if (from < to) std::fill(row + from, row + to, ink);
     }
-    if (touched && box.x0 <= box.x1) touched->add({box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0});
+    if (touched && !box.empty()) touched->add(box.box());
 }
 
 }  // namespace beamcam::render

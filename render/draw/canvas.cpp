@@ -7,9 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
-#include "render/base/error.hpp"
 #include "render/draw/font_handles.hpp"
 #include "render/draw/formula.hpp"
 #include "render/draw/surface.hpp"
@@ -29,16 +27,6 @@ std::string math(std::string_view symbol) {
                        symbol);
 }
 
-struct Canvas::Handles {
-    cairo_surface_t* surface = nullptr;
-    ~Handles() {
-        if (surface) {
-            cairo_surface_flush(surface);
-            cairo_surface_destroy(surface);
-        }
-    }
-};
-
 namespace {
 
 // The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
@@ -52,44 +40,13 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-PangoWeight pango(Weight weight) {
-    switch (weight) {
-        case Weight::regular:
-            return PANGO_WEIGHT_NORMAL;
-        case Weight::medium:
-            return PANGO_WEIGHT_MEDIUM;
-        case Weight::semibold:
-            return PANGO_WEIGHT_SEMIBOLD;
-    }
-    return PANGO_WEIGHT_NORMAL;
-}
-
 // Figures are tabular so that running numbers do not jitter.
-PangoLayout* laid_out(PangoContext* context, const std::string& markup, const TextStyle& style) {
-    PangoLayout* layout = pango_layout_new(context);
-    PangoFontDescription* font = pango_font_description_new();
-    pango_font_description_set_family_static(font, "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC");
-    pango_font_description_set_weight(font, pango(style.weight));
-    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
-    pango_layout_set_font_description(layout, font);
-    pango_font_description_free(font);
-    pango_layout_set_single_paragraph_mode(layout, TRUE);
-    pango_layout_set_ellipsize(layout, style.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
-    pango_layout_set_width(layout, style.max_width > 0 ? static_cast<int>(style.max_width * PANGO_SCALE) : -1);
-    const std::string wrapped = "<span font_features='tnum=1'>" + markup + "</span>";
-    pango_layout_set_markup(layout, wrapped.c_str(), static_cast<int>(wrapped.size()));
-    return layout;
-}
-
-// What was laid out lately is there already: most words of a film are those of the frame before.
-std::string key_of(const std::string& markup, const TextStyle& style) {
-    const double numbers[] = {style.size, style.max_width, static_cast<double>(style.weight)};
-    std::string key(reinterpret_cast<const char*>(numbers), sizeof numbers);
-    return key += markup;
-}
-PangoLayout* prepare(const Fonts& fonts, const std::string& markup, const TextStyle& style) {
-    return fonts.handles().words.get(key_of(markup, style),
-                                     [&] { return laid_out(fonts.handles().context, markup, style); });
+LetterFace face_of(const TextStyle& style) {
+    return {.family = "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
+            .size = style.size,
+            .weight = style.weight,
+            .tabular = true,
+            .max_width = style.max_width};
 }
 
 constexpr double kHalo = 0.30, kOutline = 0.18;  // widths in parts of the size, of its own halo and of all texts'
@@ -109,14 +66,8 @@ Metrics metrics(PangoLayout* layout) {
 
 }  // namespace
 
-Canvas::Canvas(Image& image, const Fonts& fonts) : handles_(std::make_unique<Handles>()), image_(image), fonts_(fonts) {
-    handles_->surface = surface_of(image);
-    begin(cairo_create(handles_->surface));
-    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
-    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
-        throw PictureError(fmt::format("a picture of {}×{} pixels cannot be drawn: {}", image.width, image.height,
-                                       cairo_status_to_string(cairo_status(cr_))));
-    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+Canvas::Canvas(Image& image, const Fonts& fonts) : image_(image), fonts_(fonts) {
+    begin(surface_of(image), fmt::format("a picture of {}×{} pixels", image.width, image.height));
 }
 Canvas::~Canvas() noexcept(false) { end(); }
 
@@ -156,23 +107,6 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     if (!there.empty()) touch(there);
 }
 
-void Canvas::image_fitted(const Image& source, const Box& into) {
-    cairo_surface_t* const surface = surface_of(source);
-    cairo_save(cr_);
-    cairo_rectangle(cr_, into.x, into.y, into.w, into.h);
-    cairo_clip(cr_);
-    cairo_translate(cr_, into.x, into.y);
-    cairo_scale(cr_, into.w / source.width, into.h / source.height);
-    cairo_set_source_surface(cr_, surface, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_BEST);
-    cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
-    cairo_paint(cr_);
-    cairo_restore(cr_);
-    use({});
-    cairo_surface_destroy(surface);
-    touch(into);
-}
-
 void Canvas::image_tiles(const Image& source, int x, int y, const Tiles& tiles) {
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
@@ -200,16 +134,6 @@ void Canvas::paint_pixels(const std::function<void(const PixelView&, Tiles*)>& p
     cairo_surface_mark_dirty(surface);
 }
 
-void Canvas::clip(const Box& b, const std::function<void()>& draw) {
-    cairo_save(cr_);
-    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
-    cairo_clip(cr_);
-    const Box* before = std::exchange(limit_, &b);
-    draw();
-    limit_ = before;
-    cairo_restore(cr_);
-}
-
 std::string Canvas::drawable(std::string_view plain) const {
     std::string out;
     const char* end = plain.data() + plain.size();
@@ -220,7 +144,7 @@ std::string Canvas::drawable(std::string_view plain) const {
         // Joiners and selectors only tell pictographs how to look.
         if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
         if (character >= 0x80) {
-            if (pango_layout_get_unknown_glyphs_count(prepare(fonts_, escape(one), {})) > 0) continue;
+            if (pango_layout_get_unknown_glyphs_count(laid_out(fonts_, face_of({}), escape(one))) > 0) continue;
         }
         out += one;
     }
@@ -228,12 +152,13 @@ std::string Canvas::drawable(std::string_view plain) const {
 }
 
 Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
+    if (markup.empty()) return {baseline.x, baseline.y, 0, 0};
     if (has_formula(markup)) {
         if (style.align != HAlign::left)
-            baseline.x -= formula({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
-        return formula(baseline, markup, style, true);
+            baseline.x -= set_parts({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
+        return set_parts(baseline, markup, style, true);
     }
-    PangoLayout* layout = prepare(fonts_, markup, style);
+    PangoLayout* layout = laid_out(fonts_, face_of(style), markup);
     const Metrics m = metrics(layout);
     double x = baseline.x;
     if (style.align == HAlign::centre) x -= m.advance / 2;
@@ -245,7 +170,7 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     if (halo && halo->faded(0) == style.color.faded(0)) halo.reset();  // it would only thicken the letters
     if (halo) {
         pango_cairo_layout_path(cr_, layout);
-        note('t', {x, baseline.y}, key_of(markup, style));
+        note('t', {x, baseline.y}, face_of(style).key(markup));
         pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
         stroke({*halo, wide});
         cairo_move_to(cr_, x, baseline.y - m.baseline);
@@ -260,10 +185,17 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
 }
 
 Box Canvas::measure(const std::string& markup, const TextStyle& style) {
-    if (has_formula(markup)) return formula({}, markup, style, false);
-    PangoLayout* layout = prepare(fonts_, markup, style);
+    if (has_formula(markup)) return set_parts({}, markup, style, false);
+    PangoLayout* layout = laid_out(fonts_, face_of(style), markup);
     const Metrics m = metrics(layout);
     return {0, m.ink.y, m.advance, m.ink.h};
+}
+
+std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
+                            double room) {
+    for (const std::string& text : texts)
+        if (canvas.measure(text, style).w <= room) return text;
+    return *(texts.end() - 1);
 }
 
 }  // namespace beamcam::render

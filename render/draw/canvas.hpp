@@ -6,36 +6,25 @@
 
 #include <functional>
 #include <initializer_list>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "render/draw/area.hpp"
-#include "render/draw/brush.hpp"
 #include "render/draw/color.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
+#include "render/draw/painter.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render {
 
 std::string escape(std::string_view plain);
 std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
 
-enum class Weight { regular, medium, semibold };
-struct TextStyle {
-    double size = 16;  // [px]
-    Color color = {};
-    Weight weight = Weight::regular;
-    HAlign align = HAlign::left;
-    double max_width = 0;            // > 0: cut with an ellipsis there [px]
-    std::optional<Color> halo = {};  // outline that keeps the text legible over drawings
-};
-
-class Canvas : public Brush {
+class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
     ~Canvas() noexcept(false);  // throws what Cairo could not draw: a picture is whole, or an error
@@ -50,12 +39,8 @@ class Canvas : public Brush {
     void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
-    // Fills the box with the whole of it, made smaller or larger.
-    void image_fitted(const Image& source, const Box& into);
     // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
-    // What `draw` draws shows within the box only.
-    void clip(const Box& box, const std::function<void()>& draw);
 
     // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
     std::string drawable(std::string_view plain) const;
@@ -69,12 +54,15 @@ class Canvas : public Brush {
     std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
 
   private:
-    Box formula(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);  // at the left
+    // A text with formulas, at the left.
+    Box set_parts(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);
 
-    struct Handles;
-    std::unique_ptr<Handles> handles_;
     const Image& image_;
     const Fonts& fonts_;
 };
+
+// The first of the texts that is no wider than `room`; the last where none is.
+std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
+                            double room);
 
 }  // namespace beamcam::render

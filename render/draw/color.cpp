@@ -1,5 +1,7 @@
 #include "render/draw/color.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -66,6 +68,11 @@ Color along(const std::array<Color, N>& stops, double share) {
 
 }  // namespace
 
+std::string hex(Color color) {
+    const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", level(color.r), level(color.g), level(color.b));
+}
+
 const Palette& palette(Theme theme) {
     switch (theme) {
         case Theme::light:
@@ -111,10 +118,11 @@ double contrast(const Color& a, const Color& b) {
 }
 
 Color readable(const Palette& palette, Color color) {
-    constexpr double kLeast = 3;
+    constexpr double kLeastContrast = 3;
     constexpr int kSteps = 20;
     for (int k = 0; k < kSteps; ++k)
-        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps); contrast(mixed, palette.paper) >= kLeast)
+        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps);
+            contrast(mixed, palette.paper) >= kLeastContrast)
             return mixed;
     return palette.ink;
 }

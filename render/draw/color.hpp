@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace beamcam::render {
 
@@ -18,6 +19,7 @@ struct Color {
 constexpr Color rgb(std::uint32_t hex) {
     return {((hex >> 16) & 255) / 255.0, ((hex >> 8) & 255) / 255.0, (hex & 255) / 255.0, 1};
 }
+std::string hex(Color color);  // "#0072b2"
 constexpr Color mix(Color a, Color b, double share_of_b) {
     const double s = share_of_b, k = 1 - s;
     return {a.r * k + b.r * s, a.g * k + b.g * s, a.b * k + b.b * s, a.a * k + b.a * s};

@@ -1,29 +1,31 @@
-// The Pango side of Fonts, for the two files that talk to Pango.
+// The Pango side of Fonts, for the files that talk to Pango.
 #pragma once
 
 #include <fontconfig/fontconfig.h>
 #include <pango/pangocairo.h>
 
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "render/draw/fonts.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render {
 
-// Texts as they were laid out, the latest few hundred.
-class Words {
+// Texts as they were laid out, the latest few hundred: most texts of a frame are those of the frame before.
+class LayoutCache {
   public:
-    Words() = default;
-    Words(const Words&) = delete;
-    Words& operator=(const Words&) = delete;
-    ~Words() { forget(); }
+    LayoutCache() = default;
+    LayoutCache(const LayoutCache&) = delete;
+    LayoutCache& operator=(const LayoutCache&) = delete;
+    ~LayoutCache() { forget(); }
     // Owned by this; valid until the next call.
     template <typename Make>
     PangoLayout* get(const std::string& key, Make make) {
         if (const auto known = latest_.find(key); known != latest_.end()) return known->second;
-        if (latest_.size() >= kMost) {
+        if (latest_.size() >= kMostLayouts) {
             drop(before_);
             before_ = std::exchange(latest_, {});
         }
@@ -33,11 +35,11 @@ class Words {
     void forget() { drop(latest_), drop(before_); }
 
   private:
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMostLayouts = 256;
     using Known = std::unordered_map<std::string, PangoLayout*>;
-    static void drop(Known& words) {
-        for (const auto& [key, layout] : words) g_object_unref(layout);
-        words.clear();
+    static void drop(Known& layouts) {
+        for (const auto& [key, layout] : layouts) g_object_unref(layout);
+        layouts.clear();
     }
     Known latest_, before_;
 };
@@ -47,13 +49,25 @@ struct Fonts::Handles {
     FcConfig* config = nullptr;
     PangoFontMap* map = nullptr;
     PangoContext* context = nullptr;
-    PangoLayout* layout = nullptr;  // reused for every text of a figure
-    mutable Words words;            // of pictures
+    mutable LayoutCache layouts;
 
     Handles() = default;
     Handles(const Handles&) = delete;
     Handles& operator=(const Handles&) = delete;
     ~Handles();
 };
+
+// The letters that a text is laid out in; `family` is the same for all of one size, weight and slant.
+struct LetterFace {
+    const char* family;
+    double size = 16;
+    Weight weight = Weight::regular;
+    bool italic = false;
+    bool tabular = false;  // digits of one width
+    double max_width = 0;  // > 0: cut with an ellipsis there
+    std::string key(std::string_view markup) const;
+};
+// The fonts own it; valid until the next call.
+PangoLayout* laid_out(const Fonts& fonts, const LetterFace& face, const std::string& markup);
 
 }  // namespace beamcam::render

@@ -105,17 +105,13 @@ void keep_system_settings_out() {
 // Scripts from U+2E80 on. Pictographs, variation selectors and mathematical letters are none of them, and such a font
 // has none.
 bool needs_cjk(std::string_view utf8) {
-    for (std::size_t i = 0; i < utf8.size();) {
-        const auto lead = static_cast<unsigned char>(utf8[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-        std::uint32_t letter = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-        for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
-            letter = letter << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
+    const char* const end = utf8.data() + utf8.size();
+    for (const char* at = utf8.data(); at < end; at = g_utf8_next_char(at)) {
+        const gunichar letter = g_utf8_get_char_validated(at, end - at);
         if ((letter >= 0x2E80 && letter < 0xE000) || (letter >= 0xF900 && letter < 0xFB00) ||
             (letter >= 0xFE30 && letter < 0xFE50) || (letter >= 0xFF00 && letter < 0xFFF0) ||
             (letter >= 0x20000 && letter < 0x40000))
             return true;
-        i += length;
     }
     return false;
 }
@@ -139,7 +135,7 @@ namespace {
 // Pango 1.50 sorts fonts in threads of its own, which let go of their set of fonts when they are done. A set that is
 // destroyed meanwhile is destroyed by two threads at once, without a lock (pangofc-fontmap.c, free_patterns). So no set
 // in use is ever destroyed: it rests here until somebody asks for the same files.
-class Resting {
+class FontPool {
   public:
     std::unique_ptr<Fonts::Handles> take(const std::string& key) {
         const std::lock_guard lock(mutex_);
@@ -159,8 +155,8 @@ class Resting {
     std::map<std::string, std::vector<std::unique_ptr<Fonts::Handles>>> sets_;
 };
 
-Resting& resting() {
-    static Resting* const all = new Resting;  // outlives the threads
+FontPool& font_pool() {
+    static FontPool* const all = new FontPool;  // outlives the threads
     return *all;
 }
 
@@ -193,7 +189,6 @@ std::unique_ptr<Fonts::Handles> load(std::span<const FontFile> files) {
     cairo_font_options_destroy(options);
     pango_context_set_round_glyph_positions(h.context, FALSE);
     pango_context_set_language(h.context, pango_language_from_string("en"));  // not the locale's
-    h.layout = pango_layout_new(h.context);
     return handles;
 }
 
@@ -207,7 +202,7 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : typefaces_(typefaces) {
         require(file);
         (key += file.path.native()) += '\n';
     }
-    auto handles = resting().take(key);
+    auto handles = font_pool().take(key);
     if (!handles) {
         handles = load(files);
         handles->key = std::move(key);
@@ -216,8 +211,55 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : typefaces_(typefaces) {
 }
 
 void Fonts::PutBack::operator()(Handles* handles) const {
-    handles->words.forget();
-    resting().put(std::unique_ptr<Handles>(handles));
+    handles->layouts.forget();
+    font_pool().put(std::unique_ptr<Handles>(handles));
+}
+
+// ---- texts ---------------------------------------------------------------------------------------
+
+namespace {
+
+PangoWeight pango_weight(Weight weight) {
+    switch (weight) {
+        case Weight::regular:
+            return PANGO_WEIGHT_NORMAL;
+        case Weight::medium:
+            return PANGO_WEIGHT_MEDIUM;
+        case Weight::semibold:
+            return PANGO_WEIGHT_SEMIBOLD;
+        case Weight::bold:
+            return PANGO_WEIGHT_BOLD;
+    }
+    return PANGO_WEIGHT_NORMAL;
+}
+
+PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& markup) {
+    PangoLayout* layout = pango_layout_new(context);
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, face.family);
+    pango_font_description_set_style(font, face.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
+    pango_font_description_set_weight(font, pango_weight(face.weight));
+    pango_font_description_set_absolute_size(font, face.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    pango_layout_set_ellipsize(layout, face.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
+    pango_layout_set_width(layout, face.max_width > 0 ? static_cast<int>(face.max_width * PANGO_SCALE) : -1);
+    const std::string all = face.tabular ? "<span font_features='tnum=1'>" + markup + "</span>" : markup;
+    pango_layout_set_markup(layout, all.c_str(), static_cast<int>(all.size()));
+    return layout;
+}
+
+}  // namespace
+
+std::string LetterFace::key(std::string_view markup) const {
+    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0)};
+    return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(markup);
+}
+
+PangoLayout* laid_out(const Fonts& fonts, const LetterFace& face, const std::string& markup) {
+    const Fonts::Handles& handles = fonts.handles();
+    return handles.layouts.get(face.key(markup), [&] { return make_layout(handles.context, face, markup); });
 }
 
 }  // namespace beamcam::render

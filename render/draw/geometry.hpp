@@ -33,6 +33,8 @@ struct Bounds {
         x0 = std::min(x0, p.x - r), x1 = std::max(x1, p.x + r);
         y0 = std::min(y0, p.y - r), y1 = std::max(y1, p.y + r);
     }
+    bool empty() const { return !(x0 <= x1); }
+    Box box() const { return empty() ? Box{} : Box{x0, y0, x1 - x0, y1 - y0}; }
 };
 
 // px = origin + scale·(x, −y): angles and proportions stay true.

@@ -30,15 +30,12 @@ Box GrowingLayer::until(double t, const GrowingPath& path, const Fonts& fonts, c
     for (std::size_t i = std::max<std::size_t>(drawn_, 1); i < last; ++i) {
         const Vec2 a = path.points[i - 1], b = path.points[i];
         if (std::isnan(a.x) || std::isnan(b.x)) continue;
-        canvas.move_to(a);
-        canvas.line_to(b);
-        canvas.stroke(pen);
+        canvas.line(a, b, pen);
         changed.add(a, pen.width / 2 + 1), changed.add(b, pen.width / 2 + 1);
     }
     drawn_ = last;
     if (back) return whole();
-    return changed.x1 < changed.x0 ? Box{}
-                                   : Box{changed.x0, changed.y0, changed.x1 - changed.x0, changed.y1 - changed.y0};
+    return changed.box();
 }
 
 }  // namespace beamcam::render

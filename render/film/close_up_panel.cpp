@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kBelow = 1.35, kAbove = 1.9;  // heights shown, in largest penetrations
 
-class CloseUpPanel final : public Panel {
+class CloseUpPanel final : public FilmPanel {
   public:
     CloseUpPanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
@@ -43,12 +43,9 @@ class CloseUpPanel final : public Panel {
         const double room = plot_.w - canvas.measure(facts_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
         const std::string whose = of_motion(facts_, member_);
         const std::string whole = facts_.say("Contact close-up"), brief = facts_.say("Contact");
-        for (const std::string& heading : {whole + whose, brief + whose, brief}) {
-            // The reading stands beside it.
-            if (canvas.measure(heading, bold).w > room) continue;
-            draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, heading);
-            break;
-        }
+        // The reading stands beside it.
+        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
+                     first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
         canvas.rectangle(plot_);
         canvas.fill(p.tint(p.grid, 0.35));
         if (!motion().problem.cam) return;
@@ -59,9 +56,7 @@ class CloseUpPanel final : public Panel {
         const TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
-            canvas.move_to({plot_.x - 6 * u, y});
-            canvas.line_to({plot_.x, y});
-            canvas.stroke({p.muted, std::max(1.0, u), {}, Cap::butt});
+            canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
             canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * facts_.tick}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
@@ -79,12 +74,9 @@ class CloseUpPanel final : public Panel {
         canvas.text({x1, y + 3 * u + facts_.tick}, length,
                     {.size = 16.0 / 17 * facts_.tick, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
-        for (const std::string& words :
-             {how, facts_.say(fmt::format("heights in {}m", unit_.symbol)), fmt::format("{}m", unit_.symbol)}) {
-            if (canvas.measure(words, note).w > left) continue;
-            canvas.text({plot_.x, y - 3 * u + facts_.tick}, words, note);
-            break;
-        }
+        const std::string brief_how = facts_.say(fmt::format("heights in {}m", unit_.symbol));
+        canvas.text({plot_.x, y - 3 * u + facts_.tick},
+                    first_that_fits(canvas, {how, brief_how, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {
@@ -283,7 +275,7 @@ class CloseUpPanel final : public Panel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<CloseUpPanel>(facts, slot);
 }
 

@@ -62,7 +62,7 @@ class EnergyPanel final : public ChartPanel {
         std::vector<double> base(t->size(), 0.0);
         double most = 0;
         for (const Part& part : parts(facts)) {
-            Band band{base, base, part.color};
+            ChartBand band{base, base, part.color};
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
@@ -146,7 +146,7 @@ class EnergyPanel final : public ChartPanel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<EnergyPanel>(facts, slot);
 }
 

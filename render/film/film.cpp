@@ -20,9 +20,9 @@ namespace beamcam::render {
 
 struct Film::Prepared {
     FilmFacts facts;
-    std::vector<std::unique_ptr<Panel>> panels;  // of the layer
-    const MechanismPanel* mechanism = nullptr;   // the first
-    Image ground;                                // all that never changes
+    std::vector<std::unique_ptr<FilmPanel>> panels;  // of the layer
+    const MechanismPanel* mechanism = nullptr;       // the first
+    Image ground;                                    // all that never changes
     std::vector<Box> ground_texts;
     std::string widest_speed;  // of all frames
     bool steady = true;        // one speed throughout
@@ -51,7 +51,7 @@ struct Film::Prepared {
     }
     void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
-                     const std::vector<std::unique_ptr<Panel::State>>& states) const;
+                     const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
     std::vector<int> stages(int frame) const;
     bool growing_apart = true;  // no two panels add to the same pixels
 
@@ -93,13 +93,13 @@ struct Film::Tools {
     }
 
     Fonts fonts;
-    std::vector<std::unique_ptr<Panel::State>> states;
+    std::vector<std::unique_ptr<FilmPanel::State>> states;
     Image kept;
     int kept_frame = -1;      // < 0: none
     std::vector<int> stages;  // of that frame
     Image picture;
     int frame = -1;  // that the picture shows; < 0: none
-    Stencils stencils;
+    CoverageCache coverage_cache;
     Tiles grown;    // where `kept` changed since the picture was drawn
     Tiles moved;    // where the picture may differ from `kept` as it was then
     Tiles changed;  // where the picture may differ from the one before
@@ -151,8 +151,7 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const Box& b = *facts.places.scales;
     const TextStyle small{
         .size = 16 * u + 0.4 * (facts.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
-    const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks,
-                         std::array<double, 3> at) {
+    const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks) {
         const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
         for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
@@ -162,8 +161,8 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
-            canvas.text({strip.x + at[i] * strip.w, strip.bottom() + 19 * u + 0.3 * (facts.tick - 17 * u)}, marks[i],
-                        style);
+            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (facts.tick - 17 * u)},
+                        marks[i], style);
         }
     };
     double right = b.right();
@@ -172,18 +171,17 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
                           quarter = quantity(facts.force_scale / 4, prefix_for(facts.force_scale), "N");
         if (facts.setup->view.trace == TraceColor::force) {
             bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
-                {"0", quarter, top}, {0, 0.5, 1});
+                {"0", quarter, top});
         } else {
             const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
             bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
-                {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)}, {0, 0.5, 1});
+                {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)});
         }
         right -= 300 * u;
     }
     if (facts.moment_scale > 0) {
         const std::string top = quantity(facts.moment_scale, "N\u2009m");
-        bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top},
-            {0, 0.5, 1});
+        bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
     }
 }
 
@@ -289,7 +287,7 @@ bool Film::repeats(int frame) const {
 }
 
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
-                                 const std::vector<std::unique_ptr<Panel::State>>& states) const {
+                                 const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
     draw_clock(canvas, frame);
 }
@@ -315,9 +313,9 @@ const Image& Film::draw(int frame) {
     Canvas canvas(t.picture, t.fonts);
     canvas.outline = prepared_->facts.outline();
     canvas.touched = &t.moved;
-    if (Stencils::exact()) canvas.stencils = &t.stencils;
+    if (CoverageCache::exact()) canvas.coverage_cache = &t.coverage_cache;
     prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
-    t.stencils.next_picture();
+    t.coverage_cache.next_picture();
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;

@@ -93,7 +93,7 @@ Box plot_area(const Box& box, double unit, double tick);
 
 // ---- kinds of panels ---------------------------------------------------------------------------
 
-class Panel;
+class FilmPanel;
 struct FilmFacts;
 
 // All that layouts, scenes and films know of a kind of panel.
@@ -101,7 +101,7 @@ struct PanelType {
     PanelKind kind;
     const char* name;  // as scenes write it
     Vec2 smallest;     // room that it can use [design px]
-    std::unique_ptr<Panel> (*make)(const FilmFacts& facts, const PanelSlot& slot);
+    std::unique_ptr<FilmPanel> (*make)(const FilmFacts& facts, const PanelSlot& slot);
     std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
     bool draws_curve = false;                     // the second of `channels` over the first
     bool takes_channels = false;                  // scenes name them

@@ -65,7 +65,7 @@ Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
         Bounds piece;
         for (Vec2 p : {strip.face[i], strip.face[i + 1], strip.back[i], strip.back[i + 1]})
             piece.add(origin + p, around);
-        tiles.add({piece.x0, piece.y0, piece.x1 - piece.x0, piece.y1 - piece.y0});
+        tiles.add(piece.box());
     }
     return tiles;
 }

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <ranges>
 
-#include "render/draw/smooth_path.hpp"
 #include "render/film/apart.hpp"
 #include "render/film/captions.hpp"
 #include "render/film/mechanism_ghosts.hpp"
@@ -19,16 +18,13 @@ namespace {
 using sim::Pose;
 
 using std::numbers::pi;
-constexpr double kTrail = 1.2;  // so much of the film is the tip's trail, what stands still not counted [s]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kArcStep = 6;    // of what is drawn of the tip's path [design px]
-constexpr double kFarTurn = 0.5;  // of the hub between places of the tip: further, a spline errs by half a pixel [rad]
 
 }  // namespace
 
 // ---- prepared once for a film ----------------------------------------------------------------
 
-struct MechanismPanel::Threads final : Panel::State {
+struct MechanismPanel::Threads final : FilmPanel::State {
     Threads(const FilmFacts& facts, int member, double scale, const Box& box)
         : path(facts.setup->view.tip_path ? static_cast<int>(box.w) : 1,
                facts.setup->view.tip_path ? static_cast<int>(box.h) : 1),
@@ -58,7 +54,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : 
     find_shots();
 }
 
-std::unique_ptr<Panel::State> MechanismPanel::make_state() const {
+std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
     return std::make_unique<Threads>(at_.facts, at_.member, at_.look.camera.scale, at_.box);
 }
 
@@ -90,17 +86,16 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
     LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
     Bounds seen;
     std::vector<Vec2> before;
-    int moved = 0;
     for (int k = 0; k < at_.facts.frames(); ++k) {
         const Pose pose = at_.facts.pose(at_.member, k);
         const DrawnBeam drawn = at_.drawn(at_.member, pose);
         const double angle = drawn_angle(pose);
         needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
-        tips_.push_back((shape.face.back() + shape.back.back()) * 0.5);
-        turned_.push_back(pose.theta);
-        followed_.push_back({at_.look.camera.to_world(tips_.back()),
-                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tips_.back()),
+        const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
+        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.facts.at(0, k) > at_.facts.at(0, k - 1));
+        followed_.push_back({at_.look.camera.to_world(tip),
+                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                              at_.problem().cam ? pose.cam_centre : Vec2{}});
         const std::optional<Push> push = push_of(pose, drawn, rings_.peak(k));
         for (SweptRegion* each : {&swept, &pressed}) {
@@ -119,60 +114,15 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
-        if (k > 0 && at_.facts.at(0, k) > at_.facts.at(0, k - 1)) ++moved;
-        moved_.push_back(moved);
     }
-    for (std::size_t k = 0; k + 1 < tips_.size(); ++k)
-        for (SweptRegion* each : {&swept, &pressed}) each->room.cover(tip_piece(tips_, turned_, k), 1);  // the trail
+    for (int k = 0; k + 1 < at_.facts.frames(); ++k)
+        for (SweptRegion* each : {&swept, &pressed})
+            each->room.cover(tip_path_.piece(at_, static_cast<std::size_t>(k)), 1);  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
-    if (at_.facts.setup->view.tip_path) note_path();
-    lit_box_ = lit_box({seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0}, at_.box, at_.unit);
+    if (at_.facts.setup->view.tip_path) tip_path_.find_whole(at_);
+    lit_box_ = lit_box(seen.box(), at_.box, at_.unit);
     return needs;
-}
-
-// The way of the tip from one of its places to the next, between which the hub turns from one angle to the next [rad].
-std::vector<Vec2> MechanismPanel::tip_piece(std::span<const Vec2> tips, std::span<const double> angles,
-                                            std::size_t k) const {
-    const double turn = angles[k + 1] - angles[k], step = kArcStep * at_.unit;
-    if (std::abs(turn) < kFarTurn) return smooth_piece(tips, k, step);
-    return turning_piece(at_.px({0, 0}), tips[k], tips[k + 1], turn, step);
-}
-
-// Through the motion's survey and the frames. A piece of the path is there when the instant at its end is.
-void MechanismPanel::note_path() {
-    struct Tip {
-        double t;
-        Vec2 at;
-        double angle;  // of the hub [rad]
-    };
-    std::vector<Tip> tips;
-    const double now = at_.facts.at(at_.member, at_.facts.frames() - 1);
-    for (int k = 0; k < at_.facts.frames(); ++k)
-        tips.push_back(
-            {at_.facts.at(at_.member, k), tips_[static_cast<std::size_t>(k)], turned_[static_cast<std::size_t>(k)]});
-    for (std::size_t k = 0; at_.motion().survey && k < at_.motion().surveyed(); ++k) {
-        if (at_.motion().survey->time(k) > now) continue;
-        const Pose pose = at_.motion().surveyed(k);
-        const DrawnBeam b = at_.drawn(at_.member, pose);
-        tips.push_back({at_.motion().survey->time(k),
-                        at_.px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5), pose.theta});
-    }
-    std::ranges::stable_sort(tips, {}, &Tip::t);
-    tips.erase(std::unique(tips.begin(), tips.end(), [](const Tip& a, const Tip& b) { return a.t == b.t; }),
-               tips.end());
-    std::vector<Vec2> all, inside;
-    std::vector<double> times, angles;
-    for (const Tip& tip : tips) all.push_back(tip.at), angles.push_back(tip.angle);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        std::vector<Vec2> piece{all[k]};
-        if (k > 0) piece = tip_piece(all, angles, k - 1), piece.erase(piece.begin());
-        for (Vec2 p : piece) {
-            times.push_back(tips[k].t);
-            inside.push_back(p - Vec2{at_.box.x, at_.box.y});
-        }
-    }
-    path_ = thinned(times, inside, 0.5);
 }
 
 void MechanismPanel::find_shots() {
@@ -218,9 +168,8 @@ void MechanismPanel::draw_ground(Canvas& canvas) const {
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
     if (at.facts.setup->view.style == Style::solid) return;  // all is seen from moving places
     const Vec2 o = at.px({0, 0});
-    canvas.move_to({at.box.x, o.y});
-    canvas.line_to({at.box.right(), o.y});
-    canvas.stroke({at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
+    canvas.line({at.box.x, o.y}, {at.box.right(), o.y},
+                {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
     draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
 }
 
@@ -244,8 +193,8 @@ bool MechanismPanel::whole_path() const {
 void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const {
     if (!whole_path()) return;
     GrowingLayer& path = static_cast<Threads*>(state)->path;
-    Box changed =
-        path.until(at_.facts.at(at_.member, frame), path_, kept.fonts(), {at_.palette.motion_faint, 1.6 * at_.unit});
+    Box changed = path.until(at_.facts.at(at_.member, frame), tip_path_.whole(), kept.fonts(),
+                             {at_.palette.motion_faint, 1.6 * at_.unit});
     if (anew) changed = path.whole();
     if (changed.empty()) return;
     kept.replace_part(ground, 0, 0, {changed.x + at_.box.x, changed.y + at_.box.y, changed.w, changed.h});
@@ -273,7 +222,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const Perspective* view = style == Style::solid ? &perspective : nullptr;
     const std::optional<Push> push = push_of(pose, drawn, rings_.peak(frame));
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, push, labels};
-    trail(s);
+    draw_tip_path(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
     const auto bodies = [&] {
@@ -335,28 +284,13 @@ void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Thread
     }
 }
 
-// The tip's path over the last of the film, fading.
-void MechanismPanel::trail(const MechanismScene& s) const {
-    if (whole_path()) return;  // all of it is drawn already
-    const auto on = [&](Vec2 p) { return s.on(s.at.moved ? s.at.px(at_.look.camera.to_world(p)) : p); };
-    if (at_.facts.setup->view.tip_path && s.at.moved && !s.view) {
-        const auto end = std::ranges::upper_bound(path_.times, s.pose.t) - path_.times.begin();
-        std::vector<Vec2> line;
-        for (std::ptrdiff_t i = 0; i < end; ++i)
-            line.push_back(on(path_.points[static_cast<std::size_t>(i)] + Vec2{at_.box.x, at_.box.y}));
-        s.canvas.polyline(line);
-        return s.canvas.stroke({s.at.palette.motion_faint, 1.6 * s.at.unit});
-    }
-    const auto now = static_cast<std::size_t>(s.frame);
-    for (std::size_t k = now; k-- > 0;) {
-        const double age = (moved_[now] - moved_[k]) / (kTrail * at_.facts.setup->fps);
-        if (age > 1) break;
-        if (moved_[k + 1] == moved_[k]) continue;
-        std::vector<Vec2> piece = tip_piece(tips_, turned_, k);
-        for (Vec2& p : piece) p = on(p);
-        s.canvas.polyline(piece);
-        s.canvas.stroke({at_.palette.motion.faded(0.55 * (1 - age)), 2 * at_.unit, {}, Cap::butt});
-    }
+// All of the tip's path, where it is not drawn already, or the last of it.
+void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
+    if (whole_path()) return;
+    if (at_.facts.setup->view.tip_path && s.at.moved && !s.view)
+        tip_path_.draw_whole(s, at_);
+    else
+        tip_path_.draw_trail(s, at_);
 }
 
 // The camera, and the rings of impacts.
@@ -378,7 +312,7 @@ std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     return out;
 }
 
-std::unique_ptr<Panel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<MechanismPanel>(facts, slot);
 }
 

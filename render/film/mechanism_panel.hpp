@@ -2,18 +2,17 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
-#include "render/draw/growing.hpp"
 #include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
 #include "render/film/mechanism_words.hpp"
+#include "render/film/tip_path.hpp"
 #include "render/plot/placement.hpp"
 
 namespace beamcam::render {
 
-class MechanismPanel final : public Panel {
+class MechanismPanel final : public FilmPanel {
   public:
     MechanismPanel(const FilmFacts& facts, const PanelSlot& slot);
 
@@ -46,21 +45,16 @@ class MechanismPanel final : public Panel {
 
     void note_survey(SweptRegion& swept) const;
     LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
-    void note_path();
-    std::vector<Vec2> tip_piece(std::span<const Vec2> tips, std::span<const double> angles, std::size_t k) const;
 
     bool view_strobes() const { return at_.facts.setup->view.strobe; }
     bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
-    void trail(const MechanismScene& s) const;
+    void draw_tip_path(const MechanismScene& s) const;
 
     MechanismView at_;
     MechanismWords words_;
     Box lit_box_;  // what the lit mechanism ever covers, shadows included; whole pixels
     MechanismLabels labels_;
-    std::vector<Vec2> tips_;      // drawn tip of every frame [px]
-    std::vector<double> turned_;  // the hub's angle at every frame [rad]
-    std::vector<int> moved_;      // of every frame: how many before it moved, so that a freeze costs the trail nothing
-    GrowingPath path_;            // the same in the panel's box
+    TipPath tip_path_;
     ImpactRings rings_;
     std::vector<Followed> followed_;  // of every frame
     std::vector<Sighting> shots_;     // of every frame; empty: always all of it

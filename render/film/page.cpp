@@ -99,10 +99,7 @@ std::string base64(const std::vector<Number>& numbers) {
     return out;
 }
 
-std::string css(const Color& c) {
-    const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
-    return fmt::format("\"#{:02x}{:02x}{:02x}\"", byte(c.r), byte(c.g), byte(c.b));
-}
+std::string css(const Color& c) { return '"' + hex(c) + '"'; }
 
 // Where the disc was touched first, and how hard: one for each degree.
 std::string trace_json(const FilmFacts& facts, double radius) {

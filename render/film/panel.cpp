@@ -247,6 +247,6 @@ void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<flo
     }
 }
 
-void Panel::grow(Canvas&, const Image&, int, bool, State*) const {}
+void FilmPanel::grow(Canvas&, const Image&, int, bool, State*) const {}
 
 }  // namespace beamcam::render

@@ -77,12 +77,12 @@ using sim::kNan;
 // The time after which a trace coloured by its age is half as strong [s].
 inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }
 
-class Panel {
+class FilmPanel {
   public:
     struct State {
         virtual ~State() = default;
     };
-    virtual ~Panel() = default;
+    virtual ~FilmPanel() = default;
 
     virtual std::unique_ptr<State> make_state() const { return nullptr; }
     virtual void draw_ground(Canvas& canvas) const = 0;

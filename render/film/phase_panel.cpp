@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "render/draw/growing.hpp"
 #include "render/draw/smooth_path.hpp"
-#include "render/film/panel.hpp"
+#include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
-#include "render/plot/chart.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -17,40 +16,29 @@ namespace {
 
 using sim::ChannelKind;
 
-RoundAxis axis(double low, double high, const std::string& unit, int most) {
-    if (!(low <= high)) low = 0, high = 1;
-    if (high - low < 1e-9) low -= 0.05, high += 0.05;
-    return {low, high, unit, most};
-}
-
-struct Layers final : Panel::State {
+struct Layers final : FilmPanel::State {
     std::vector<GrowingLayer> layers;
 };
 
-class PhasePanel final : public Panel {
+class PhasePanel final : public FilmPanel {
   public:
     PhasePanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
-        double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
+        Bounds all;
         for (int m = 0; m < facts.members(); ++m) {
             const sim::Table& table = facts.motion(m).chart;
             const auto *x = column(table, {ChannelKind::theta, 0}), *y = column(table, {ChannelKind::theta_dot, 0});
             for (std::size_t i = 0; x && y && i < x->size(); ++i) {
-                x0 = std::min(x0, (*x)[i]), x1 = std::max(x1, (*x)[i]);
-                y0 = std::min(y0, (*y)[i]), y1 = std::max(y1, (*y)[i]);
+                all.add({(*x)[i], (*y)[i]});
             }
             for (int k = 0; k < facts.frames(); ++k) {
                 const sim::Pose p = facts.pose(m, k);
-                x0 = std::min(x0, p.theta), x1 = std::max(x1, p.theta);
-                y0 = std::min(y0, p.theta_dot), y1 = std::max(y1, p.theta_dot);
+                all.add({p.theta, p.theta_dot});
             }
         }
-        const double u = facts.unit;
         factor_ = facts.shown_factor({ChannelKind::theta, 0});
-        const std::string angle = facts.shown_unit({ChannelKind::theta, 0}),
-                          speed = facts.shown_unit({ChannelKind::theta_dot, 0});
-        x_ = axis(factor_ * x0, factor_ * x1, angle, std::clamp(static_cast<int>(plot_.w / (85 * u)), 2, 6));
-        y_ = axis(factor_ * y0, factor_ * y1, speed, std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 6));
+        x_ = axis(all.x0, all.x1, math("θ"), ChannelKind::theta, plot_.w / 85);
+        y_ = axis(all.y0, all.y1, "d" + math("θ") + "/d" + math("t"), ChannelKind::theta_dot, plot_.h / 45);
         for (int m = 0; m < facts.members(); ++m) paths_.push_back(path(m));
     }
 
@@ -63,32 +51,21 @@ class PhasePanel final : public Panel {
 
     void draw_ground(Canvas& canvas) const override {
         const double u = facts_.unit;
-        const Palette& p = *facts_.palette;
-        const std::string symbol = y_.name("d" + math("θ") + "/d" + math("t"));
-        const std::string named = label_of(ChannelKind::theta_dot).heading(facts_.setup->view.lang) + symbol;
-        const bool fits = canvas.measure(named, {.size = 21 * u, .weight = Weight::semibold}).w <= plot_.w;
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h}, fits ? named : symbol);
-        TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::centre};
-        const Pen grid{p.grid, std::max(1.0, u), {}, Cap::butt};
-        draw_levels(canvas, p, y_, plot_, u, facts_.tick);
-        const std::string name = x_.name(math("θ"));
-        const double room = plot_.right() + 8 * u - canvas.measure(name, label).w - 10 * u;
-        for (double mark : x_.marks().values) {
-            const double at = std::round(plot_.x + x_.along(plot_.w, x_.value(mark))) + 0.5;
-            canvas.move_to({at, plot_.y});
-            canvas.line_to({at, plot_.bottom()});
-            canvas.stroke(grid);
-            const std::string text = fixed(mark, x_.marks().decimals);
-            if (at + canvas.measure(text, label).w / 2 < room)
-                canvas.text({at, plot_.bottom() + 9.5 * u + facts_.tick}, text, label);
-        }
-        label.align = HAlign::right;
-        canvas.text({plot_.right() + 8 * u, plot_.bottom() + 9.5 * u + facts_.tick}, name, label);
+        const std::string name = y_->name(),
+                          words = label_of(ChannelKind::theta_dot).heading(facts_.setup->view.lang) + name;
+        const TextStyle heading{.size = 21 * u, .weight = Weight::semibold};
+        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
+                     first_that_fits(canvas, {words, name}, heading, plot_.w));
+        draw_levels(canvas, chart_style(facts_), *y_, plot_);
+        std::vector<NumberBelow> numbers;
+        for (const Tick& tick : x_->ticks())
+            if (tick.major) numbers.push_back({plot_.x + plot_.w * tick.at, tick.label});
+        draw_numbers_below(canvas, chart_style(facts_), plot_, numbers, x_->name(), true);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
             canvas.polyline(points);
-            canvas.stroke({p.tint(color(m), 0.22), 1.0 * u});
+            canvas.stroke({facts_.palette->tint(color(m), 0.22), 1.0 * u});
         }
     }
 
@@ -123,8 +100,15 @@ class PhasePanel final : public Panel {
 
   private:
     Color color(std::size_t member) const { return series_color(*facts_.palette, member); }
+    AxisMap axis(double low, double high, const std::string& symbol, ChannelKind kind, double most) const {
+        if (!(low <= high)) low = 0, high = 1 / factor_;
+        low *= factor_, high *= factor_;
+        if (high - low < 1e-9) low -= 0.05, high += 0.05;
+        return chart_axis(low, high, symbol, facts_.shown_unit({kind, 0}),
+                          std::clamp(static_cast<int>(most / facts_.unit), 2, 6));
+    }
     Vec2 to_pixels(double theta, double speed) const {
-        return {plot_.x + x_.along(plot_.w, factor_ * theta), plot_.bottom() - y_.along(plot_.h, factor_ * speed)};
+        return {plot_.x + plot_.w * x_->place(factor_ * theta), plot_.bottom() - plot_.h * y_->place(factor_ * speed)};
     }
     GrowingPath path(int member) const {
         const sim::Table& table = facts_.motion(member).chart;
@@ -153,14 +137,14 @@ class PhasePanel final : public Panel {
 
     const FilmFacts& facts_;
     Box box_, plot_;
-    RoundAxis x_, y_;
+    std::optional<AxisMap> x_, y_;
     double factor_ = 1;  // of what is shown
     std::vector<GrowingPath> paths_;
 };
 
 }  // namespace
 
-std::unique_ptr<Panel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<PhasePanel>(facts, slot);
 }
 

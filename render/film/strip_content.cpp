@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "render/plot/channel_label.hpp"
 
@@ -27,9 +26,7 @@ std::string symbol_of(Channel channel) {
 
 // The symbol in its curve's colour: a legend that needs no room.
 std::string colored(const std::string& markup, Color color) {
-    const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
-    return fmt::format("<span foreground='#{:02x}{:02x}{:02x}'>{}</span>", byte(color.r), byte(color.g), byte(color.b),
-                       markup);
+    return fmt::format("<span foreground='{}'>{}</span>", hex(color), markup);
 }
 
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
@@ -50,7 +47,7 @@ double instant_of_peak(const ForceRow& before, const ForceRow& highest, const Fo
 // The force from the tables of chart and trace, and the peaks that their rows miss, each beside the row that is nearest
 // it; an impact that no row meets is a triangle. Rows keep their values: they are those of the frames' instants. An
 // impact that is not over within the rows has no peak yet.
-void force_rows(const FilmFacts& facts, int member, Curve& curve) {
+void force_rows(const FilmFacts& facts, int member, ChartCurve& curve) {
     const Motion& one = facts.motion(member);
     std::vector<ForceRow> rows;
     for (const sim::Table* table : {&one.chart, &one.trace}) {
@@ -84,8 +81,8 @@ void force_rows(const FilmFacts& facts, int member, Curve& curve) {
     for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
 }
 
-Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
-    Curve curve;
+ChartCurve curve_of(const FilmFacts& facts, int member, Channel channel) {
+    ChartCurve curve;
     if (is_force(channel)) {
         force_rows(facts, member, curve);
         return curve;
@@ -97,21 +94,19 @@ Curve curve_of(const FilmFacts& facts, int member, Channel channel) {
     return curve;
 }
 
-Range range_of(const FilmFacts& facts, const std::vector<Curve>& curves, Channel channel) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const auto see = [&](double v) {
-        if (!std::isnan(v)) low = std::min(low, v), high = std::max(high, v);
-    };
-    for (const Curve& curve : curves)
-        for (double v : curve.v) see(v);
+Range range_of(const FilmFacts& facts, const std::vector<ChartCurve>& curves, Channel channel) {
+    Extent all;
+    const auto see = [&](double v) { all.add({&v, 1}); };
+    for (const ChartCurve& curve : curves) all.add(curve.v);
     for (int m = 0; channel.kind == ChannelKind::theta && m < facts.members(); ++m) {
         const Motion& one = facts.motion(m);
         const bool still = facts.frames() == 1;  // it shows its past alone, which is the chart's
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
             see(facts.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
     }
-    if (is_force(channel)) return {0, high > 0 ? 1.02 * high : 1};
-    if (!(low <= high)) return {0, 1};
+    const auto& [any, low, high] = all;
+    if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
+    if (!any) return {0, 1};
     // A constant still needs an axis: a twentieth of it either way, or of one unit.
     const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
     if (high - low <= least) {
@@ -129,10 +124,10 @@ Color curve_color(const FilmFacts& facts, Channel channel, std::size_t i, int me
 
 // The places of contact as dots.
 void add_places(const FilmFacts& facts, ChartContent& c) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    Extent places;
     for (int m = 0; m < facts.members(); ++m)
         for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
-            low = std::min(low, s.x), high = std::max(high, s.x);
+            places.add({&s.x, 1});
             if (s.t < c.time.low || s.t > c.time.high) continue;
             const Palette& p = *facts.palette;
             Color color =
@@ -142,12 +137,8 @@ void add_places(const FilmFacts& facts, ChartContent& c) {
             c.dots.push_back({s.t, s.x, color, faint});
         }
     const double length = facts.setup->problem.beam.length;
-    if (!(low <= high)) {
-        c.value = {0, length};
-        return;
-    }
-    const double around = std::max(0.05 * (high - low), 1e-3 * length);
-    c.value = {low - around, high + around};
+    const double around = std::max(0.05 * (places.high - places.low), 1e-3 * length);
+    c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
 }
 
 }  // namespace
@@ -179,7 +170,8 @@ static void add_data(const FilmFacts& facts, const PanelSpec& spec, ChartContent
             const FilmData& data = facts.setup->data[k];
             const std::vector<double>* values = data.find(channel);
             if (!values) continue;
-            Curve curve{{}, {}, facts.data_color(k), p.tint(facts.data_color(k), 0.25), facts.data_labels[k] + ":"};
+            ChartCurve curve{
+                {}, {}, facts.data_color(k), p.tint(facts.data_color(k), 0.25), facts.data_labels[k] + ":"};
             for (std::size_t i = 0; i < data.t.size(); ++i) {
                 const double t = data.t[i], v = facts.shown_factor(channel) * (*values)[i];
                 if (t < c.time.low || t > c.time.high || std::isnan(v)) continue;
@@ -251,7 +243,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
             symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
         c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
         for (int m = 0; m < facts.members(); ++m) {
-            Curve curve = dotted ? Curve{} : curve_of(facts, m, spec.channels[i]);
+            ChartCurve curve = dotted ? ChartCurve{} : curve_of(facts, m, spec.channels[i]);
             const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
             const bool alone = single && facts.members() == 1;
             curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
@@ -278,7 +270,7 @@ ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
     const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
     if (of_contact && c.dots.empty() &&
-        std::ranges::none_of(c.curves, [&](const Curve& curve) { return std::ranges::any_of(curve.v, is_value); }))
+        std::ranges::none_of(c.curves, [&](const ChartCurve& curve) { return std::ranges::any_of(curve.v, is_value); }))
         c.instead = facts.say("no contact"), c.unit.clear(), c.value = {0, 1};
     return c;
 }

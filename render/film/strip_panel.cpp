@@ -35,7 +35,7 @@ class StripPanel final : public ChartPanel {
 
 // The channel during one collision, from a little before its first touch: t₀ is that touch. It stays until the next
 // collision begins; before the first it shows that one's axes. All collisions share the axis of values.
-class CollisionPanel final : public Panel {
+class CollisionPanel final : public FilmPanel {
     struct Shown final : State {
         std::optional<Chart> chart;
         std::size_t which = 0;
@@ -76,22 +76,18 @@ class CollisionPanel final : public Panel {
             s.which = which;
             s.past = s.chart->past(kept.fonts());
         }
-        const Box at = s.chart->past_box();
         if (anew) {
             s.texts.clear();
             kept.record = &s.texts;
-            s.chart->draw_ground(kept, *facts_.palette);
+            s.chart->draw_ground(kept);
             kept.record = nullptr;
-            s.until = at.x;
+            s.until = s.chart->past_box().x;
         }
         const double t = now - start(which);
         if (!(t > s.chart->time().low)) return;
         // Once it is over nothing moves any more.
-        const double until =
-            std::max(s.until, t > s.chart->time().high ? plot_.right() + 1 : double(s.chart->past_column(t)));
-        kept.image_part(s.past, static_cast<int>(at.x), static_cast<int>(at.y),
-                        {s.until - at.x, 0, until - s.until, at.h});
-        s.until = until;
+        const double until = t > s.chart->time().high ? plot_.right() + 1 : s.chart->past_column(t);
+        show_past(kept, *s.chart, s.past, until, s.until);
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
@@ -102,7 +98,7 @@ class CollisionPanel final : public Panel {
         if (t < s.chart->time().low || t > s.chart->time().high) return;
         std::vector<double> readings;
         for (const Channel channel : spec_.channels) readings.push_back(reading(facts_, 0, frame, channel));
-        s.chart->draw_moving(canvas, *facts_.palette, t, readings);
+        s.chart->draw_moving(canvas, t, readings);
     }
 
   private:
@@ -137,8 +133,8 @@ class CollisionPanel final : public Panel {
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
         c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
         const double t0 = start(which);
-        for (const Curve& all : curves_) {
-            Curve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
+        for (const ChartCurve& all : curves_) {
+            ChartCurve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
             for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
             const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
                        end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
@@ -146,7 +142,7 @@ class CollisionPanel final : public Panel {
                 curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
             c.curves.push_back(std::move(curve));
         }
-        return Chart(std::move(c), box_, plot_, facts_.unit, facts_.tick);
+        return Chart(std::move(c), box_, plot_, chart_style(facts_));
     }
 
     const FilmFacts& facts_;
@@ -155,12 +151,12 @@ class CollisionPanel final : public Panel {
     std::vector<Range> spans_;
     int last_ = -1;
     ChartContent content_;
-    std::vector<Curve> curves_;
+    std::vector<ChartCurve> curves_;
 };
 
 }  // namespace
 
-std::unique_ptr<Panel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
     if (slot.spec.by_collision && facts.members() == 1 && facts.setup->problem.cam)
         return std::make_unique<CollisionPanel>(facts, slot);
     return std::make_unique<StripPanel>(facts, slot);

@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 constexpr std::size_t kSpokes = 720, kPlaces = 400;
 
-struct Spokes final : Panel::State {
+struct Spokes final : FilmPanel::State {
     Spokes(const FilmFacts& facts, int member)
         : trace(facts.samples[static_cast<std::size_t>(member)],
                 2 * pi * (facts.motion(member).problem.cam ? facts.motion(member).problem.cam->radius : 1), kSpokes,
@@ -21,7 +21,7 @@ struct Spokes final : Panel::State {
     Trace trace;
 };
 
-class TracesPanel final : public Panel {
+class TracesPanel final : public FilmPanel {
   public:
     TracesPanel(const FilmFacts& facts, const PanelSlot& slot)
         : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
@@ -90,7 +90,7 @@ class TracesPanel final : public Panel {
 
 }  // namespace
 
-std::unique_ptr<Panel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot) {
+std::unique_ptr<FilmPanel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot) {
     return std::make_unique<TracesPanel>(facts, slot);
 }
 

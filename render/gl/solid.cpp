@@ -204,7 +204,7 @@ Box seen_part(const SolidScene& scene, const Box& picture) {
         if (dot3(scene.view.axes[2], p) > (1 - kNearest) * scene.view.distance) return picture;
         seen.add(scene.view.to_pixels(p), kAround);
     }
-    return {seen.x0, seen.y0, seen.x1 - seen.x0, seen.y1 - seen.y0};
+    return seen.box();
 }
 
 }  // namespace

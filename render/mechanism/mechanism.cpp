@@ -120,9 +120,9 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
 }  // namespace
 
 double mark_unit(double beam_length, double unit) {
-    constexpr double kUsual = 640;   // of a beam at full size [px]
-    constexpr double kLeast = 0.25;  // a hub of 5 px
-    return std::clamp(beam_length / kUsual, std::min(kLeast, unit), unit);
+    constexpr double kUsual = 640;         // of a beam at full size [px]
+    constexpr double kSmallestHub = 0.25;  // a hub of 5 px
+    return std::clamp(beam_length / kUsual, std::min(kSmallestHub, unit), unit);
 }
 
 double mark_unit(const sim::Problem& problem, const Camera& camera, double unit) {
@@ -163,9 +163,7 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, con
         canvas.line_to({o.x + x - 10 * u, o.y + foot + 12 * u});
     }
     canvas.stroke({p.muted, 1.5 * pen});
-    canvas.move_to({o.x - wide, o.y + foot});
-    canvas.line_to({o.x + wide, o.y + foot});
-    canvas.stroke({p.steel_edge, 2.4 * pen});
+    canvas.line({o.x - wide, o.y + foot}, {o.x + wide, o.y + foot}, {p.steel_edge, 2.4 * pen});
 }
 
 namespace {

@@ -4,20 +4,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
+#include "render/plot/labels.hpp"
 #include "render/plot/ticks.hpp"
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 namespace {
 
-constexpr double kAir = 0.04;            // beyond the data, of the range
-constexpr double kSameRelative = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
+constexpr double kFreeBeyondData = 0.04;  // beyond the data, of the range
+constexpr double kRoundingRange = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
 constexpr double kLargestPower = 4, kSmallestPower = -2;  // powers of ten within which numbers need no common factor
 constexpr double kOffsetFrom = 2e-4;  // a range smaller than this part of its numbers gets a common offset
 
 int whole_log10(double value) { return static_cast<int>(std::floor(std::log10(value))); }
+
+// The power of ten that is written beside the numbers.
+int usual_shift(double order) {
+    const bool ordinary = order < kLargestPower && order >= kSmallestPower;
+    return ordinary ? 0 : 3 * static_cast<int>(std::floor(order / 3));
+}
+
+struct PrefixedUnit {
+    int power = 0;  // of ten, by its prefix
+    std::string base;
+};
+std::optional<PrefixedUnit> prefixed_unit(const std::string& unit) {
+    constexpr std::pair<const char*, int> kPrefixes[] = {{"", 0}, {"k", 3}, {"M", 6}, {"m", -3}, {"µ", -6}, {"n", -9}};
+    for (const char* base : {"m", "N", "J", "s", "Hz", "m/s", "m/s²"})
+        for (const auto& [prefix, power] : kPrefixes)
+            if (unit == std::string(prefix) + base) return PrefixedUnit{power, base};
+    return std::nullopt;
+}
+
+// Ticks of this step on the range, which is widened to multiples of it.
+Ticks with_round_ends(Range& range, double step) {
+    const double first = std::floor(range.low / step + 1e-9), last = std::ceil(range.high / step - 1e-9);
+    range = {first * step, last * step};
+    return ticks(range.low, range.high, static_cast<int>(std::lround(last - first)) + 1);
+}
 
 // How many minor intervals divide a step of 1, 2 or 5.
 int minor_parts(double step) {
@@ -55,6 +82,10 @@ AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::stri
     reversed_ = axis.from && axis.to && from > to;
     low_ = std::min(from, to);
     high_ = std::max(from, to);
+    label_ = axis.label;
+    const std::size_t unit = label_.rfind(" / ");
+    symbol_ = label_.substr(0, unit);
+    if (unit != std::string::npos) base_unit_ = told_unit_ = label_.substr(unit + 3);
     if (log_)
         logarithmic(axis, most);
     else
@@ -67,11 +98,11 @@ void AxisMap::linear(const Axis& axis, int most) {
     double largest = std::max(std::abs(low_), std::abs(high_));
     const int size = largest > 0 ? std::clamp(whole_log10(largest), -300, 300) : 0;
     double unit = ten_to(size), a = low_ / unit, b = high_ / unit;
-    if (b - a <= kSameRelative * std::max(std::abs(a), std::abs(b)) || !(b > a)) {
+    if (b - a <= kRoundingRange * std::max(std::abs(a), std::abs(b)) || !(b > a)) {
         const double half = a == 0 && b == 0 ? 1 : 0.1 * std::max(std::abs(a), std::abs(b));
         a -= half, b += half;
     } else {
-        const double air = axis.tight ? 0 : kAir * (b - a);
+        const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
         if (!axis.from && !(axis.with_zero && a == 0)) a -= air;
         if (!axis.to && !(axis.with_zero && b == 0)) b += air;
     }
@@ -86,52 +117,89 @@ void AxisMap::linear(const Axis& axis, int most) {
     }
     // By logarithms: the number itself may be beyond the largest that exists.
     const double order = std::log10(std::max(std::abs(a - offset), std::abs(b - offset))) + size;
-    int shift = 0;
-    if (order >= kLargestPower || order < kSmallestPower) shift = 3 * static_cast<int>(std::floor(order / 3));
+    const int shift = choose_powers(axis, order, offset != 0);
     unit_ = unit;
     offset_ = offset;
     scale_ = ten_to(size - shift);
-    scaled_low_ = (a - offset) * scale_;
-    scaled_high_ = (b - offset) * scale_;
+    ends_.low = (a - offset) * scale_;
+    ends_.high = (b - offset) * scale_;
 
-    if (!(std::isfinite(scaled_low_) && std::isfinite(scaled_high_) && scaled_high_ > scaled_low_))
+    if (!(std::isfinite(ends_.low) && std::isfinite(ends_.high) && ends_.high > ends_.low))
         throw PictureError(fmt::format("an axis from {:g} to {:g} cannot be divided", low_, high_));
     // Numbers that are counted have ticks where they are.
-    const bool whole = axis.counts && shift == 0 && offset == 0 && scaled_high_ - scaled_low_ >= 1;
-    Ticks marks = render::ticks(scaled_low_, scaled_high_, std::max(2, most));
+    add_linear_ticks(axis, most, axis.counts && shift == 0 && offset == 0 && ends_.high - ends_.low >= 1);
+
+    if (factor_) common_ = "×" + power_of_ten(factor_);
+    if (offset_ != 0) {
+        const int digits = std::max(0, whole_log10(std::abs(offset)) - whole_log10(step_ / scale_)) + 1;
+        offset_text_ = fmt::format("{:.{}g}", std::abs(offset) * unit, std::min(digits, 16));
+        common_ += fmt::format("{}{}{}", common_.empty() ? "" : " ", offset_ < 0 ? "−" : "+", offset_text_);
+    }
+}
+
+// By what power of ten numbers of this order are divided: by a prefix of the unit, and by a factor for what is left.
+int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
+    int by_prefix = 0;
+    const std::optional<PrefixedUnit> unit = prefixed_unit(base_unit_);
+    if (unit && (axis.short_numbers || (usual_shift(order) != 0 && !offset))) {
+        const Prefix prefix = prefix_for(std::pow(10.0, order + unit->power));
+        by_prefix = static_cast<int>(std::lround(std::log10(prefix.factor))) - unit->power;
+        told_unit_ = prefix.symbol + unit->base;
+        label_ = symbol_ + " / " + told_unit_;
+    }
+    if (base_unit_ == power_of_ten(-3) && usual_shift(order) < 0 && !offset) {  // thousandths become millionths
+        by_prefix = usual_shift(order);
+        told_unit_ = power_of_ten(by_prefix - 3);
+        label_ = symbol_ + " / " + told_unit_;
+    }
+    factor_ = usual_shift(order - by_prefix);
+    return by_prefix + factor_;
+}
+
+void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
+    Ticks marks = render::ticks(ends_.low, ends_.high, std::max(2, most));
     // One mark alone tells no scale.
-    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8; ++more)
-        marks = render::ticks(scaled_low_, scaled_high_, more);
+    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !axis.round_ends; ++more)
+        marks = render::ticks(ends_.low, ends_.high, more);
+    if (axis.round_ends) marks = with_round_ends(ends_, marks.step);
     if (whole && marks.step < 1) {
         marks = {.step = 1, .decimals = 0, .values = {}};
-        const double lowest = std::ceil(scaled_low_);
-        for (int k = 0; lowest + k <= scaled_high_; ++k) marks.values.push_back(lowest + k);
+        const double lowest = std::ceil(ends_.low);
+        for (int k = 0; lowest + k <= ends_.high; ++k) marks.values.push_back(lowest + k);
     }
-    const double range = scaled_high_ - scaled_low_;
-    const auto at = [&](double v) { return reversed_ ? (scaled_high_ - v) / range : (v - scaled_low_) / range; };
+    step_ = marks.step;
+    const double range = ends_.high - ends_.low;
+    const auto at = [&](double v) { return reversed_ ? (ends_.high - v) / range : (v - ends_.low) / range; };
     for (const double v : marks.values)
         ticks_.push_back({std::clamp(at(v), 0.0, 1.0), axis.numbered ? fixed(v, marks.decimals) : "", true});
     const double minor = whole ? std::max(1.0, std::round(marks.step / 5)) : marks.step / minor_parts(marks.step);
-    const double first = std::ceil(scaled_low_ / minor - 1e-9), last = std::floor(scaled_high_ / minor + 1e-9);
+    const double first = std::ceil(ends_.low / minor - 1e-9), last = std::floor(ends_.high / minor + 1e-9);
     for (double k = first; k <= last && last - first < 400; ++k)
         if (std::abs(std::remainder(k * minor, marks.step)) > 0.3 * minor) ticks_.push_back({at(k * minor), "", false});
+}
 
-    if (shift) common_ = "×" + power_of_ten(shift);
+std::string AxisMap::name() const {
+    std::string text = symbol_, unit = told_unit_;
     if (offset_ != 0) {
-        const int digits = std::max(0, whole_log10(std::abs(offset)) - whole_log10(marks.step / scale_)) + 1;
-        const std::string text = fmt::format("{:.{}g}", std::abs(offset) * unit, std::min(digits, 16));
-        common_ += fmt::format("{}{}{}", common_.empty() ? "" : " ", offset_ < 0 ? "−" : "+", text);
+        const std::string value = fmt::format("{} {}", offset_ > 0 ? "−" : "+", offset_text_);
+        text = base_unit_.empty() ? fmt::format("{} {}", symbol_, value)
+                                  : fmt::format("({} {}\u2009{})", symbol_, value, base_unit_);
     }
+    // A unit that is a quotient or a product itself stands in brackets: dθ/dt / (rad/s).
+    const bool composed = unit.find('/') != std::string::npos || (factor_ != 0 && !unit.empty());
+    if (factor_ != 0) unit = pango_power_of_ten(factor_) + (unit.empty() ? "" : "\u2009" + unit);
+    if (unit.empty()) return text;
+    return fmt::format(fmt::runtime(composed ? "{} / ({})" : "{} / {}"), text, unit);
 }
 
 void AxisMap::logarithmic(const Axis& axis, int most) {
     double a = std::log10(low_), b = std::log10(high_);
     if (b - a < 1e-9) a -= 0.5, b += 0.5;
-    const double air = axis.tight ? 0 : kAir * (b - a);
+    const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
     if (!axis.from) a -= air;
     if (!axis.to) b += air;
-    scaled_low_ = a;
-    scaled_high_ = b;
+    ends_.low = a;
+    ends_.high = b;
     const auto at = [&](double v) { return reversed_ ? (b - v) / (b - a) : (v - a) / (b - a); };
     const int first = static_cast<int>(std::ceil(a - 1e-9)), last = static_cast<int>(std::floor(b + 1e-9));
     const int stride = std::max(1, (last - first + most) / std::max(1, most));
@@ -152,9 +220,9 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
 
 double AxisMap::place(double value) const {
     if (log_ && !(value > 0)) return std::nan("");
-    const double v = log_ ? std::log10(value) : (value / unit_ - offset_) * scale_;
-    const double share = (v - scaled_low_) / (scaled_high_ - scaled_low_);
+    const double v = log_ ? std::log10(value) : told(value);
+    const double share = (v - ends_.low) / (ends_.high - ends_.low);
     return reversed_ ? 1 - share : share;
 }
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

@@ -1,7 +1,8 @@
-// From numbers to places along an axis: the range shown, ticks at 1-2-5 steps with minor ones, labels.
+// From numbers to places along an axis, of figures and of charts in films: the range shown, ticks at 1-2-5 steps with
+// minor ones, labels.
 //
-// Any finite numbers will do, from 1e-300 to 1e300, constant ones too: what does not fit short labels is written as a
-// common factor (×10⁶) or a common offset beside the axis.
+// Any finite numbers will do, from 1e-300 to 1e300, constant ones too: what does not fit short labels gets a prefix of
+// the axis's unit where it takes one, a common factor (×10⁶), or a common offset.
 #pragma once
 
 #include <optional>
@@ -9,13 +10,15 @@
 #include <string>
 #include <vector>
 
-namespace beamcam::render::figure {
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
 
 enum class Scale { linear, logarithmic };
 
 // As a figure asks for it.
 struct Axis {
-    std::string label = {};  // markup, "$θ$ / rad"
+    std::string label = {};  // markup, "$θ$ / rad"; "$w$ / mm" may become "$w$ / nm"
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};  // limits at the start and the end of the axis; may be reversed
     bool tight = false;                        // the data's own range, without air
@@ -23,13 +26,15 @@ struct Axis {
     bool numbered = true;                      // labels at the ticks
     bool ticked = true;                        // else no ticks either
     bool counts = false;                       // whole numbers: no ticks between them (linear)
+    bool round_ends = false;                   // widened to multiples of the ticks' step (linear)
+    bool short_numbers = false;  // a prefix as soon as numbers have more than three digits, or begin with 0.
 };
 
 // Least and greatest finite value; for a logarithmic axis of the positive ones.
 struct Extent {
     bool any = false;
     double low = 0, high = 0;
-    void add(std::span<const double> values, Scale scale);
+    void add(std::span<const double> values, Scale scale = Scale::linear);
 };
 
 struct Tick {
@@ -47,19 +52,30 @@ class AxisMap {
     double place(double value) const;  // 0…1 within the range; NaN stays NaN, as does a value <= 0 on a log axis
     double low() const { return low_; }
     double high() const { return high_; }
+    // As the numbers at the ticks tell a value; the ends, and the ticks' distance, told so.
+    double told(double value) const { return (value / unit_ - offset_) * scale_; }
+    Range ends() const { return ends_; }
+    double step() const { return step_; }
     const std::vector<Tick>& ticks() const { return ticks_; }
+    const std::string& label() const { return label_; }    // in the unit of the numbers
     const std::string& common() const { return common_; }  // markup of factor and offset, or empty
+    // Label, factor and offset in one, as Pango's markup: "(θ − 0.785 rad) / (10⁻⁶ rad)".
+    std::string name() const;
 
   private:
     void linear(const Axis& axis, int most);
+    int choose_powers(const Axis& axis, double order, bool offset);
+    void add_linear_ticks(const Axis& axis, int most, bool whole);
     void logarithmic(const Axis& axis, int most);
 
     bool log_ = false, reversed_ = false;
     double low_ = 0, high_ = 1;                 // of the data shown, low < high
-    double unit_ = 1, offset_ = 0, scale_ = 1;  // place uses (v/unit − offset)·scale, which has an ordinary size
-    double scaled_low_ = 0, scaled_high_ = 1;
+    double unit_ = 1, offset_ = 0, scale_ = 1;  // told: (v/unit − offset)·scale, which has an ordinary size
+    Range ends_;
+    double step_ = 1;
     std::vector<Tick> ticks_;
-    std::string common_;
+    std::string label_, symbol_, base_unit_, told_unit_, offset_text_, common_;
+    int factor_ = 0;  // power of ten that the unit's prefix leaves
 };
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

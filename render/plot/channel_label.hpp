@@ -17,7 +17,7 @@ struct ChannelLabel {
 };
 const ChannelLabel& label_of(sim::ChannelKind kind);
 
-// Markup of figures (text.hpp): "$\dot{θ}$", "$q_{1}$".
+// Markup of figures (render/draw/markup.hpp): "$\dot{θ}$", "$q_{1}$".
 std::string print_symbol(sim::Channel channel);
 
 }  // namespace beamcam::render

@@ -10,12 +10,12 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr std::size_t kMostDots = 30'000;      // of a cloud that is drawn dot by dot: about 200 kB of PDF
-constexpr double kOverlap = 0.2;               // of cells that are drawn one by one [pt]
-constexpr double kDot = 1.6, kSmallDot = 0.3;  // sides: of kFewDots and of kMostDots [pt]
+constexpr std::size_t kMostDots = 30'000;                // of a cloud that is drawn dot by dot: about 200 kB of PDF
+constexpr double kCellOverlap = 0.2;                     // of cells that are drawn one by one [pt]
+constexpr double kLargestDot = 1.6, kSmallestDot = 0.3;  // sides: of kFewDots and of kMostDots [pt]
 constexpr double kFewDots = 100;
-constexpr double kPixel = kPointsPerInch / 300;  // of a picture of a cloud [pt]
-constexpr double kFaintest = 0.5;                // opacity of a cell that one point fell into
+constexpr double kCloudPixel = kPointsPerInch / 300;  // of a picture of a cloud [pt]
+constexpr double kFaintest = 0.5;                     // opacity of a cell that one point fell into
 
 std::uint32_t pixel(Color c) {
     const auto channel = [&](double value) {
@@ -51,7 +51,7 @@ struct PixelGrid {
     }
 };
 PixelGrid pixels_of(const Box& plot) {
-    return {plot, static_cast<int>(plot.w / kPixel), static_cast<int>(plot.h / kPixel)};
+    return {plot, static_cast<int>(plot.w / kCloudPixel), static_cast<int>(plot.h / kCloudPixel)};
 }
 
 // One for each pixel that has any: periodic motions come back to the same place over and over.
@@ -74,9 +74,9 @@ Places different_places(const Cloud& cloud, const PlotAxes& axes) {
     return places;
 }
 
-void draw_dots(const Places& places, Color color, Sheet& sheet) {
+void draw_dots(const Places& places, Color color, PageCanvas& sheet) {
     const double crowd = std::log(static_cast<double>(places.all.size()) / kFewDots) / std::log(kMostDots / kFewDots);
-    const double side = kDot * std::pow(kSmallDot / kDot, std::clamp(crowd, 0.0, 1.0));
+    const double side = kLargestDot * std::pow(kSmallestDot / kLargestDot, std::clamp(crowd, 0.0, 1.0));
     for (const Vec2& p : std::span(places.all).first(places.shown))
         sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
     sheet.fill(color);
@@ -97,7 +97,7 @@ int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
 }
 
 // How many points fall into each pixel, by the logarithm.
-void draw_density(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
+void draw_density(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
     PixelGrid grid = pixels_of(axes.plot());
     grid.columns = columns_of(cloud, axes, grid.columns);
     std::vector<std::uint32_t> counts(grid.size(), 0), shown(grid.size(), 0);
@@ -113,12 +113,12 @@ void draw_density(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
         const double share = most == 1 ? 1 : std::log(shown[k]) / std::log(most);
         image.pixels[k] = pixel(sheet.shown(cloud.color).faded(kFaintest + (1 - kFaintest) * share));
     }
-    sheet.picture(image, grid.plot);
+    sheet.pixels(image, grid.plot);
 }
 
 }  // namespace
 
-void draw_cloud(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet) {
+void draw_cloud(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
     const Places places = different_places(cloud, axes);
     if (places.shown == 0) return;
     places.all.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, axes, sheet);
@@ -132,7 +132,7 @@ void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken)
     }
 }
 
-void draw_cells(const Cells& cells, const PlotAxes& axes, Sheet& sheet) {
+void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet) {
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
     const auto across = [&](double x) { return axes.along_x(x); };
     const auto up = [&](double y) { return axes.along_y(y); };
@@ -143,14 +143,15 @@ void draw_cells(const Cells& cells, const PlotAxes& axes, Sheet& sheet) {
             for (std::size_t c = 0; c < columns; ++c)
                 image.pixels[(rows - 1 - row) * columns + c] = pixel(sheet.shown(cells.colors[row * columns + c]));
         const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
-        sheet.picture(image, {low.x, high.y, high.x - low.x, low.y - high.y});
+        sheet.pixels(image, {low.x, high.y, high.x - low.x, low.y - high.y});
         return;
     }
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t c = 0; c < columns; ++c) {
             const Vec2 low = axes.at(cells.x[c], cells.y[row]), high = axes.at(cells.x[c + 1], cells.y[row + 1]);
             if (!(cells.colors[row * columns + c].a > 0)) continue;
-            sheet.rectangle({low.x, high.y - kOverlap, high.x - low.x + kOverlap, low.y - high.y + kOverlap});
+            sheet.rectangle(
+                {low.x, high.y - kCellOverlap, high.x - low.x + kCellOverlap, low.y - high.y + kCellOverlap});
             sheet.fill(cells.colors[row * columns + c]);
         }
 }

@@ -7,9 +7,9 @@
 
 namespace beamcam::render::figure {
 
-void draw_cloud(const Cloud& cloud, const PlotAxes& axes, Sheet& sheet);
+void draw_cloud(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet);
 void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken);
-void draw_cells(const Cells& cells, const PlotAxes& axes, Sheet& sheet);
+void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet);
 void cover_cells(const Cells& cells, const PlotAxes& axes, OccupancyGrid& taken);
 
 }  // namespace beamcam::render::figure

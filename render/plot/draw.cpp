@@ -7,16 +7,16 @@
 #include <memory>
 
 #include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/panel.hpp"
-#include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kWide = 125;                      // [mm]: from here on two panels stand side by side
-constexpr double kNarrowest = 20, kWidest = 2000;  // [mm]
-constexpr double kEdge = 1.5;                      // free at the page's edge [pt]
+constexpr double kSideBySideFrom = 125;                    // [mm]: from here on two panels stand side by side
+constexpr double kNarrowestPage = 20, kWidestPage = 2000;  // [mm]
+constexpr double kPageEdge = 1.5;                          // free at the page's edge [pt]
 
 struct Grid {
     std::size_t rows = 1, columns = 1;
@@ -24,14 +24,14 @@ struct Grid {
 
 Grid grid_of(const Figure& figure, double width) {
     const std::size_t n = std::max<std::size_t>(1, figure.panels.size());
-    if (figure.stack || width < kWide || n == 1) return {n, 1};
+    if (figure.stack || width < kSideBySideFrom || n == 1) return {n, 1};
     const std::size_t columns = n == 4 ? 2 : std::min<std::size_t>(n, 3);
     return {(n + columns - 1) / columns, columns};
 }
 
-class Layout {
+class FigureLayout {
   public:
-    Layout(const Figure& figure, const Page& page, Sheet& sheet)
+    FigureLayout(const Figure& figure, const Page& page, PageCanvas& sheet)
         : figure_(figure), page_(page), sheet_(sheet), grid_(grid_of(figure, page.width)) {}
 
     void draw() {
@@ -78,7 +78,7 @@ class Layout {
     }
 
     Box cell(std::size_t i) const {
-        const Box page = Box{0, 0, points(page_.width), points(page_.height)}.inset(kEdge);
+        const Box page = Box{0, 0, points(page_.width), points(page_.height)}.inset(kPageEdge);
         const double between = 2.2 * page_.style.gap;
         const auto columns = static_cast<double>(grid_.columns);
         const double w = (page.w - between * 2 * (columns - 1)) / columns;
@@ -141,7 +141,7 @@ class Layout {
 
     const Figure& figure_;
     const Page& page_;
-    Sheet& sheet_;
+    PageCanvas& sheet_;
     Grid grid_;
     std::vector<Margins> margins_;
     double left_ = 0, right_ = 0;
@@ -226,9 +226,9 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
     Page page;
     page.style = style_of(column);
     page.width = width.value_or(column.width);
-    if (!(page.width >= kNarrowest && page.width <= kWidest))
+    if (!(page.width >= kNarrowestPage && page.width <= kWidestPage))
         throw PictureError(fmt::format("a figure {:g} mm wide cannot be drawn; its width is {:g} … {:g} mm", page.width,
-                                       kNarrowest, kWidest));
+                                       kNarrowestPage, kWidestPage));
     const Grid grid = grid_of(figure, page.width);
     // Wide figures are flatter; panels side by side each have a part of the width.
     const double wide = page.width / static_cast<double>(grid.columns);
@@ -243,7 +243,7 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
     return page;
 }
 
-void draw(const Figure& figure, const Page& page, Sheet& sheet) { Layout(figure, page, sheet).draw(); }
+void draw(const Figure& figure, const Page& page, PageCanvas& sheet) { FigureLayout(figure, page, sheet).draw(); }
 
 std::string data_csv(const Figure& figure) {
     std::string out = "panel,series,x_quantity,x,y_quantity,y,value\n";

@@ -10,15 +10,9 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr int kFewMarkers = 8;         // along a line
-constexpr double kGrainsPerPixel = 4;  // grains: a pixel, in which swings are not told apart
-constexpr double kTonesOfASwing = 24;  // of a curve that is coloured by a value
-
-std::vector<double> dashes(const std::vector<double>& widths, double width) {
-    std::vector<double> out;
-    for (const double d : widths) out.push_back(d * width);
-    return out;
-}
+constexpr int kFewMarkers = 8;                // along a line
+constexpr double kGrainsPerPixel = 4;         // grains: a pixel, in which oscillations cannot be told apart
+constexpr double kTonesOfAnOscillation = 24;  // of a curve that is coloured by a value
 
 // Which markers later ones leave to be seen: of those within `apart` only the last.
 std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
@@ -43,14 +37,14 @@ std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vect
 
 Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
 
-Pen curve_pen(const Series& s, const Style& style) {
+Pen curve_pen(const Series& s, const PrintStyle& style) {
     const double width = style.line * s.weight * (s.faded ? 0.7 : 1);
     Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(look(s.look).dash, width), Cap::butt};
     if (s.faded) pen.color = pale(pen.color);
     return pen;
 }
 
-void draw_marker(Sheet& sheet, const Style& style, Marker shape, Vec2 p, double r, Color color, bool hollow) {
+void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 p, double r, Color color, bool hollow) {
     const auto polygon = [&](std::initializer_list<Vec2> corners) {
         bool first = true;
         for (const Vec2 c : corners) {
@@ -105,13 +99,13 @@ DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : se
 // A million points draw and weigh as little as a few thousand.
 void DrawnCurve::lighten(double grain) {
     const Vec2 broken{std::nan(""), std::nan("")};
-    const std::vector<Swing> fast = swings(points_, kGrainsPerPixel * grain);
+    const std::vector<Envelope> fast = envelopes(points_, kGrainsPerPixel * grain);
     const std::size_t count = points_.size();
     if (!value_.empty()) {
         if (!fast.empty()) thin_out_tones(without(fast, count, true));
         return;
     }
-    for (const Swing& swing : fast) bands_.push_back(outline(swing, points_));
+    for (const Envelope& envelope : fast) bands_.push_back(outline(envelope, points_));
     line_ = reduce(taken(without(fast, count, false), points_, broken), grain);
     points_ = fast.empty() ? line_ : reduce(taken(without(fast, count, true), points_, broken), grain);
 }
@@ -123,7 +117,7 @@ void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double rise = i > 0 ? value[i] - value[i - 1] : 0;
         const int tones =
-            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfASwing))) : 1;
+            std::isfinite(rise) ? std::max(1, static_cast<int>(std::ceil(std::abs(rise) * kTonesOfAnOscillation))) : 1;
         for (int k = 1; k < tones; ++k) {
             const double share = double(k) / tones;
             points_.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
@@ -134,20 +128,20 @@ void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     }
 }
 
-void DrawnCurve::draw(const Box& plot, const Style& style, Sheet& sheet) const {
+void DrawnCurve::draw(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
     if (!value_.empty()) return draw_tones(plot, style, sheet);
     if (series_->line) draw_line(style, sheet);
     draw_markers(plot, style, sheet);
 }
 
-void DrawnCurve::draw_tones(const Box& plot, const Style& style, Sheet& sheet) const {
+void DrawnCurve::draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
     // Strokes of one colour each, in 48 steps that the eye does not tell apart.
-    constexpr int kSteps = 48;
+    constexpr int kColorSteps = 48;
     const auto step = [&](std::size_t i) {
         const double v = value_[i];
-        return std::isfinite(v) ? static_cast<int>(std::lround(std::clamp(v, 0.0, 1.0) * kSteps)) : -1;
+        return std::isfinite(v) ? static_cast<int>(std::lround(std::clamp(v, 0.0, 1.0) * kColorSteps)) : -1;
     };
     pen.dash.clear();
     const double apart = 2 * sheet.grain();
@@ -161,7 +155,7 @@ void DrawnCurve::draw_tones(const Box& plot, const Style& style, Sheet& sheet) c
             if (ends) break;
         }
         if (tone >= 0) {
-            pen.color = map_color(static_cast<double>(tone) / kSteps);
+            pen.color = map_color(static_cast<double>(tone) / kColorSteps);
             pen.cap = Cap::round;
             sheet.polyline(piece);
             sheet.stroke(pen);
@@ -174,7 +168,7 @@ void DrawnCurve::draw_tones(const Box& plot, const Style& style, Sheet& sheet) c
             draw_marker(sheet, style, look(s.look).marker, points_[i], 0.8 * style.marker, map_color(value_[i]), false);
 }
 
-void DrawnCurve::draw_line(const Style& style, Sheet& sheet) const {
+void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
     sheet.curve(s.every_point ? points_ : line_, pen);
@@ -194,7 +188,7 @@ void DrawnCurve::draw_line(const Style& style, Sheet& sheet) const {
         draw_marker(sheet, style, look(s.look).marker, only, style.marker, pen.color, false);
 }
 
-void DrawnCurve::draw_markers(const Box& plot, const Style& style, Sheet& sheet) const {
+void DrawnCurve::draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     const Pen pen = curve_pen(s, style);
     if (s.every_point)

@@ -1,4 +1,4 @@
-// A series on the sheet, reduced to what shows: a line, bands where it swings fast, tones of its values, markers.
+// A series on the sheet, reduced to what shows: a line, bands where it oscillates fast, tones of its values, markers.
 #pragma once
 
 #include <vector>
@@ -13,25 +13,26 @@ class DrawnCurve {
 
     const Series& series() const { return *series_; }
     const std::vector<Vec2>& points() const { return points_; }  // on the sheet
-    void draw(const Box& plot, const Style& style, Sheet& sheet) const;
+    void draw(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
   private:
     void lighten(double grain);
     void thin_out_tones(const std::vector<std::size_t>& kept);
-    void draw_tones(const Box& plot, const Style& style, Sheet& sheet) const;
-    void draw_line(const Style& style, Sheet& sheet) const;
-    void draw_markers(const Box& plot, const Style& style, Sheet& sheet) const;
+    void draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_line(const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
     const Series* series_;
     std::vector<Vec2> points_;
-    std::vector<std::vector<Vec2>> bands_;  // outlines of where it swings too fast to be told apart; not in `line_`
+    std::vector<std::vector<Vec2>> bands_;  // outlines of where it oscillates too fast to be told apart; not in `line_`
     std::vector<Vec2> line_;                // what is drawn as a line, for curves without values
     std::vector<double> value_;             // colour shares, for curves with values
 };
 
-Pen curve_pen(const Series& series, const Style& style);
+Pen curve_pen(const Series& series, const PrintStyle& style);
 Color color_of(const Series& series);
-void draw_marker(Sheet& sheet, const Style& style, Marker shape, Vec2 at, double radius, Color color, bool hollow);
+void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 at, double radius, Color color,
+                 bool hollow);
 inline bool inside(const Box& b, Vec2 p, double slack = 0) { return b.contains({p.x, p.y, 0, 0}, slack); }
 
 }  // namespace beamcam::render::figure

@@ -1,5 +1,5 @@
 // A figure as a value: panels of curves, bands, marks and shapes in the data's own numbers, with labels as markup
-// (text.hpp). Nothing here draws or computes; `draw` puts it on a Sheet.
+// (render/draw/markup.hpp). Nothing here draws or computes; `draw` puts it on a PageCanvas.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@
 #include "render/draw/color.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/plot/axis.hpp"
-#include "render/plot/sheet.hpp"
+#include "render/plot/page_canvas.hpp"
 #include "render/plot/style.hpp"
 
 namespace beamcam::render::figure {
@@ -148,13 +148,13 @@ struct Figure {
 
 struct Page {
     double width = 90, height = 60;  // [mm]
-    Style style;
+    PrintStyle style;
 };
 // The page for a figure in a column, or of another width [mm].
 Page page_of(const Figure& figure, const Column& column, std::optional<double> width = {});
 
 // Throws PictureError when a panel has nothing to show, FontError for missing glyphs.
-void draw(const Figure& figure, const Page& page, Sheet& sheet);
+void draw(const Figure& figure, const Page& page, PageCanvas& sheet);
 
 // The plotted numbers: panel, series, names and values, a line a point; 17 significant digits; empty where undefined.
 std::string data_csv(const Figure& figure);

@@ -66,7 +66,7 @@ std::string turning_speed(double speed, bool rpm, int digits) {
     return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
 }
 
-std::string power_of_ten(int exponent) {
+std::string pango_power_of_ten(int exponent) {
     return fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
 }
 
@@ -75,7 +75,7 @@ std::string power_text(double value, int digits) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
     const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
-    return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
+    return mantissa == "1" ? pango_power_of_ten(exponent) : mantissa + "·" + pango_power_of_ten(exponent);
 }
 
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm) {

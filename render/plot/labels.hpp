@@ -34,7 +34,7 @@ TimeFormat time_format(const std::vector<double>& frame_times);
 // Room is left for as many digits as the last instant has, so that nothing moves when there is one more.
 std::string clock_text(const TimeFormat& format, double t, double last);
 
-std::string power_of_ten(int exponent);  // with a superscript
+std::string pango_power_of_ten(int exponent);  // with a superscript
 // 1e8 → "10⁸", 2.5e7 → "2.5·10⁷", 1200 → "1200"; exponents as superscripts.
 std::string power_text(double value, int digits = 3);
 

@@ -5,7 +5,7 @@
 
 namespace beamcam::render::figure {
 namespace {
-constexpr double kSample = 2.6;  // length of a line in a legend, in letters
+constexpr double kSampleLength = 2.6;  // length of a line in a legend, in letters
 }  // namespace
 
 int LegendBox::entries() const {
@@ -16,13 +16,13 @@ int LegendBox::entries() const {
 }
 
 Box LegendBox::size(double width) {
-    const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
+    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
     double widest = 0;
     int rows = 0;
     const auto add = [&](const std::string& label) {
         if (label.empty()) return;
         ++rows;
-        widest = std::max(widest, sheet_.measure(label, words()).w);
+        widest = std::max(widest, sheet_.measure(label, style_.words()).w);
     };
     for (const Series& s : panel_.series) add(s.label);
     for (const Band& b : panel_.bands) add(b.label);
@@ -40,7 +40,7 @@ bool LegendBox::place_inside(OccupancyGrid& taken) {
     const Box& plot = taken.area();
     const Box box = size(plot.w);
     const Place place = best_place(taken, box.w, box.h, 1.6 * style_.gap);
-    if (panel_.legend != Legend::above && place.cost <= kCovers && box.w < plot.w && box.h < plot.h) {
+    if (panel_.legend != Legend::above && place.cost <= kFewCells && box.w < plot.w && box.h < plot.h) {
         box_ = place.box;
         taken.cover(place.box);
         return true;
@@ -58,9 +58,7 @@ bool LegendBox::place_above(double width) {
 void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
     const Pen pen = curve_pen(s, style_);
     if (s.line && s.value.empty()) {
-        sheet_.move_to(left);
-        sheet_.line_to(left + Vec2{width, 0});
-        sheet_.stroke(pen);
+        sheet_.line(left, left + Vec2{width, 0}, pen);
     }
     if (s.every_point || s.some_markers)
         draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,
@@ -69,8 +67,8 @@ void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
 
 void LegendBox::draw() const {
     if (!box_) return;
-    const double row = 1.35 * style_.letters, sample = kSample * style_.letters;
-    Lettering l = words();
+    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
+    TextStyle l = style_.words();
     l.valign = VAlign::middle;
     int k = 0;
     const auto next = [&] {

@@ -8,11 +8,12 @@
 
 namespace beamcam::render::figure {
 
-inline constexpr double kCovers = 1.5;  // cells that a label may touch before it counts as covering data
+inline constexpr double kFewCells = 1.5;  // cells that a label may touch before it counts as covering data
 
 class LegendBox {
   public:
-    LegendBox(const Panel& panel, const Style& style, Sheet& sheet) : panel_(panel), style_(style), sheet_(sheet) {}
+    LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet)
+        : panel_(panel), style_(style), sheet_(sheet) {}
 
     int entries() const;
     bool place_inside(OccupancyGrid& taken);  // false: there is no room; it goes above from now on
@@ -25,13 +26,12 @@ class LegendBox {
     void draw() const;
 
   private:
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
     Box size(double width);
     void draw_sample(const Series& s, Vec2 left, double width) const;
 
     const Panel& panel_;
-    const Style& style_;
-    Sheet& sheet_;
+    const PrintStyle& style_;
+    PageCanvas& sheet_;
     bool above_ = false;
     double height_ = 0, entry_ = 0;  // above the plot; width of an entry
     int columns_ = 1;

@@ -12,40 +12,13 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kCell = 1.5;     // of the grid of what is covered: resolves letters [pt]
-constexpr double kOutside = 1e5;  // cost of a box that leaves the plot
-constexpr double kGrazes = 8;     // cells of data that the empty edge of an inset may touch
-constexpr int kMostDirect = 4;    // more labels than that are told apart better in a box
-
-// Does the segment a–b enter the box?
-bool enters(const Box& box, Vec2 a, Vec2 b) {
-    const Box inner = box.inset(0.5);
-    for (int k = 0; k <= 200; ++k)
-        if (inside(inner, a + (b - a) * (k / 200.0))) return true;
-    return false;
-}
-
-// Two corners of the inset's plot joined to those of what it shows, through neither box.
-std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) {
-    const auto corners = [](const Box& c) {
-        return std::array<Vec2, 4>{Vec2{c.x, c.y}, {c.right(), c.y}, {c.right(), c.bottom()}, {c.x, c.bottom()}};
-    };
-    const auto c0 = corners(from), c1 = corners(plot);
-    std::vector<std::pair<Vec2, Vec2>> lines;
-    for (std::size_t k = 0; k < 4; ++k)
-        if (!enters(from, c0[k], c1[k]) && !enters(plot, c0[k], c1[k])) lines.emplace_back(c0[k], c1[k]);
-    if (lines.size() < 2) return lines;
-    // The outermost two, seen along the way from one box to the other.
-    const Vec2 way = plot.centre() - from.centre(), across{-way.y, way.x};
-    const auto [least, most] = std::minmax_element(lines.begin(), lines.end(), [&](const auto& a, const auto& b) {
-        return dot(a.second, across) < dot(b.second, across);
-    });
-    return {*least, *most};
-}
+constexpr double kCellSide = 1.5;     // of the grid of what is covered: resolves letters [pt]
+constexpr double kBeyondPlot = 1e5;   // cost of a box that leaves the plot
+constexpr int kMostDirectLabels = 4;  // more labels than that are told apart better in a box
 
 }  // namespace
 
-PanelDrawing::PanelDrawing(const Panel& panel, const Style& style, Sheet& sheet, double width, double height,
+PanelDrawing::PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
                            bool lowest, const std::string& what)
     : panel_(panel),
       style_(style),
@@ -91,7 +64,7 @@ bool PanelDrawing::place(const Box& plot) {
 
 void PanelDrawing::make_curves() {
     curves_.clear();
-    taken_.emplace(plot_, kCell);
+    taken_.emplace(plot_, kCellSide);
     for (const Series& s : panel_.series) {
         const DrawnCurve& curve = curves_.emplace_back(s, axes_, sheet_.grain());
         if (s.line) taken_->cover(curve.points(), s.faded ? 0.7 : 1);
@@ -109,11 +82,13 @@ void PanelDrawing::make_curves() {
             taken_->cover(points, 0.5);
         }
     for (const Rule& r : panel_.rules) {
-        const Vec2 line[2] = {
-            r.vertical ? Vec2{axes_.along_x(r.at), plot_.y} : Vec2{plot_.x, axes_.along_y(r.at)},
-            r.vertical ? Vec2{axes_.along_x(r.at), plot_.bottom()} : Vec2{plot_.right(), axes_.along_y(r.at)}};
-        taken_->cover(line, 0.4);
+        taken_->cover(ends(r), 0.4);
     }
+}
+
+std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {
+    if (r.vertical) return {Vec2{axes_.along_x(r.at), plot_.y}, {axes_.along_x(r.at), plot_.bottom()}};
+    return {Vec2{plot_.x, axes_.along_y(r.at)}, {plot_.right(), axes_.along_y(r.at)}};
 }
 
 // What boxes cover when they are placed in this order; a legend that finds no room is dear.
@@ -134,47 +109,14 @@ double PanelDrawing::place_boxes(bool legend_first) {
     return cost;
 }
 
-// Its frame; never so small that it is a dot.
-Box PanelDrawing::shown_enlarged(const Inset::Source& source) const {
-    const Vec2 a = at(source.x_from, source.y_from), b = at(source.x_to, source.y_to);
-    const Box box{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)};
-    return box.inset(-std::max({0.0, 4 - box.w, 4 - box.h}) / 2);
-}
-
-double PanelDrawing::place_insets() {
-    double cost = 0;
-    for (const Inset& inset : panel_.insets) {
-        if (inset.source) taken_->cover(shown_enlarged(*inset.source));
-        // Smaller, then not at all, rather than over data.
-        std::optional<PlacedInset> placed;
-        for (const double share : {1.0, 0.9, 0.8, 0.7}) {
-            // With its numbers and labels.
-            const double w = share * inset.width * plot_.w, h = share * inset.height * plot_.h;
-            const Margins m =
-                PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
-            const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
-            if (data_->cost(place.box) > kGrazes) continue;
-            placed = {place.box, w, h};
-            cost += place.cost;
-            taken_->cover(place.box);
-            if (!inset.source) break;
-            for (const auto& [from, to] : connectors(shown_enlarged(*inset.source), without(place.box, m)))
-                taken_->cover(std::vector<Vec2>{from, to});
-            break;
-        }
-        insets_.push_back(placed);
-    }
-    return cost;
-}
-
 // Around the mark, near first.
 PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     const Vec2 p = at(m.x, m.y, m.right);
-    Lettering l = numbers();
+    TextStyle l = style_.tick_numbers();
     l.color = look(m.look).color;
     const Box size = sheet_.measure(m.label, l);
     Writing best;
-    double least = 10 * kOutside;
+    double least = 10 * kBeyondPlot;
     for (const double far : {1.0, 2.0, 3.5, 5.5, 8.0})
         for (int k = 0; k < 16; ++k) {
             const double turn = (k + 0.5) * std::numbers::pi / 8;
@@ -205,7 +147,7 @@ void PanelDrawing::place_marks() {
     }
     for (const Mark& m : panel_.marks) {
         if (m.label.empty()) continue;
-        const Box size = sheet_.measure(m.label, numbers());
+        const Box size = sheet_.measure(m.label, style_.tick_numbers());
         Writing best = best_at_mark(m);
         if (best.markup.empty()) continue;  // a plot too small for it
         taken_->cover(Box{best.at.x, best.at.y + size.y, size.w, size.h});
@@ -216,7 +158,7 @@ void PanelDrawing::place_marks() {
 
 // Small words on the rules that have them, where least is covered; the right end wins ties.
 void PanelDrawing::place_rules() {
-    Lettering l = numbers();
+    TextStyle l = style_.tick_numbers();
     l.color = kMuted;
     for (const Rule& r : panel_.rules) {
         const double along = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
@@ -246,7 +188,8 @@ bool PanelDrawing::place_labels() {
         legend_.stand_at({plot_.x, plot_.y - margins().top + axes_.titles_height()});
         return settled;
     }
-    if (panel_.legend == Legend::direct && legend_.entries() <= kMostDirect && panel_.bands.empty() && place_direct())
+    if (panel_.legend == Legend::direct && legend_.entries() <= kMostDirectLabels && panel_.bands.empty() &&
+        place_direct())
         return true;
     return legend_.place_inside(*taken_);
 }
@@ -270,7 +213,7 @@ double PanelDrawing::crowding(const Box& box, const DrawnCurve& own) const {
 }
 
 double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
-    Lettering l = words();
+    TextStyle l = style_.words();
     l.color = color_of(curve.series());
     const Box size = sheet_.measure(curve.series().label, l);
     double least = std::numeric_limits<double>::infinity();
@@ -284,7 +227,7 @@ double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
                 const Vec2 middle{p.x + side * (size.w / 2 + style_.gap), p.y - up * (size.h / 2 + 1.0 * style_.gap)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
                 const double cover = taken_->cost(box.inset(-1));
-                if (cover >= kOutside) continue;
+                if (cover >= kBeyondPlot) continue;
                 const double cost = 10 * cover + 3 * std::max(0.0, crowding(box, curve)) +
                                     0.02 * (plot_.right() - middle.x) + std::abs(side);
                 if (cost >= least) continue;
@@ -301,7 +244,7 @@ bool PanelDrawing::place_direct() {
     for (const DrawnCurve& curve : curves_) {
         if (curve.series().label.empty()) continue;
         Writing label;
-        if (best_direct(curve, label) > 10 * kCovers + 12) {
+        if (best_direct(curve, label) > 10 * kFewCells + 12) {
             taken_ = before;
             writings_.resize(written);
             return false;
@@ -316,11 +259,11 @@ bool PanelDrawing::place_direct() {
 // ---- drawing -----------------------------------------------------------------------------------------
 
 void PanelDrawing::draw() {
-    draw_grounds();
-    sheet_.clip(plot_);
-    for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
-    for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
-    sheet_.unclip();
+    sheet_.clip(plot_, [&] { draw_grounds(); });
+    sheet_.clip(plot_, [&] {
+        for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
+        for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
+    });
     axes_.draw_frame();
     for (const Mark& m : panel_.marks) {
         const Vec2 p = at(m.x, m.y, m.right);
@@ -330,9 +273,7 @@ void PanelDrawing::draw() {
     draw_insets();
     for (const Writing& w : writings_) {
         if (w.leader) {
-            sheet_.move_to(w.leader->first);
-            sheet_.line_to(w.leader->second);
-            sheet_.stroke({kMuted, 0.6 * style_.frame, {}, Cap::butt});
+            sheet_.line(w.leader->first, w.leader->second, {kMuted, 0.6 * style_.frame, {}, Cap::butt});
         }
         sheet_.text(w.at, w.markup, w.lettering);
     }
@@ -342,7 +283,6 @@ void PanelDrawing::draw() {
 }
 
 void PanelDrawing::draw_grounds() {
-    sheet_.clip(plot_);
     for (const Cells& cells : panel_.cells) draw_cells(cells, axes_, sheet_);
     for (const Span& s : panel_.spans) {
         const double a = at(s.from, 0).x, b = at(s.to, 0).x;
@@ -361,44 +301,9 @@ void PanelDrawing::draw_grounds() {
         sheet_.close();
         sheet_.fill(pale(look(b.look).color, 0.72));
     }
-    for (const Rule& r : panel_.rules) {
-        const double place = r.vertical ? axes_.along_x(r.at) : axes_.along_y(r.at);
-        sheet_.move_to(r.vertical ? Vec2{place, plot_.y} : Vec2{plot_.x, place});
-        sheet_.line_to(r.vertical ? Vec2{place, plot_.bottom()} : Vec2{plot_.right(), place});
-        sheet_.stroke({rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
-    }
-    sheet_.unclip();
-}
-
-void PanelDrawing::draw_insets() {
-    for (std::size_t i = 0; i < panel_.insets.size(); ++i) {
-        if (!insets_[i]) continue;
-        const Inset& inset = panel_.insets[i];
-        const auto& [outer, width, height] = *insets_[i];
-        sheet_.rectangle(outer);
-        sheet_.fill(kWhite);
-        PanelDrawing inner(inset.panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
-        if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
-        if (inset.source) {
-            const Box from = shown_enlarged(*inset.source);
-            const Pen thin{kMuted, 0.75 * style_.frame, {}, Cap::butt};
-            sheet_.rectangle(from);
-            sheet_.stroke(thin);
-            for (const auto& [start, end] : connectors(from, inner.plot_)) {
-                sheet_.move_to(start);
-                sheet_.line_to(end);
-                sheet_.stroke(thin);
-            }
-        }
-        // Its numbers and labels, left and below, interrupt the connectors.
-        const Box& plot = inner.plot_;
-        for (const Box& beside : {Box{outer.x, outer.y, plot.x - outer.x, outer.h},
-                                  Box{outer.x, plot.bottom(), outer.w, outer.bottom() - plot.bottom()}}) {
-            sheet_.rectangle(beside);
-            sheet_.fill(kWhite);
-        }
-        inner.draw();
-    }
+    for (const Rule& r : panel_.rules)
+        sheet_.line(ends(r)[0], ends(r)[1],
+                    {rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
 }
 
 }  // namespace beamcam::render::figure

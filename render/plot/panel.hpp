@@ -1,6 +1,7 @@
 // One panel on a sheet: axes, curves and legend in a box, and labels that keep clear of them.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace beamcam::render::figure {
 class PanelDrawing {
   public:
     // Works the axes out for a plot of about this size; `lowest`: x numbers and label are written here.
-    PanelDrawing(const Panel& panel, const Style& style, Sheet& sheet, double width, double height, bool lowest,
-                 const std::string& what);
+    PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
+                 bool lowest, const std::string& what);
 
     // Room that numbers, labels, colour bar and a legend above need around the plot.
     Margins margins() const;
@@ -25,14 +26,13 @@ class PanelDrawing {
     struct Writing {
         Vec2 at;
         std::string markup;
-        Lettering lettering;
+        TextStyle lettering;
         std::optional<std::pair<Vec2, Vec2>> leader;
     };
 
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
-    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
     Vec2 at(double x, double y, bool right = false) const { return axes_.at(x, y, right); }
     void make_curves();
+    std::array<Vec2, 2> ends(const Rule& rule) const;
     double place_boxes(bool legend_first);
     Box shown_enlarged(const Inset::Source& source) const;
     double place_insets();
@@ -48,8 +48,8 @@ class PanelDrawing {
     void draw_insets();
 
     const Panel& panel_;
-    const Style& style_;
-    Sheet& sheet_;
+    const PrintStyle& style_;
+    PageCanvas& sheet_;
     std::string what_;
     PlotAxes axes_;
     LegendBox legend_;
@@ -67,6 +67,6 @@ class PanelDrawing {
 };
 
 // A panel of shapes, without axes, within the box.
-void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box& box);
+void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, const Box& box);
 
 }  // namespace beamcam::render::figure

@@ -54,7 +54,7 @@ void OccupancyGrid::cover(std::span<const Vec2> curve, double weight) {
 void OccupancyGrid::cover_convex(std::span<const Vec2> corners) {
     Bounds all;
     for (Vec2 p : corners) all.add(p);
-    const Cells c = touched({all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0});
+    const Cells c = touched(all.box());
     for (int row = c.top; row < c.bottom; ++row) {
         const double top = top_of(row), bottom = top + cell_;
         Bounds part;  // of the edges within the row

@@ -10,7 +10,8 @@ namespace {
 constexpr double kLineStep = 1.25;  // between lines, in letters
 
 // In lines that the room holds, broken at spaces outside of formulas.
-std::vector<std::string> lines_of(const std::string& markup, double room, const Lettering& lettering, Sheet& sheet) {
+std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering,
+                                  PageCanvas& sheet) {
     std::vector<std::string> lines;
     std::string word;
     int depth = 0;
@@ -91,7 +92,7 @@ void PlotAxes::fit(double width, double height) {
     if (panel_.right) right_.emplace(*panel_.right, er, up, what_ + ", right axis");
     bar_.reset();
     if (panel_.color_bar)
-        bar_.emplace(Axis{.label = {},
+        bar_.emplace(Axis{.label = panel_.color_bar->label,
                           .scale = panel_.color_bar->scale,
                           .from = panel_.color_bar->from,
                           .to = panel_.color_bar->to,
@@ -105,7 +106,7 @@ void PlotAxes::fit(double width, double height) {
 double PlotAxes::widest(const std::optional<AxisMap>& axis) const {
     double w = 0;
     for (const Tick& t : axis ? axis->ticks() : std::vector<Tick>())
-        if (!t.label.empty()) w = std::max(w, sheet_.measure(t.label, numbers()).w);
+        if (!t.label.empty()) w = std::max(w, sheet_.measure(t.label, style_.tick_numbers()).w);
     return w;
 }
 
@@ -116,7 +117,7 @@ double PlotAxes::drop() const {
     const auto corner = [&](const std::optional<AxisMap>& vertical, bool left) {
         for (const Tick& below : x_->ticks()) {
             const double out_of_plot =
-                0.5 * sheet_.measure(below.label, numbers()).w - width_ * (left ? below.at : 1 - below.at);
+                0.5 * sheet_.measure(below.label, style_.tick_numbers()).w - width_ * (left ? below.at : 1 - below.at);
             if (below.label.empty() || out_of_plot < 0.6 * style_.gap) continue;
             for (const Tick& beside : vertical->ticks())
                 if (!beside.label.empty())
@@ -138,60 +139,48 @@ Margins PlotAxes::margins() const {
     const double number = sheet_.cap_height(style_.numbers), letter = style_.letters;
     Margins m;
     m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap) +
-             label_height(panel_.y);
+             label_height(*y_);
     m.bottom = number / 2;
     if (lowest_) {
         m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop() : style_.gap;
-        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(panel_.x);
+        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + label_height(*x_);
     }
     m.top = number / 2 + 0.5;
     m.top = std::max(m.top, titles_height());
     if (!y_->common().empty() || (right_ && !right_->common().empty())) m.top += style_.numbers + style_.gap;
     m.right = 1.3 * style_.numbers;  // the last x number overhangs
-    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + label_height(*panel_.right);
+    if (right_) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + label_height(*right_);
     if (bar_ && !panel_.color_bar->hidden)
         m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
 }
 
-// Ticks point inwards; l, r, b, t: the side.
-void PlotAxes::draw_ticks(const AxisMap& axis, char side, bool labelled) const {
-    const Pen pen{kInk, style_.frame, {}, Cap::butt};
-    const double below = side == 'b' ? drop() : 0;
+// They point inwards; l, r, b, t: the side.
+void PlotAxes::draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major,
+                          double minor) const {
+    const bool across = side == 'b' || side == 't', first = side == 'l' || side == 't';
+    TextStyle l = style_.tick_numbers();
+    l.align = across ? HAlign::centre : first ? HAlign::right : HAlign::left;
+    l.valign = across ? VAlign::top : VAlign::middle;
+    const Vec2 beside = across ? Vec2{0, style_.gap + drop()} : Vec2{first ? -style_.gap : style_.gap, 0};
     for (const Tick& t : axis.ticks()) {
-        const double length = t.major ? style_.tick : style_.minor_tick;
-        const bool across = side == 'b' || side == 't';
-        const double x = across ? plot_.x + t.at * plot_.w : side == 'l' ? plot_.x : plot_.right();
-        const double y = across ? (side == 'b' ? plot_.bottom() : plot_.y) : plot_.bottom() - t.at * plot_.h;
-        const Vec2 in = side == 'l'   ? Vec2{length, 0}
-                        : side == 'r' ? Vec2{-length, 0}
-                        : side == 'b' ? Vec2{0, -length}
-                                      : Vec2{0, length};
-        sheet_.move_to({x, y});
-        sheet_.line_to(Vec2{x, y} + in);
-        sheet_.stroke(pen);
+        const Vec2 at = across ? Vec2{plot.x + t.at * plot.w, first ? plot.y : plot.bottom()}
+                               : Vec2{first ? plot.x : plot.right(), plot.bottom() - t.at * plot.h};
+        const double in = (first ? 1 : -1) * (t.major ? major : minor);
+        sheet_.line(at, at + (across ? Vec2{0, in} : Vec2{in, 0}), {kInk, style_.frame, {}, Cap::butt});
         if (!labelled || t.label.empty()) continue;
-        Lettering l = numbers();
-        if (across) {
-            l.align = HAlign::centre;
-            l.valign = VAlign::top;
-            sheet_.text({x, y + style_.gap + below}, t.label, l);
-        } else {
-            l.align = side == 'l' ? HAlign::right : HAlign::left;
-            l.valign = VAlign::middle;
-            sheet_.text({x + (side == 'l' ? -style_.gap : style_.gap), y}, t.label, l);
-        }
+        sheet_.text(at + beside, t.label, l);
     }
 }
 
 void PlotAxes::draw_frame() const {
-    draw_ticks(*x_, 'b', lowest_);
-    draw_ticks(*x_, 't', false);
-    draw_ticks(*y_, 'l', true);
-    if (!right_)
-        draw_ticks(*y_, 'r', false);
-    else
-        draw_ticks(*right_, 'r', true);
+    const auto ticks = [&](const AxisMap& axis, char side, bool labelled) {
+        draw_ticks(axis, plot_, side, labelled, style_.tick, style_.minor_tick);
+    };
+    ticks(*x_, 'b', lowest_);
+    ticks(*x_, 't', false);
+    ticks(*y_, 'l', true);
+    ticks(right_ ? *right_ : *y_, 'r', right_.has_value());
     sheet_.rectangle(plot_);
     sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
 }
@@ -199,37 +188,37 @@ void PlotAxes::draw_frame() const {
 void PlotAxes::draw_labels() const {
     const double step = kLineStep * style_.letters;
     const double number = sheet_.cap_height(style_.numbers) + drop();
-    Lettering l = words();
+    TextStyle l = style_.words();
     l.align = HAlign::centre;
     if (lowest_ && !panel_.x.label.empty()) {
         l.valign = VAlign::top;
         double y = plot_.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
         // Clear of the power of ten at the right end.
-        const double common = x_->common().empty() ? 0 : sheet_.measure(x_->common(), numbers()).w + 2 * style_.gap;
-        for (const std::string& line : label_lines(panel_.x)) {
+        const double common =
+            x_->common().empty() ? 0 : sheet_.measure(x_->common(), style_.tick_numbers()).w + 2 * style_.gap;
+        for (const std::string& line : label_lines(*x_)) {
             const double half = 0.5 * sheet_.measure(line, l).w;
             const double x = common > 0 ? std::min(plot_.centre().x, plot_.right() - common - half) : plot_.centre().x;
             sheet_.text({x, y}, line, l), y += step;
         }
     }
     if (lowest_ && !x_->common().empty()) {
-        Lettering common = numbers();
+        TextStyle common = style_.tick_numbers();
         common.align = HAlign::right;
         common.valign = VAlign::top;
         sheet_.text({plot_.right(), plot_.bottom() + number + 2.4 * style_.gap}, x_->common(), common);
     }
     l.turned = std::numbers::pi / 2;
     l.valign = VAlign::baseline;
-    double x = plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap - label_height(panel_.y);
-    for (const std::string& line : label_lines(panel_.y)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
+    double x = plot_.x - style_.gap - widest_y_ - 1.6 * style_.gap - label_height(*y_);
+    for (const std::string& line : label_lines(*y_)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
     if (right_) {
         l.valign = VAlign::top;
         x = plot_.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
-        for (const std::string& line : label_lines(*panel_.right))
-            sheet_.text({x, plot_.centre().y}, line, l), x += step;
+        for (const std::string& line : label_lines(*right_)) sheet_.text({x, plot_.centre().y}, line, l), x += step;
     }
     double y = plot_.y - style_.gap;
-    Lettering common = numbers();
+    TextStyle common = style_.tick_numbers();
     if (!y_->common().empty()) sheet_.text({plot_.x, y}, y_->common(), common);
     if (right_ && !right_->common().empty()) {
         common.align = HAlign::right;
@@ -239,12 +228,12 @@ void PlotAxes::draw_labels() const {
 
 std::vector<std::string> PlotAxes::title_lines() const {
     const double indent = panel_.letter.empty() ? 0 : 2 * style_.letters;
-    return lines_of(panel_.title, width_ - indent, words(), sheet_);
+    return lines_of(panel_.title, width_ - indent, style_.words(), sheet_);
 }
-std::vector<std::string> PlotAxes::label_lines(const Axis& axis) const {
-    return lines_of(axis.label, &axis == &panel_.x ? 1.1 * width_ : 1.05 * height_, words(), sheet_);
+std::vector<std::string> PlotAxes::label_lines(const AxisMap& axis) const {
+    return lines_of(axis.label(), &axis == &*x_ ? 1.1 * width_ : 1.05 * height_, style_.words(), sheet_);
 }
-double PlotAxes::label_height(const Axis& axis) const {
+double PlotAxes::label_height(const AxisMap& axis) const {
     const std::size_t lines = label_lines(axis).size();
     return lines > 1 ? static_cast<double>(lines - 1) * kLineStep * style_.letters : 0;
 }
@@ -262,11 +251,11 @@ void PlotAxes::draw_titles(double top, bool legend_above) const {
     const bool alone = y_->common().empty() && !legend_above;
     double y = top, x = plot_.x;
     if (alone) y = plot_.y - style_.gap - step * std::max(0.0, static_cast<double>(lines.size()) - 1);
-    Lettering title = words();
+    TextStyle title = style_.words();
     if (!panel_.letter.empty()) {
-        title.bold = true;
+        title.weight = Weight::bold;
         x += sheet_.text({x, y}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
-        title.bold = false;
+        title.weight = Weight::regular;
     }
     for (const std::string& line : lines) sheet_.text({x, y}, line, title), y += step;
 }
@@ -277,23 +266,14 @@ void PlotAxes::draw_color_bar() const {
     std::vector<Color> colors;
     for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
     sheet_.gradient(bar, colors);
-    const Pen pen{kInk, style_.frame, {}, Cap::butt};
-    Lettering l = numbers();
-    l.valign = VAlign::middle;
-    for (const Tick& t : bar_->ticks()) {
-        const double y = bar.bottom() - t.at * bar.h;
-        sheet_.move_to({bar.right(), y});
-        sheet_.line_to({bar.right() - (t.major ? 0.6 : 0.35) * style_.tick, y});
-        sheet_.stroke(pen);
-        if (!t.label.empty()) sheet_.text({bar.right() + style_.gap, y}, t.label, l);
-    }
+    draw_ticks(*bar_, bar, 'r', true, 0.6 * style_.tick, 0.35 * style_.tick);
     sheet_.rectangle(bar);
-    sheet_.stroke(pen);
-    l = words();
+    sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
+    TextStyle l = style_.words();
     l.turned = std::numbers::pi / 2;
     l.align = HAlign::centre;
     l.valign = VAlign::top;
-    std::string label = panel_.color_bar->label;
+    std::string label = bar_->label();
     if (!bar_->common().empty()) label += "  (" + bar_->common() + ")";
     sheet_.text({bar.right() + 2.2 * style_.gap + widest_bar_, bar.centre().y}, label, l);
 }

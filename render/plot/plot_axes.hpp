@@ -15,12 +15,10 @@ inline Box without(const Box& outer, const Margins& m) {
     return {outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
 }
 
-inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
-
 class PlotAxes {
   public:
     // `lowest`: x numbers and label are written here.
-    PlotAxes(const Panel& panel, const Style& style, Sheet& sheet, bool lowest, std::string what)
+    PlotAxes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, bool lowest, std::string what)
         : panel_(panel), style_(style), sheet_(sheet), lowest_(lowest), what_(std::move(what)) {}
 
     void fit(double width, double height);  // as many ticks as a plot of about this size has room for
@@ -43,17 +41,15 @@ class PlotAxes {
 
   private:
     std::vector<std::string> title_lines() const;
-    std::vector<std::string> label_lines(const Axis& axis) const;
-    double label_height(const Axis& axis) const;  // of the lines beside the first
-    Lettering words() const { return {.size = style_.letters, .color = kInk}; }
-    Lettering numbers() const { return {.size = style_.numbers, .color = kInk}; }
+    std::vector<std::string> label_lines(const AxisMap& axis) const;
+    double label_height(const AxisMap& axis) const;           // of the lines beside the first
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
-    void draw_ticks(const AxisMap& axis, char side, bool labelled) const;
+    void draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major, double minor) const;
     void draw_labels() const;
 
     const Panel& panel_;
-    const Style& style_;
-    Sheet& sheet_;
+    const PrintStyle& style_;
+    PageCanvas& sheet_;
     bool lowest_;
     std::string what_;
     std::optional<AxisMap> x_, y_, right_, bar_;

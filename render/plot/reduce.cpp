@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 namespace {
 
 bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
@@ -74,12 +74,13 @@ bool straight(Vec2 a, Vec2 b, std::span<const Vec2> between, double tolerance) {
 
 // Points that lie on the line between those before and behind them carry nothing.
 std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
-    constexpr std::size_t kMost = 64;  // that one line stands for, so that the work stays linear
+    constexpr std::size_t kMostLeftOut = 64;  // that one line stands for, so that the work stays linear
     std::vector<Vec2> out;
     std::size_t kept = 0;  // index of the last one in `out`
     for (std::size_t i = 0; i < p.size(); ++i) {
         const bool inner = i > 0 && i + 1 < p.size() && !broken(p[kept]) && !broken(p[i]) && !broken(p[i + 1]);
-        if (inner && i - kept <= kMost && straight(p[kept], p[i + 1], {&p[kept + 1], i - kept}, tolerance)) continue;
+        if (inner && i - kept <= kMostLeftOut && straight(p[kept], p[i + 1], {&p[kept + 1], i - kept}, tolerance))
+            continue;
         out.push_back(p[i]);
         kept = i;
     }
@@ -108,15 +109,15 @@ PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) 
 
 }  // namespace
 
-std::vector<Swing> swings(std::span<const Vec2> points, double column) {
-    constexpr double kTurns = 2.5;      // heights of a column that the curve goes through in it
-    constexpr std::size_t kFewest = 8;  // columns: a single one is drawn as it is
-    std::vector<Swing> all;
-    if (points.size() < 4 * kFewest || !increasing(points)) return all;
-    Swing now;
+std::vector<Envelope> envelopes(std::span<const Vec2> points, double column) {
+    constexpr double kLeastWay = 2.5;          // heights of a column that the curve goes through in it
+    constexpr std::size_t kFewestColumns = 8;  // columns: a single one is drawn as it is
+    std::vector<Envelope> all;
+    if (points.size() < 4 * kFewestColumns || !increasing(points)) return all;
+    Envelope now;
     double before = 0;
     const auto close = [&] {
-        if (now.least.size() >= kFewest) all.push_back(std::move(now));
+        if (now.least.size() >= kFewestColumns) all.push_back(std::move(now));
         now = {};
     };
     for (std::size_t i = 0; i < points.size();) {
@@ -127,7 +128,7 @@ std::vector<Swing> swings(std::span<const Vec2> points, double column) {
         const PixelColumn c = column_at(points, i, column);
         i = c.last + 1;
         if (!now.least.empty() && c.place != before + 1) close();
-        if (c.way > kTurns * (points[c.most].y - points[c.least].y)) {
+        if (c.way > kLeastWay * (points[c.most].y - points[c.least].y)) {
             if (now.least.empty()) now.first = c.first;
             now.least.push_back(c.least);
             now.most.push_back(c.most);
@@ -141,25 +142,25 @@ std::vector<Swing> swings(std::span<const Vec2> points, double column) {
     return all;
 }
 
-std::vector<Vec2> outline(const Swing& swing, std::span<const Vec2> points) {
-    std::vector<Vec2> all{points[swing.first]};
-    for (const std::size_t k : swing.most) all.push_back(points[k]);
-    all.push_back(points[swing.last]);
-    for (auto k = swing.least.rbegin(); k != swing.least.rend(); ++k) all.push_back(points[*k]);
+std::vector<Vec2> outline(const Envelope& envelope, std::span<const Vec2> points) {
+    std::vector<Vec2> all{points[envelope.first]};
+    for (const std::size_t k : envelope.most) all.push_back(points[k]);
+    all.push_back(points[envelope.last]);
+    for (auto k = envelope.least.rbegin(); k != envelope.least.rend(); ++k) all.push_back(points[*k]);
     return all;
 }
 
-std::vector<std::size_t> without(const std::vector<Swing>& swings, std::size_t count, bool keep_extremes) {
+std::vector<std::size_t> without(const std::vector<Envelope>& envelopes, std::size_t count, bool keep_extremes) {
     std::vector<std::size_t> all;
     std::size_t next = 0;
-    for (const Swing& swing : swings) {
-        for (; next <= swing.first; ++next) all.push_back(next);
-        for (std::size_t c = 0; keep_extremes && c < swing.least.size(); ++c) {
-            all.push_back(std::min(swing.least[c], swing.most[c]));
-            all.push_back(std::max(swing.least[c], swing.most[c]));
+    for (const Envelope& envelope : envelopes) {
+        for (; next <= envelope.first; ++next) all.push_back(next);
+        for (std::size_t c = 0; keep_extremes && c < envelope.least.size(); ++c) {
+            all.push_back(std::min(envelope.least[c], envelope.most[c]));
+            all.push_back(std::max(envelope.least[c], envelope.most[c]));
         }
         if (!keep_extremes) all.push_back(kBreak);
-        next = swing.last;
+        next = envelope.last;
     }
     for (; next < count; ++next) all.push_back(next);
     return all;
@@ -173,8 +174,8 @@ std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
     const std::vector<Vec2> out = by_pieces(points, [&](std::span<const Vec2> piece, auto& kept) {
         increasing(piece) ? columns(piece, grain, kept) : steps(piece, grain, kept);
     });
-    constexpr std::size_t kMany = 20'000;  // points: so dense a drawing hides what a grain more does
-    return straightened(out, out.size() > kMany ? grain : 0.25 * grain);
+    constexpr std::size_t kDense = 20'000;  // points: so dense a drawing hides what a grain more does
+    return straightened(out, out.size() > kDense ? grain : 0.25 * grain);
 }
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

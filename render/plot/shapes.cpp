@@ -20,16 +20,17 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
     return all;
 }
 
-Lettering lettering_of(const Shape& s, const Style& style) {
+TextStyle lettering_of(const Shape& s, const PrintStyle& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
 // How far labels beside the shapes leave the box, to the left and to the right.
-Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, const Camera& camera, const Box& box) {
+Vec2 beyond(const std::vector<Shape>& shapes, const PrintStyle& style, PageCanvas& sheet, const Camera& camera,
+            const Box& box) {
     Vec2 out{0, 0};
     for (const Shape& s : shapes) {
         if (s.kind != Shape::Kind::label) continue;
-        const Lettering l = lettering_of(s, style);
+        const TextStyle l = lettering_of(s, style);
         const double w = sheet.measure(s.markup, l).w;
         const double x = camera.to_pixels(s.points.at(0)).x + s.shift.x * l.size -
                          (l.align == HAlign::centre  ? w / 2
@@ -40,11 +41,9 @@ Vec2 beyond(const std::vector<Shape>& shapes, const Style& style, Sheet& sheet, 
     return out;
 }
 
-void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& camera) {
+void draw_one(const Shape& s, const PrintStyle& style, PageCanvas& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
-    std::vector<double> dash;
-    for (const double d : s.dash) dash.push_back(d * width);
-    const Pen pen{s.color, width, dash, Cap::butt};
+    const Pen pen{s.color, width, dashes(s.dash, width), Cap::butt};
     const double radius = s.radius_points > 0 ? s.radius_points : s.radius * camera.scale;
     std::vector<Vec2> points;
     for (const Vec2 p : s.points) points.push_back(camera.to_pixels(p));
@@ -81,7 +80,7 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
-            const Lettering l = lettering_of(s, style);
+            const TextStyle l = lettering_of(s, style);
             sheet.text(points.at(0) + Vec2{s.shift.x * l.size, -s.shift.y * l.size}, s.markup, l);
             return;
         }
@@ -90,7 +89,7 @@ void draw_one(const Shape& s, const Style& style, Sheet& sheet, const Camera& ca
 
 }  // namespace
 
-void draw_shapes(const Panel& panel, const Style& style, Sheet& sheet, const Box& box) {
+void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, const Box& box) {
     const Bounds world = bounds_of(panel.shapes);
     if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");

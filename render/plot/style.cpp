@@ -21,19 +21,19 @@ constexpr std::array kColumns{Column{"ieee", 88.9, 8, 1.0, 0, "IEEE, one column"
                               Column{"slide", 254, 18, 2.2, 142.875, "a 16:9 slide of 10 in"}};
 
 // Colours of Okabe & Ito, "Color universal design" (2008), in an order in which neighbours differ in lightness too.
-const std::array<Look, 8> kLooks{{{rgb(0x0072B2), {}, Marker::circle},
-                                  {rgb(0xD55E00), {5, 2}, Marker::square},
-                                  {rgb(0x009E73), {1.2, 1.8}, Marker::triangle},
-                                  {rgb(0xCC79A7), {6, 1.8, 1.2, 1.8}, Marker::diamond},
-                                  {rgb(0xE69F00), {9, 2.5}, Marker::down},
-                                  {rgb(0x56B4E9), {6, 1.8, 1.2, 1.8, 1.2, 1.8}, Marker::cross},
-                                  {rgb(0x000000), {2.5, 1.5}, Marker::circle},
-                                  {rgb(0x777777), {4, 1.5, 4, 3.5}, Marker::square}}};
+const std::array<LineStyle, 8> kLooks{{{rgb(0x0072B2), {}, Marker::circle},
+                                       {rgb(0xD55E00), {5, 2}, Marker::square},
+                                       {rgb(0x009E73), {1.2, 1.8}, Marker::triangle},
+                                       {rgb(0xCC79A7), {6, 1.8, 1.2, 1.8}, Marker::diamond},
+                                       {rgb(0xE69F00), {9, 2.5}, Marker::down},
+                                       {rgb(0x56B4E9), {6, 1.8, 1.2, 1.8, 1.2, 1.8}, Marker::cross},
+                                       {rgb(0x000000), {2.5, 1.5}, Marker::circle},
+                                       {rgb(0x777777), {4, 1.5, 4, 3.5}, Marker::square}}};
 
 // viridis from 1 down to 0, in tenths.
 constexpr std::array kMap{rgb(0xfde725), rgb(0xbddf26), rgb(0x7ad151), rgb(0x44bf70), rgb(0x22a884), rgb(0x21918c),
                           rgb(0x2a788e), rgb(0x355f8d), rgb(0x414487), rgb(0x482475), rgb(0x440154)};
-constexpr double kPalest = 0.12;  // of the map, left out
+constexpr double kPalestShare = 0.12;  // of the map, left out
 
 // Oklab (Ottosson 2020, "A perceptual color space for image processing"): lightness 0…1, green to red, blue to yellow.
 struct Lab {
@@ -78,8 +78,8 @@ std::vector<std::string> column_names() {
     return names;
 }
 
-Style style_of(const Column& column) {
-    Style s;
+PrintStyle style_of(const Column& column) {
+    PrintStyle s;
     const double k = column.letters / 8;
     s.letters = column.letters;
     s.numbers = std::max(6.5, 0.94 * column.letters);
@@ -93,13 +93,13 @@ Style style_of(const Column& column) {
 }
 
 // Beyond the eight colours these come again with the dashes of others.
-const Look& look(int k) {
-    static const std::vector<Look> kAll = [] {
+const LineStyle& look(int k) {
+    static const std::vector<LineStyle> kAll = [] {
         constexpr std::size_t kStep = 3;  // has no divisor in common with eight
-        std::vector<Look> all;
+        std::vector<LineStyle> all;
         for (std::size_t round = 0; round < kLooks.size(); ++round)
             for (std::size_t i = 0; i < kLooks.size(); ++i) {
-                const Look& other = kLooks[(i + kStep * round) % kLooks.size()];
+                const LineStyle& other = kLooks[(i + kStep * round) % kLooks.size()];
                 all.push_back({kLooks[i].color, other.dash, other.marker});
             }
         return all;
@@ -111,12 +111,13 @@ Color pale(Color color, double share) { return mix(color, rgb(0xFFFFFF), share);
 
 Color on_dark(Color color) {
     static const Lab kDarkPaper = lab_of(palette(Theme::dark).paper), kDarkInk = lab_of(palette(Theme::dark).ink);
-    constexpr double kBlack = 0.1, kLeast = 0.68;  // lightness; kLeast: contrast 6 : 1 on the dark paper
+    constexpr double kDarkestOfInk = 0.1,
+                     kLeastLightness = 0.68;  // lightness; kLeastLightness: contrast 6 : 1 on the dark paper
     const Lab lab = lab_of(color);
-    const bool of_line = lab.lightness > kBlack && std::ranges::any_of(kLooks, [&](const Look& each) {
+    const bool of_line = lab.lightness > kDarkestOfInk && std::ranges::any_of(kLooks, [&](const LineStyle& each) {
                              return each.color.faded(color.a) == color;
                          });
-    if (of_line) return color_of({std::max(lab.lightness, kLeast), lab.a, lab.b}, color.a);
+    if (of_line) return color_of({std::max(lab.lightness, kLeastLightness), lab.a, lab.b}, color.a);
     const double paper = std::clamp(lab.lightness, 0.0, 1.0), ink = 1 - paper;
     return color_of({ink * kDarkInk.lightness + paper * kDarkPaper.lightness,
                      lab.a + ink * kDarkInk.a + paper * kDarkPaper.a, lab.b + ink * kDarkInk.b + paper * kDarkPaper.b},
@@ -124,7 +125,7 @@ Color on_dark(Color color) {
 }
 
 Color map_color(double share) {
-    const double whole = kPalest + (1 - kPalest) * std::clamp(share, 0.0, 1.0);
+    const double whole = kPalestShare + (1 - kPalestShare) * std::clamp(share, 0.0, 1.0);
     const double at = whole * (kMap.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(at), kMap.size() - 2);
     return mix(kMap[i], kMap[i + 1], at - static_cast<double>(i));

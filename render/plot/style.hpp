@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render::figure {
 
@@ -24,8 +25,10 @@ std::span<const Column> columns();
 const Column* column_named(std::string_view name);  // nullptr: none
 std::vector<std::string> column_names();
 
+inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
+
 // Sizes that follow from the column [pt].
-struct Style {
+struct PrintStyle {
     double letters = 8;    // axis titles, legends, notes
     double numbers = 7.5;  // at the ticks
     double line = 1.0;     // curves
@@ -33,17 +36,19 @@ struct Style {
     double tick = 3, minor_tick = 1.7;
     double gap = 3;       // between neighbours
     double marker = 2.0;  // radius
+    TextStyle words() const { return {.size = letters, .color = kInk}; }
+    TextStyle tick_numbers() const { return {.size = numbers, .color = kInk}; }
 };
-Style style_of(const Column& column);
+PrintStyle style_of(const Column& column);
 
 // The k-th line of a plot: colour of Okabe & Ito (2008), told apart in grey by dash and marker as well.
 enum class Marker { circle, square, triangle, diamond, down, cross };
-struct Look {
+struct LineStyle {
     Color color;
     std::vector<double> dash;  // in widths of the line; empty: solid
     Marker marker = Marker::circle;
 };
-const Look& look(int k);  // colours repeat after eight, with other dashes; all after 64
+const LineStyle& look(int k);  // colours repeat after eight, with other dashes; all after 64
 
 Color pale(Color color, double share = 0.62);  // towards white, opaque: print knows no transparency
 

@@ -13,8 +13,8 @@ namespace beamcam::render {
 namespace {
 
 constexpr int kWidth = 1800, kPlatesAcross = 3;
-constexpr double kMargin = 48, kHead = 118, kField = 400, kGap = 34;  // [px]
-constexpr double kTitle = 60, kFoot = 62;                             // of a field: above and below its cells
+constexpr double kPageMargin = 48, kHeadHeight = 118, kFieldHeight = 400, kBetweenFields = 34;  // [px]
+constexpr double kTitleHeight = 60, kFootHeight = 62;  // of a field: above and below its cells
 
 Color color_of(sim::Outcome outcome) {
     switch (outcome) {
@@ -59,12 +59,12 @@ class Field {
         : canvas_(canvas), plate_(plate), cells_(cells), box_(box) {
         for (const std::string& row : plate.rows) labels_ = std::max(labels_, canvas.measure(escape(row), small_).w);
         labels_ = std::min(labels_, 0.32 * box.w);
-        inner_ = {box.x + labels_ + 12, box.y + kTitle, box.w - labels_ - 12, box.h - kTitle - kFoot};
+        inner_ = {box.x + labels_ + 12, box.y + kTitleHeight, box.w - labels_ - 12, box.h - kTitleHeight - kFootHeight};
     }
     void draw() {
         canvas_.text({box_.x, box_.y + 18}, escape(plate_.title),
                      {.size = 19, .color = ink_, .weight = Weight::semibold});
-        canvas_.text({box_.x, box_.y + kTitle - 12}, escape(plate_.row_title), note_);
+        canvas_.text({box_.x, box_.y + kTitleHeight - 12}, escape(plate_.row_title), note_);
         for (const auto& [at, outcomes] : cells_) cell(at.first, at.second, outcomes);
         row_labels();
         column_labels();
@@ -84,9 +84,8 @@ class Field {
             canvas_.fill(color_of(outcomes[i]));
             if (outcomes[i] != sim::Outcome::failed) continue;
             for (double way : {0.0, 1.0}) {
-                canvas_.move_to({part.x, part.y + way * part.h});
-                canvas_.line_to({part.right(), part.y + (1 - way) * part.h});
-                canvas_.stroke({.color = rgb(0xffffff), .width = 1.5});
+                canvas_.line({part.x, part.y + way * part.h}, {part.right(), part.y + (1 - way) * part.h},
+                             {.color = rgb(0xffffff), .width = 1.5});
             }
         }
     }
@@ -129,7 +128,7 @@ class Field {
 };
 
 void legend(Canvas& canvas, const std::vector<sim::StressResult>& results) {
-    double x = kMargin;
+    double x = kPageMargin;
     for (const sim::Outcome outcome : kOutcomes) {
         const auto count =
             std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.outcome == outcome; });
@@ -137,9 +136,7 @@ void legend(Canvas& canvas, const std::vector<sim::StressResult>& results) {
         canvas.fill(color_of(outcome));
         if (outcome == sim::Outcome::failed)
             for (double way : {0.0, 1.0}) {
-                canvas.move_to({x, 78 + way * 20});
-                canvas.line_to({x + 20, 98 - way * 20});
-                canvas.stroke({.color = rgb(0xffffff), .width = 1.5});
+                canvas.line({x, 78 + way * 20}, {x + 20, 98 - way * 20}, {.color = rgb(0xffffff), .width = 1.5});
             }
         const Box text = canvas.text({x + 28, 94}, fmt::format("{}: {}", meaning(outcome), count),
                                      {.size = 17, .color = rgb(0x1c2530)});
@@ -156,22 +153,22 @@ Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressR
         cells[one.plate][{one.row, one.column}].push_back(results[i].outcome);
     }
     const std::size_t lines = (campaign.plates.size() + kPlatesAcross - 1) / kPlatesAcross;
-    const double line = kTitle + kField + kFoot + kGap;
-    Image image(kWidth, static_cast<int>(kHead + static_cast<double>(lines) * line + kMargin / 2));
+    const double line = kTitleHeight + kFieldHeight + kFootHeight + kBetweenFields;
+    Image image(kWidth, static_cast<int>(kHeadHeight + static_cast<double>(lines) * line + kPageMargin / 2));
     const Fonts fonts;
     Canvas canvas(image, fonts);
     canvas.paint(rgb(0xffffff));
-    canvas.text({kMargin, 48}, fmt::format("Survival at the extremes: {} cases", campaign.cases.size()),
+    canvas.text({kPageMargin, 48}, fmt::format("Survival at the extremes: {} cases", campaign.cases.size()),
                 {.size = 28, .color = rgb(0x1c2530), .weight = Weight::semibold});
     legend(canvas, results);
-    const double width = (kWidth - 2 * kMargin - (kPlatesAcross - 1) * kGap * 1.4) / kPlatesAcross;
+    const double width = (kWidth - 2 * kPageMargin - (kPlatesAcross - 1) * kBetweenFields * 1.4) / kPlatesAcross;
     for (std::size_t i = 0; i < campaign.plates.size(); ++i) {
         // The last plate takes what is left of its line.
         const bool last = i + 1 == campaign.plates.size();
         const std::size_t column = i % kPlatesAcross, row = i / kPlatesAcross;
-        const double x = kMargin + static_cast<double>(column) * (width + 1.4 * kGap);
-        const Box box{x, kHead + static_cast<double>(row) * line + 10, last ? kWidth - kMargin - x : width,
-                      kTitle + kField + kFoot};
+        const double x = kPageMargin + static_cast<double>(column) * (width + 1.4 * kBetweenFields);
+        const Box box{x, kHeadHeight + static_cast<double>(row) * line + 10, last ? kWidth - kPageMargin - x : width,
+                      kTitleHeight + kFieldHeight + kFootHeight};
         Field(canvas, campaign.plates[i], cells[i], box).draw();
     }
     return image;

@@ -9,7 +9,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative: forgives the rounding of computed bounds
+constexpr double kRoundingSlack = 1e-9;  // relative: forgives the rounding of computed bounds
 
 double times_ten_to(double mantissa, int n) { return n >= 0 ? mantissa * ten_to(n) : mantissa / ten_to(-n); }
 
@@ -21,7 +21,7 @@ double round_down_125(double value) {
     const int n = static_cast<int>(std::floor(std::log10(value))) + 1;
     for (int k = n; k > n - 4; --k)
         for (double m : {5.0, 2.0, 1.0})
-            if (times_ten_to(m, k) <= value * (1 + kSlack)) return times_ten_to(m, k);
+            if (times_ten_to(m, k) <= value * (1 + kRoundingSlack)) return times_ten_to(m, k);
     return value;
 }
 
@@ -29,7 +29,7 @@ double round_up_125(double value) {
     const int n = static_cast<int>(std::floor(std::log10(value))) - 1;
     for (int k = n; k < n + 4; ++k)
         for (double m : {1.0, 2.0, 5.0})
-            if (times_ten_to(m, k) >= value * (1 - kSlack)) return times_ten_to(m, k);
+            if (times_ten_to(m, k) >= value * (1 - kRoundingSlack)) return times_ten_to(m, k);
     return value;
 }
 
@@ -37,20 +37,16 @@ Ticks ticks(double low, double high, int most) {
     Ticks out;
     out.step = round_up_125((high - low) / most);
     for (;;) {
-        const double first = std::ceil(low / out.step - kSlack), last = std::floor(high / out.step + kSlack);
+        const double first = std::ceil(low / out.step - kRoundingSlack),
+                     last = std::floor(high / out.step + kRoundingSlack);
         if (last - first + 1 <= most) {
             for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * out.step + 0.0);
             break;
         }
         out.step = round_up_125(out.step * 1.5);
     }
-    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(out.step) + kSlack)));
+    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(out.step) + kRoundingSlack)));
     return out;
-}
-
-Range round_range(double low, double high, int most) {
-    const double step = ticks(low, high, most).step;
-    return {std::floor(low / step + kSlack) * step, std::ceil(high / step - kSlack) * step};
 }
 
 std::string fixed(double value, int decimals) {
@@ -71,7 +67,7 @@ Prefix prefix_for(double largest) {
                                                       {"f", 1e-15}}};
     if (!(largest > 0)) return {"", 1};
     for (Prefix p : kPrefixes)
-        if (largest >= p.factor * (1 - kSlack)) return p;
+        if (largest >= p.factor * (1 - kRoundingSlack)) return p;
     return kPrefixes.back();
 }
 

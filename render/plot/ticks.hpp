@@ -22,11 +22,9 @@ struct Ticks {
 };
 Ticks ticks(double low, double high, int most);
 
-// [low, high] widened outwards to multiples of the step that `ticks` would choose.
 struct Range {
     double low = 0, high = 1;
 };
-Range round_range(double low, double high, int most);
 
 std::string fixed(double value, int decimals);  // with a true minus sign; never "−0"
 

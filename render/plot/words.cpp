@@ -10,12 +10,10 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/formula.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 
 namespace beamcam::render {
 namespace {
-
-using figure::Run;
 
 // The formula that begins at this dollar, both dollars included; empty: none does.
 std::string_view formula_at(std::string_view text, std::size_t dollar) {
@@ -51,38 +49,28 @@ void split(std::string_view text, const Plain& plain, const Formula& formula) {
 
 std::optional<std::vector<Run>> read(std::string_view formula) {
     try {
-        return figure::parse_markup(formula);
+        return parse_markup(formula);
     } catch (const std::invalid_argument&) {
         return std::nullopt;
     }
 }
 
-std::string markup_of(const Canvas& canvas, const std::vector<Run>& runs) {
+// Letters that need no more than Pango's markup; nothing where something is raised, lowered or has dots.
+std::optional<std::string> in_line(const Canvas& canvas, const std::vector<Run>& runs) {
     std::string out;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const Run& run = runs[i];
-        const auto letters = [&](const Run& some) {
-            std::string one = escape(canvas.drawable(some.text));
-            if (some.symbol) one = math(one);
-            if (some.bold) one = "<b>" + one + "</b>";
-            return some.dots > 0 ? dotted(one, some.dots) : one;
-        };
-        if (!run.under.empty()) {
-            out += fraction(markup_of(canvas, run.over), markup_of(canvas, run.under));
-        } else if (!run.over.empty()) {
-            out += root(markup_of(canvas, run.over));
-        } else if (run.script == 0) {
-            out += letters(run);
-        } else {  // all scripts of one base
-            std::string below, above;
-            std::size_t end = i;
-            for (; end < runs.size() && runs[end].script != 0; ++end)
-                (runs[end].script < 0 ? below : above) += letters(runs[end]);
-            out += scripts(below, above);
-            i = end - 1;
-        }
+    for (const Run& run : runs) {
+        if (run.script != 0 || run.dots > 0 || !run.over.empty()) return std::nullopt;
+        const std::string letters = escape(canvas.drawable(run.text));
+        out += run.symbol ? math(letters) : run.bold ? "<b>" + letters + "</b>" : letters;
     }
     return out;
+}
+
+// A formula that can be read, else its own letters.
+std::string drawn(const Canvas& canvas, std::string_view text) {
+    const auto runs = read(text);
+    if (!runs) return escape(canvas.drawable(text));
+    return in_line(canvas, *runs).value_or(formula(canvas.drawable(text)));
 }
 
 struct Piece {
@@ -163,10 +151,7 @@ std::string words(const Canvas& canvas, std::string_view text) {
     const std::string between = needs_cjk(text) ? apart() : std::string();
     split(
         text, [&](const std::string& plain) { out += escape(canvas.drawable(plain)); },
-        [&](std::string_view formula) {
-            const auto runs = read(formula);
-            out += between + (runs ? markup_of(canvas, *runs) : escape(canvas.drawable(formula))) + between;
-        });
+        [&](std::string_view formula) { out += between + drawn(canvas, formula) + between; });
     return out;
 }
 
@@ -174,7 +159,7 @@ std::string plain_words(std::string_view text) {
     std::string out;
     split(
         text, [&](const std::string& plain) { out += plain; },
-        [&](std::string_view formula) { out += read(formula) ? figure::to_plain(formula) : std::string(formula); });
+        [&](std::string_view formula) { out += read(formula) ? to_plain(formula) : std::string(formula); });
     return out;
 }
 
@@ -203,7 +188,7 @@ std::string problem_with_words(std::string_view text) {
         text, [](const std::string&) {},
         [&](std::string_view formula) {
             try {
-                figure::parse_markup(formula);
+                parse_markup(formula);
             } catch (const std::invalid_argument& error) {
                 if (out.empty()) out = error.what();
             }

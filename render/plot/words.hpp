@@ -1,6 +1,6 @@
-// Words that users wrote, as markup of pictures: between dollars mathematics, as in figures (text.hpp); broken into
-// lines where Unicode allows it: between words, and between the characters of scripts without spaces, never in a
-// formula.
+// Words that users wrote, as markup of pictures: between dollars mathematics, as in figures (render/draw/markup.hpp);
+// broken into lines where Unicode allows it: between words, and between the characters of scripts without spaces, never
+// in a formula.
 #pragma once
 
 #include <string>

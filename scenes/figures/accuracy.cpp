@@ -11,11 +11,11 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Axis;
+using render::Axis;
+using render::Scale;
 using render::figure::Figure;
 using render::figure::Legend;
 using render::figure::Panel;
-using render::figure::Scale;
 using render::figure::Series;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/beam/drive.hpp"
 
@@ -149,7 +149,7 @@ std::string number(double value, int digits) {
     const std::size_t e = text.find('e');
     if (e == std::string::npos) return sign + text;
     const int exponent = std::stoi(text.substr(e + 1));
-    const std::string power = render::figure::power_of_ten(exponent);
+    const std::string power = render::power_of_ten(exponent);
     const std::string mantissa = text.substr(0, e);
     return sign + (mantissa == "1" ? power : mantissa + "×" + power);
 }
@@ -157,7 +157,7 @@ std::string number(double value, int digits) {
 std::string one_digit(double value) {
     const std::string text = fmt::format("{:.0e}", value);
     const std::size_t e = text.find('e');
-    const std::string mantissa = text.substr(0, e), power = render::figure::power_of_ten(std::stoi(text.substr(e + 1)));
+    const std::string mantissa = text.substr(0, e), power = render::power_of_ten(std::stoi(text.substr(e + 1)));
     return mantissa == "1" ? power : mantissa + " × " + power;
 }
 

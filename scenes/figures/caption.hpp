@@ -1,7 +1,7 @@
 // What a caption says of its scene: the facts of the problem, and numbers with the digits that they have.
 //
 // Every figure states its scene by these functions alone, so that a caption says nothing that the scene does not.
-// All texts are markup (render/plot/text.hpp).
+// All texts are markup (render/draw/markup.hpp).
 #pragma once
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Axis;
+using render::Axis;
 using render::figure::Figure;
 using render::figure::Legend;
 using render::figure::Panel;

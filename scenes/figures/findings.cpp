@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/studies/paper.hpp"
@@ -38,7 +38,7 @@ sim::Problem with_model(sim::Problem p, sim::ModelKind model) {
 }
 
 // Without markup: "−5.48×10⁻⁸".
-std::string plain(double value, int digits) { return render::figure::to_plain(number(value, digits)); }
+std::string plain(double value, int digits) { return render::to_plain(number(value, digits)); }
 
 constexpr std::array kCamSpeeds{0.0, 1.0, 5.0};  // ω of the paper's figure 6 [rad/s]
 

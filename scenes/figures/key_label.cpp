@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -27,7 +27,7 @@ std::string symbol_of(const std::string& name) {
                                                              {"cam_phase", "cam phase"},
                                                              {"t", "$t$"}};
     if (const auto found = kSymbols.find(name); found != kSymbols.end()) return found->second;
-    return render::figure::escaped(name);
+    return render::escaped(name);
 }
 
 // "rad/s" becomes "rad s^{−1}".

@@ -1,4 +1,4 @@
-// Symbols and units on the axes of figures, as markup (render/plot/text.hpp).
+// Symbols and units on the axes of figures, as markup (render/draw/markup.hpp).
 #pragma once
 
 #include <string>

@@ -8,10 +8,10 @@
 namespace beamcam::scenes {
 namespace {
 
+using render::Scale;
 using render::figure::Figure;
 using render::figure::Legend;
 using render::figure::Panel;
-using render::figure::Scale;
 using render::figure::Series;
 using sim::Basis;
 using sim::ChannelKind;

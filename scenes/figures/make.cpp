@@ -10,7 +10,7 @@
 #include "output/image/png.hpp"
 #include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
@@ -35,7 +35,7 @@ std::string whole_caption(const figure::Figure& f) {
 figure::Document document_of(const figure::Figure& f, const std::string& scene) {
     figure::Document d;
     d.title = f.title;
-    d.subject = figure::to_plain(whole_caption(f));
+    d.subject = render::to_plain(whole_caption(f));
     d.scene = scene;
     d.creator = fmt::format("beamcam {}", kVersion);
     d.created = creation_instant();
@@ -55,8 +55,8 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f),
                               how.serif ? render::Typefaces::serif : render::Typefaces::print);
-    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark},
-                        fonts, document);
+    figure::PageCanvas sheet(
+        medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark}, fonts, document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }
@@ -67,7 +67,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
     static const std::map<std::string, figure::Medium> kVectors{
         {".pdf", figure::Medium::pdf}, {".svg", figure::Medium::svg}, {".eps", figure::Medium::eps}};
     if (const auto vector = kVectors.find(ending(how.file)); vector != kVectors.end())
-        return drawn(f, how, vector->second, document, [](figure::Sheet& sheet) { return sheet.bytes(); });
+        return drawn(f, how, vector->second, document, [](figure::PageCanvas& sheet) { return sheet.bytes(); });
     if (how.is_tiff())
         return output::encode_tiff(figure_image(f, how), {how.resolution(), document.title, document.creator});
     return output::encode_png(figure_image(f, how), {how.resolution(),
@@ -75,7 +75,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
                                                       {"Description", document.subject},
                                                       {"Software", document.creator},
                                                       {"beamcam-scene", scene},
-                                                      {"beamcam-accuracy", figure::to_plain(f.accuracy)}}});
+                                                      {"beamcam-accuracy", render::to_plain(f.accuracy)}}});
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::vector<std::string> files_of(const FigureOutput& how) {
 }
 
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
-    return drawn(f, how, figure::Medium::png, {}, [](figure::Sheet& sheet) { return sheet.image(); });
+    return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {
@@ -100,8 +100,8 @@ std::string scene_of_figure(Scene scene, FigureOutput how) {
 
 std::string caption_text(const figure::Figure& f, const std::string& file) {
     const std::string caption = whole_caption(f);
-    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", figure::to_latex(caption), f.name);
-    const std::string plain = figure::to_plain(caption) + "\n";
+    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", render::to_latex(caption), f.name);
+    const std::string plain = render::to_plain(caption) + "\n";
     if (ending(file) == ".tex") return "% " + plain + latex;
     return plain + "\n" + latex;
 }

@@ -31,7 +31,7 @@ void share_ordinates(Figure& figure) {
     for (Panel& panel : figure.panels) {
         const auto& [low, high] = ranges[panel.name];
         const double air = 0.05 * (high - low);
-        if (!(high > low) || panel.y.scale == render::figure::Scale::logarithmic) continue;
+        if (!(high > low) || panel.y.scale == render::Scale::logarithmic) continue;
         panel.y.from = panel.y.from.value_or(low - air), panel.y.to = panel.y.to.value_or(high + air);
     }
 }

@@ -18,7 +18,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Axis;
+using render::Axis;
 using render::figure::Legend;
 using render::figure::Panel;
 using render::figure::Series;
@@ -48,7 +48,7 @@ class SeriesPanelMaker {
         panel_.title = keys_.title;
         if (plan_.keys.apart) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
-        if (keys_.logarithmic) panel_.y.scale = render::figure::Scale::logarithmic;
+        if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
         if (!keys_.right.empty()) panel_.right.emplace();
         add_side({planned_.left, keys_.channels, false});

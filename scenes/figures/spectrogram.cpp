@@ -119,7 +119,7 @@ Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most,
     panel.y.tight = true;
     panel.color_bar =
         render::figure::ColorBar{.label = axis_label(fmt::format("|{}|", render::print_symbol(channel)), measure.unit),
-                                 .scale = render::figure::Scale::logarithmic,
+                                 .scale = render::Scale::logarithmic,
                                  .from = largest * std::pow(10, -kDecades),
                                  .to = largest};
     panel.cells.push_back(cells_of(s, most, measure.factor));

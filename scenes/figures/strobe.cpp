@@ -75,7 +75,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<
 void add_instant(const sim::Pose& pose, std::vector<Shape>& out) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = std::abs(along.x) > 0.5;
-    using render::figure::VAlign;
+    using render::VAlign;
     out.push_back({.kind = Shape::Kind::label,
                    .points = {pose.centreline.back()},
                    .color = render::rgb(0x000000),

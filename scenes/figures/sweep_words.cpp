@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/key_label.hpp"
 
 namespace beamcam::scenes {
@@ -100,7 +100,7 @@ std::string words_of_point(const Swept& swept, std::uint64_t point, Lang lang) {
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    std::string text = fmt::format("{} = {:.{}g}{}", figure::to_plain(symbol_of(axis.name)),
+    std::string text = fmt::format("{} = {:.{}g}{}", render::to_plain(symbol_of(axis.name)),
                                    points.data.place(point)[0], kValueDigits, axis.unit == "1" ? "" : " " + axis.unit);
     text += lang == Lang::en ? ": " : "：";
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);

@@ -44,8 +44,8 @@ constexpr std::string_view kApproach = "v_n_before";
 SweptPoints::SweptPoints(const Swept& swept, Lang how)
     : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {}
 
-figure::Scale SweptPoints::scale(std::size_t i) const {
-    return scene.sweep->over[i].logarithmic ? figure::Scale::logarithmic : figure::Scale::linear;
+render::Scale SweptPoints::scale(std::size_t i) const {
+    return scene.sweep->over[i].logarithmic ? render::Scale::logarithmic : render::Scale::linear;
 }
 
 std::size_t SweptPoints::column(const std::string& name) const {

@@ -20,7 +20,7 @@ class SweptPoints {
     const output::SweepAxis& axis(std::size_t i) const { return data.axes.at(i); }
     std::uint64_t seeds() const { return starts_.size(); }
     SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
-    render::figure::Scale scale(std::size_t i) const;
+    render::Scale scale(std::size_t i) const;
     // Of the samples; throws PictureError.
     std::size_t column(const std::string& name) const;
     bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }

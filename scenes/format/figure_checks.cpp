@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 
 void judge_markup(ObjectReader& r, const std::string& key, const std::string& text) {
     try {
-        render::figure::parse_markup(text);
+        render::parse_markup(text);
     } catch (const std::invalid_argument& error) {
         r.fail(r.place(key), key,
                fmt::format("{} = {}: {}; \\$ \\_ \\^ \\\\ stand for themselves", r.path(key), in_quotes(text),

@@ -7,7 +7,7 @@
 
 #include "output/data/table_reader.hpp"
 #include "output/files/sha256.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
 
@@ -66,7 +66,7 @@ class MeasurementReader {
         } catch (const output::IoError& error) {
             return fail("file", error.what());
         }
-        if (m_.label.empty()) m_.label = render::figure::escaped(path.stem().string());
+        if (m_.label.empty()) m_.label = render::escaped(path.stem().string());
         judge_markup(r_, "label", m_.label);
         if (m_.columns.empty())
             for (const auto& [known, channel] : measurable())

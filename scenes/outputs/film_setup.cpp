@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/reproducible.hpp"
 
@@ -15,7 +15,7 @@ namespace beamcam::scenes {
 namespace {
 
 // "10⁻⁸", "2 × 10⁻⁹".
-std::string plain_digit(double value) { return render::figure::to_plain(one_digit(value)); }
+std::string plain_digit(double value) { return render::to_plain(one_digit(value)); }
 
 std::string beyond_model(const sim::Problem& problem) {
     return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
@@ -61,7 +61,7 @@ std::string paler_note(const render::FilmSetup& setup) {
 std::vector<render::FilmData> data_of(const Scene& scene) {
     std::vector<render::FilmData> out;
     for (const Measurement& each : scene.data) {
-        out.push_back({render::figure::to_plain(each.label), each.is_line(each.times.size()), each.times, {}});
+        out.push_back({render::to_plain(each.label), each.is_line(each.times.size()), each.times, {}});
         for (std::size_t c = 0; c < each.columns.size(); ++c)
             out.back().values.emplace_back(each.columns[c].first, each.values[c]);
     }

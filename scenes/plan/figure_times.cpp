@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "render/base/error.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/plan/event_search.hpp"
 #include "scenes/scene/time_map.hpp"
 
@@ -18,7 +17,6 @@ void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& 
     Studies studies;
     figure.make = [make = recipe->prepare(scene, how, studies), height = how.series.height](const Results& results) {
         render::figure::Figure made = make(results);
-        choose_prefixes(made);
         if (height) made.height = *height * 1e3;
         return made;
     };

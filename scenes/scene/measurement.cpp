@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 
 namespace beamcam::scenes {
 
@@ -46,7 +46,7 @@ std::vector<output::Agreement> agreements(const Measurement& measurement, const 
     std::vector<output::Agreement> out;
     for (std::size_t c = 0; c < measurement.columns.size(); ++c) {
         out.push_back(output::agreement(measurement.times, measurement.values[c], table.values[c + 1], result));
-        out.back().label = render::figure::to_plain(measurement.label);
+        out.back().label = render::to_plain(measurement.label);
         out.back().file = measurement.file;
         out.back().channel = measurement.columns[c].first;
     }

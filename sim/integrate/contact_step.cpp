@@ -81,8 +81,7 @@ void ContactStep::begin() {
         start.dx = 0;
         evaluate(s.t0, s.end.data(), start);
     }
-    load.contact = {};
-    load.contact.dx = Lanes{} + start.dx;
+    place_at_start();
     double coordinates[kMaxSize] = {start.hub}, jt = 0;
     for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(start, hq_end_.data(), i, false, coordinates[1 + i], jt);
     if (form_.by_arrays())
@@ -97,6 +96,9 @@ double ContactStep::solve(const StepTable& table) {
     s.changed();
     step_.place_hub(h);
     linearize(table);
+    // The last attempt's places serve this one, unless it lost them.
+    for (int k = 0; k < kNodes; ++k)
+        if (!(std::fabs(load.contact.dx[k]) <= expansion_.range())) place_at_start();
     guess(table);
     FixedPoint iteration(kContactRounding, kContactGrowth, kContactPatience);
     auto status = FixedPoint::Status::going;
@@ -106,7 +108,7 @@ double ContactStep::solve(const StepTable& table) {
         if (decays_ > kFastDecay) iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
         status = iteration.add(step_.update_forcing(table, &load));
     }
-    if (status != FixedPoint::Status::settled) return kNoSolution;
+    if (status != FixedPoint::Status::settled && !iteration.enough()) return kNoSolution;
     move(-1);
     step_.propagate(table);
     step_.propagate_rates(table);
@@ -120,6 +122,11 @@ double ContactStep::solve(const StepTable& table) {
     const double low = expansion_.at() - reach, high = expansion_.at() + reach;
     if (reach > expansion_.range() || low <= 0 || high >= form_.length) return kNoSolution;
     return error(h);
+}
+
+void ContactStep::place_at_start() {
+    load.contact = {};
+    load.contact.dx = Lanes{} + start.dx;
 }
 
 // The force that the start's penetration and rate lead to.

@@ -34,6 +34,7 @@ class ContactStep {
     double kick = 0;          // change of the modes' rates per impulse
 
   private:
+    void place_at_start();
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
     void place_contact(int corrections);

@@ -51,7 +51,7 @@ FixedPoint::Status FixedPoint::add(double change) {
         if (enough_ && (!contracts || change * std::max(ratio, contraction_) / (1 - ratio) < share_))
             return Status::settled;
         if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
-        if (ratio > growth_ && sweep > patience_) return Status::failed;
+        if (ratio > growth_ && sweep > patience_) return enough_ ? Status::settled : Status::failed;
     }
     largest_ = std::max(largest_, change);
     return Status::going;

@@ -54,6 +54,7 @@ class FixedPoint {
         contraction_ = contraction;
     }
     Status add(double change);
+    bool enough() const { return enough_; }
 
   private:
     double rounding_, growth_, before_ = 0, largest_ = 0;

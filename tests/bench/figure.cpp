@@ -58,7 +58,7 @@ double cpu_now() {
 // Bytes of the file, or of the pixels. A file is kept when `keep` names one.
 std::size_t draw(const figure::Figure& f, figure::Medium medium, const Fonts& fonts, const std::string& keep) {
     const figure::Page page = figure::page_of(f, *figure::column_named("elsevier"));
-    figure::Sheet sheet(medium, {figure::points(page.width), figure::points(page.height), 600}, fonts);
+    figure::PageCanvas sheet(medium, {figure::points(page.width), figure::points(page.height), 600}, fonts);
     figure::draw(f, page, sheet);
     if (medium == figure::Medium::png) return 4 * sheet.image().pixels.size();
     const std::string bytes = sheet.bytes();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "render/plot/sheet.hpp"
+#include "render/plot/page_canvas.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace beamcam::render {
@@ -59,22 +59,22 @@ TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {
 TEST(Canvas, AStencilThatCairoGaveUpIsAnError) {
     Image image(32, 32);
     Tiles touched(32, 32);
-    Stencils stencils;
+    CoverageCache coverage_cache;
     const auto draw = [&] {
         Canvas canvas(image, fonts());
         canvas.touched = &touched;
-        canvas.stencils = &stencils;
+        canvas.coverage_cache = &coverage_cache;
         give_up(canvas);
     };
     EXPECT_THROW(draw(), std::runtime_error);
-    stencils.next_picture();
+    coverage_cache.next_picture();
     EXPECT_THROW(draw(), std::runtime_error);
 }
 
-TEST(Sheet, AFigureThatCairoGaveUpIsAnError) {
+TEST(PageCanvas, AFigureThatCairoGaveUpIsAnError) {
     for (const auto medium : {figure::Medium::png, figure::Medium::pdf, figure::Medium::svg}) {
         const auto draw = [&](bool whole) {
-            figure::Sheet sheet(medium, {100, 100, 72}, fonts());
+            figure::PageCanvas sheet(medium, {100, 100, 72}, fonts());
             give_up(sheet);
             if (whole) medium == figure::Medium::png ? void(sheet.image()) : void(sheet.bytes());
         };

@@ -11,10 +11,10 @@
 #include <set>
 
 #include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/panel.hpp"
 #include "render/plot/placement.hpp"
 #include "render/plot/reduce.hpp"
-#include "render/plot/text.hpp"
 
 namespace beamcam::render::figure {
 namespace {
@@ -40,7 +40,7 @@ TEST(FigureText, OneMarkupIsDrawnAndWrittenAsLatexAndPlain) {
     EXPECT_EQ(to_latex("$\\dot{θ}_{c}$"), "$\\dot{\\theta}_{c}$");
     EXPECT_EQ(to_latex("5 % & more"), "5 \\% \\& more");
     EXPECT_EQ(to_plain("a\\_b\\^\\$c\\\\d"), "a_b^$c\\d");
-    const std::vector<figure::Run> runs = parse_markup("$x_{\\r{max}}$2");
+    const std::vector<render::Run> runs = parse_markup("$x_{\\r{max}}$2");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_TRUE(runs[0].symbol);
     EXPECT_EQ(runs[1].script, -1);
@@ -96,6 +96,45 @@ TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
     EXPECT_THROW(AxisMap({.scale = Scale::logarithmic}, none, 5, "test"), PictureError);
     EXPECT_THROW(AxisMap({.from = 2, .to = 2}, {}, 5, "test"), PictureError);
     EXPECT_THROW(AxisMap({.from = std::nan("")}, {}, 5, "test"), PictureError);
+}
+
+TEST(FigureAxis, UnitsGetThePrefixThatSuitsTheNumbers) {
+    const AxisMap small = axis(0, -3e-6, {.label = "$w$ / mm"});
+    EXPECT_EQ(small.label(), "$w$ / nm");
+    EXPECT_EQ(small.common(), "");
+    EXPECT_NEAR(small.told(-3e-6), -3, 1e-12);
+    EXPECT_THAT(labels(small), ::testing::Contains("−2"));
+    EXPECT_NEAR(small.place(-1e-6), axis(0, -3e-6, {.label = "$w$"}).place(-1e-6), 1e-12);
+    EXPECT_EQ(axis(0, 2e7, {.label = "$F$ / N"}).label(), "$F$ / MN");
+    EXPECT_EQ(axis(0, 2e5, {.label = "$f$ / Hz"}).label(), "$f$ / kHz");
+    const AxisMap slope = axis(0, -6e-3, {.label = "d$w$/d$x$ / 10^{−3}"});
+    EXPECT_EQ(slope.label(), "d$w$/d$x$ / 10^{−6}");
+    EXPECT_NEAR(slope.told(-6e-3), -6, 1e-12);
+    // Usual numbers, and units without prefixes, stay as they are; so does a number that an offset is told beside.
+    EXPECT_EQ(axis(0, 300, {.label = "$F$ / N"}).label(), "$F$ / N");
+    EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).label(), "$θ$ / rad");
+    EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).common(), "×10^{−6}");
+    EXPECT_EQ(axis(0.37, 0.37 + 1e-6, {.label = "$x$ / m"}).label(), "$x$ / m");
+    EXPECT_THAT(axis(0.37, 0.37 + 1e-6, {.label = "$x$ / m"}).common(), HasSubstr("×10^{−6} +0.37"));
+}
+
+TEST(FigureAxis, OfAChartHasRoundEndsAndShortNumbers) {
+    const auto chart = [](double low, double high, const char* label) {
+        return AxisMap({.label = label, .tight = true, .round_ends = true, .short_numbers = true}, {true, low, high}, 5,
+                       "test");
+    };
+    const AxisMap angle = chart(0.23, 0.84, "θ / rad");
+    EXPECT_NEAR(angle.ends().low, 0.2, 1e-12);
+    EXPECT_NEAR(angle.ends().high, 1.0, 1e-12);
+    EXPECT_NEAR(angle.step(), 0.2, 1e-12);
+    EXPECT_THAT(labels(angle), ::testing::ElementsAre("0.2", "0.4", "0.6", "0.8", "1.0"));
+    EXPECT_EQ(angle.name(), "θ / rad");
+    EXPECT_EQ(chart(0, 0.05, "F / N").name(), "F / mN");
+    EXPECT_THAT(labels(chart(0, 0.05, "F / N")), ::testing::Contains("40"));
+    EXPECT_EQ(chart(0, 1e-6, "θ / rad").name(), "θ / (10<sup>−6</sup>\u2009rad)");
+    EXPECT_EQ(chart(0, 5, "dθ/dt / rad/s").name(), "dθ/dt / (rad/s)");
+    EXPECT_EQ(chart(0.785, 0.785 + 1e-6, "θ / rad").name(), "(θ − 0.785\u2009rad) / (10<sup>−9</sup>\u2009rad)");
+    EXPECT_EQ(chart(0, 2e-5, "n").name(), "n / 10<sup>−6</sup>");
 }
 
 TEST(FigureAxis, CountsHaveTicksAtWholeNumbersOnly) {
@@ -155,13 +194,13 @@ TEST(FigureReduce, NanBreaksTheLine) {
     EXPECT_TRUE(std::isnan(kept[1].x));
 }
 
-// 40 swings a column: the outline is the envelope, and little else is left to draw.
-TEST(FigureReduce, FastSwingsBecomeABandWithTheirEnvelope) {
+// 40 oscillations a column: the outline is the envelope, and little else is left to draw.
+TEST(FigureReduce, FastOscillationsBecomeABandWithTheirEnvelope) {
     const auto envelope = [](double x) { return 10 + 5 * std::exp(-x / 60); };
     std::vector<Vec2> points;
     for (int i = 0; i < 1'000'000; ++i)
         points.push_back({i * 1e-4, i % 7 == 3 ? std::nan("") : envelope(i * 1e-4) * std::sin(i * 0.0251327)});
-    const std::vector<Swing> fast = swings(points, 1);
+    const std::vector<Envelope> fast = envelopes(points, 1);
     ASSERT_EQ(fast.size(), 1u);
     EXPECT_EQ(fast[0].least.size(), 100u);
     EXPECT_EQ(fast[0].first, 0u);
@@ -182,14 +221,14 @@ TEST(FigureReduce, CurvesThatCanBeToldApartAreNoBands) {
     std::vector<Vec2> slow, orbit, apart;
     for (int i = 0; i < 100'000; ++i) {
         const double t = i * 1e-3;
-        slow.push_back({t, std::sin(3 * t)});  // half a swing a column
+        slow.push_back({t, std::sin(3 * t)});  // half an oscillation a column
         orbit.push_back({std::cos(500 * t), std::sin(500 * t)});
         apart.push_back({std::floor(t) * 2 + t - std::floor(t), std::sin(500 * t)});  // every second column
     }
-    EXPECT_TRUE(swings(slow, 1).empty());
-    EXPECT_TRUE(swings(orbit, 1).empty());
-    EXPECT_TRUE(swings(apart, 1).empty());
-    EXPECT_TRUE(swings({}, 1).empty());
+    EXPECT_TRUE(envelopes(slow, 1).empty());
+    EXPECT_TRUE(envelopes(orbit, 1).empty());
+    EXPECT_TRUE(envelopes(apart, 1).empty());
+    EXPECT_TRUE(envelopes({}, 1).empty());
 }
 
 TEST(FigurePlacement, GoesWhereNothingIs) {
@@ -218,19 +257,19 @@ Figure plot(std::vector<double> x, std::vector<double> y) {
 
 struct Drawn {
     Image image;
-    std::vector<Sheet::Written> written;
+    std::vector<PageCanvas::Written> written;
 };
 Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi = 72) {
     const Page page = page_of(figure, *column_named(column));
     const Fonts fonts(needs_chinese(figure), Typefaces::print);
-    Sheet sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
+    PageCanvas sheet(Medium::png, {points(page.width), points(page.height), dpi}, fonts);
     draw(figure, page, sheet);
     return {sheet.image(), sheet.written};
 }
 
-// The same band of ink, whether its swings are drawn one by one or as an outline, and whether it has a colour for each
-// value.
-TEST(Figure, ABandLooksLikeItsSwings) {
+// The same band of ink, whether its oscillations are drawn one by one or as an outline, and whether it has a colour for
+// each value.
+TEST(Figure, ABandLooksLikeItsOscillations) {
     std::vector<double> x, y;
     for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
     Figure by_outline = plot(x, y), in_tones = by_outline;
@@ -286,7 +325,7 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
     for (const Column& column : columns()) {
         const Drawn drawn = draw_png(figure, column.name);
         const Box page{0, 0, points(column.width), 1e4};
-        for (const Sheet::Written& w : drawn.written) {
+        for (const PageCanvas::Written& w : drawn.written) {
             EXPECT_GE(w.smallest, 6) << column.name << " " << w.markup;
             EXPECT_TRUE(page.contains(w.box, 0.01)) << column.name << " " << w.markup;
         }
@@ -353,7 +392,7 @@ TEST(Figure, NoTwoTextsCollideInTwoHundredRandomFigures) {
         const Page sheet = page_of(figure, column);
         const Box page{0, 0, points(sheet.width), points(sheet.height)};
         for (std::size_t i = 0; i < drawn.written.size(); ++i) {
-            const Sheet::Written& one = drawn.written[i];
+            const PageCanvas::Written& one = drawn.written[i];
             EXPECT_TRUE(page.contains(one.box, 1.5)) << seed << " " << column.name << ": " << one.markup;
             for (std::size_t k = 0; k < i; ++k)
                 EXPECT_FALSE(one.box.inset(0.5).overlaps(drawn.written[k].box.inset(0.5)))
@@ -382,17 +421,18 @@ TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
 
 // An inset becomes smaller, then is left out, rather than hiding a curve.
 TEST(Figure, AnInsetNeverCoversData) {
-    const auto written_in_inset = [](int swings) {
+    const auto written_in_inset = [](int oscillations) {
         std::vector<double> x, y;
-        for (int i = 0; i <= 4000; ++i) x.push_back(i / 4000.0), y.push_back(std::cos(2 * M_PI * swings * x.back()));
+        for (int i = 0; i <= 4000; ++i)
+            x.push_back(i / 4000.0), y.push_back(std::cos(2 * M_PI * oscillations * x.back()));
         Figure figure = plot(x, y);
         Panel inset;
         inset.x.label = "inset";
         inset.series = plot({0, 1}, {0, 1}).panels[0].series;
-        figure.panels[0].y.to = swings > 0 ? 1.1 : 3;
+        figure.panels[0].y.to = oscillations > 0 ? 1.1 : 3;
         figure.panels[0].insets.push_back({.panel = {inset}});
         const auto written = draw_png(figure).written;
-        return std::ranges::count(written, "inset", &Sheet::Written::markup);
+        return std::ranges::count(written, "inset", &PageCanvas::Written::markup);
     };
     EXPECT_EQ(written_in_inset(0), 1);
     EXPECT_EQ(written_in_inset(30), 0);
@@ -422,7 +462,7 @@ TEST(Figure, NumbersAtACornerKeepApart) {
         figure.panels[0].x.from = 0, figure.panels[0].y.from = -1, figure.panels[0].y.to = 1;
         const auto written = draw_png(figure, column).written;
         const auto box_of = [&](const char* text) {
-            return std::ranges::find(written, text, &Sheet::Written::markup)->box;
+            return std::ranges::find(written, text, &PageCanvas::Written::markup)->box;
         };
         const double gap = box_of("0.0").y - std::max(box_of("−1.0").bottom(), 0.0);
         EXPECT_GT(gap, 1.5) << column;
@@ -460,7 +500,7 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
     document.title = "a < b";
     document.scene = "{}";
     const auto bytes = [&](Medium medium) {
-        Sheet sheet(medium, {points(page.width), points(page.height)}, fonts, document);
+        PageCanvas sheet(medium, {points(page.width), points(page.height)}, fonts, document);
         draw(figure, page, sheet);
         return sheet.bytes();
     };
@@ -473,7 +513,7 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
 std::string bytes_of(const Figure& figure, Medium medium, const Document& document) {
     const Page page = page_of(figure, *column_named("elsevier"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
+    PageCanvas sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
     draw(figure, page, sheet);
     return sheet.bytes();
 }
@@ -483,7 +523,7 @@ std::string bytes_of(const Figure& figure, Medium medium, const Document& docume
 TEST(Looks, OfSixtyFourCurvesAreAllDifferent) {
     std::set<std::pair<std::string, std::vector<double>>> seen;
     for (int k = 0; k < 64; ++k) {
-        const Look& each = look(k);
+        const LineStyle& each = look(k);
         EXPECT_TRUE(each.color == look(k % 8).color) << k;
         EXPECT_TRUE(seen.emplace(fmt::format("{} {} {}", each.color.r, each.color.g, each.color.b), each.dash).second)
             << k;
@@ -512,7 +552,7 @@ TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
     const Figure figure = plot({0, 1}, {0, 1});
     const Page page = page_of(figure, *column_named("slide"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(Medium::png, {points(page.width), points(page.height), 72, true}, fonts);
+    PageCanvas sheet(Medium::png, {points(page.width), points(page.height), 72, true}, fonts);
     draw(figure, page, sheet);
     const Color paper = on_dark(rgb(0xFFFFFF));
     const auto byte = [](double channel) { return static_cast<std::uint32_t>(std::lround(255 * channel)); };
@@ -550,7 +590,7 @@ TEST(Figure, LongSeriesMakeSmallFiles) {
     const Figure figure = plot(x, y);
     const Page page = page_of(figure, *column_named("elsevier"));
     const Fonts fonts(false, Typefaces::print);
-    Sheet sheet(Medium::pdf, {points(page.width), points(page.height)}, fonts);
+    PageCanvas sheet(Medium::pdf, {points(page.width), points(page.height)}, fonts);
     draw(figure, page, sheet);
     EXPECT_LT(sheet.bytes().size(), 600'000u);
 }

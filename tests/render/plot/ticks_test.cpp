@@ -48,13 +48,6 @@ TEST(Ticks, DecimalsTellNeighboursApart) {
     EXPECT_EQ(fixed(0.2, 1), "0.2");
 }
 
-TEST(Ticks, RoundRangeContainsTheRange) {
-    const Range r = round_range(0.23, 0.84, 5);
-    EXPECT_LE(r.low, 0.23);
-    EXPECT_GE(r.high, 0.84);
-    EXPECT_NEAR(r.low, 0.2, 1e-12);
-}
-
 TEST(Ticks, NegativeNumbersHaveATrueMinusAndZeroHasNone) {
     EXPECT_EQ(fixed(-1.25, 1), "−1.2");
     EXPECT_EQ(fixed(-0.01, 1), "0.0");

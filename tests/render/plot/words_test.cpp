@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "render/draw/formula.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/lang.hpp"
-#include "render/plot/text.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace beamcam::render {
@@ -34,35 +34,25 @@ TEST_F(Words, WithoutDollarsAreWhatTheyAre) {
 
 TEST_F(Words, FormulasAreSetAsMathematics) {
     EXPECT_EQ(words(canvas_, "$\\omega$"), math("ω"));
-    EXPECT_EQ(words(canvas_, "at $x_c$"), "at " + math("x") + scripts(math("c"), ""));
-    EXPECT_EQ(words(canvas_, "$\\dot\\theta$"), dotted(math("θ"), 1));
-    EXPECT_EQ(words(canvas_, "$\\ddot{x}$"), dotted(math("x"), 2));
-    EXPECT_EQ(words(canvas_, "$\\frac{a}{2}$"), fraction(math("a"), "2"));
-    EXPECT_EQ(words(canvas_, "$\\sqrt{a}$"), root(math("a")));
-    EXPECT_EQ(words(canvas_, "$\\lambda_1^2$"), math("λ") + scripts("1", "2"));
+    EXPECT_EQ(words(canvas_, "at $\\r{Re} x$"), "at Re " + math("x"));
+    for (const char* text : {"$x_c$", "$\\dot\\theta$", "$\\frac{a}{2}$", "$\\sqrt{a}$", "$\\lambda_1^2$"})
+        EXPECT_EQ(words(canvas_, std::string("at ") + text), "at " + formula(text));
     std::string deep = "x";
     for (int k = 0; k < 200; ++k) deep = "\\frac{1}{" + deep + "}";
     EXPECT_NE(problem_with_words("$" + deep + "$"), "");
 }
 
-// A fraction is as wide as the wider of its parts and a gap; its line lies between them.
+// By the rules of labels (label_test.cpp), in the letters of pictures.
 TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
     const TextStyle small{.size = 40 * 0.64};
     const double parts = std::max(canvas_.measure("1", small).w, canvas_.measure("1000", small).w);
-    EXPECT_NEAR(width(fraction("1", "1000")), parts + 2 * 0.09 * 40, 1e-9);
-    const Box box = canvas_.measure(fraction("1", "2"), style_), digit = canvas_.measure("1", style_);
+    EXPECT_NEAR(width(formula("$\\frac{1}{1000}$")), parts + 2 * 0.09 * 40, 1e-9);
+    const Box box = canvas_.measure(formula("$\\frac{1}{2}$"), style_), digit = canvas_.measure("1", style_);
     EXPECT_LT(box.y, digit.y);
     EXPECT_GT(box.bottom(), digit.bottom());
-    EXPECT_NEAR(width("a" + scripts("1", "2") + "b"),
-                width("a") + width("b") +
-                    std::max(canvas_.measure("1", {.size = 28.8}).w, 2.4 + canvas_.measure("2", {.size = 28.8}).w),
-                1e-9);
-    EXPECT_GT(width(root(fraction("1", "2"))), width(fraction("1", "2")));
-    // Two scripts of one letter, and a root behind a fraction, do not touch.
-    const double script = canvas_.measure("1", {.size = 28.8}).h;
-    EXPECT_GT(canvas_.measure(scripts("1", "1"), style_).h, 2 * script + 0.1 * 40);
-    EXPECT_NEAR(width(fraction("1", "2") + root("a")), width(fraction("1", "2")) + width(root("a")) + 0.09 * 40, 1e-9);
-    EXPECT_EQ(canvas_.text({200, 50}, fraction("1", "2"), {.size = 40, .align = HAlign::right}).right(), 200);
+    EXPECT_NEAR(width("1" + formula("$2_1^1$") + "3"),
+                width("1") + width("2") + canvas_.measure("1", {.size = 28.8}).w + width("3"), 1e-9);
+    EXPECT_EQ(canvas_.text({200, 50}, formula("$\\frac{1}{2}$"), {.size = 40, .align = HAlign::right}).right(), 200);
 }
 
 // Within a formula only where it needs more than a line.
@@ -83,7 +73,7 @@ TEST_F(Words, LinesBreakBetweenWordsAndBeforeSigns) {
 TEST(PlainWords, AreForOtherPrograms) {
     EXPECT_EQ(plain_words("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^3/2, ω_1 $");
     EXPECT_EQ(plain_words("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "(λ_1)/L√(EI)");
-    EXPECT_EQ(figure::to_latex("$\\frac{λ_1}{L}$"), "$\\frac{\\lambda_{\\mathrm{1}}}{L}$");
+    EXPECT_EQ(to_latex("$\\frac{λ_1}{L}$"), "$\\frac{\\lambda_{\\mathrm{1}}}{L}$");
 }
 
 TEST_F(Words, CharactersThatNoFontHasAreFound) {

@@ -12,11 +12,10 @@
 #include <sstream>
 
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/make.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
@@ -175,42 +174,6 @@ TEST(Figures, AnyCollisionIsShownInCloseUp) {
     EXPECT_THAT(none.err, HasSubstr("collision 99 does not occur: there are "));
 }
 
-TEST(Prefixes, SuitTheNumbersAndLeaveUsualOnesAlone) {
-    render::figure::Panel panel;
-    panel.x.label = "$t$ / s", panel.y.label = "$w$ / mm";
-    panel.right = render::figure::Axis{.label = "$F$ / N"};
-    panel.series.resize(2);
-    panel.series[0].y = {0, -3e-6}, panel.series[1].y = {0, 2e7};
-    for (auto& series : panel.series) series.x = {0, 1};
-    panel.series[1].right = true;
-    panel.rules = {{.at = 1e-6}};
-    panel.color_bar = render::figure::ColorBar{.label = "$F$ / N", .from = 0, .to = 300};
-    render::figure::Figure figure;
-    figure.panels = {panel};
-    choose_prefixes(figure);
-    const auto& made = figure.panels[0];
-    EXPECT_EQ(made.x.label, "$t$ / s");
-    EXPECT_EQ(made.y.label, "$w$ / nm");
-    EXPECT_NEAR(made.series[0].y[1], -3, 1e-12);
-    EXPECT_NEAR(made.rules[0].at, 1, 1e-12);
-    EXPECT_EQ(made.right->label, "$F$ / MN");
-    EXPECT_NEAR(made.series[1].y[1], 20, 1e-12);
-    EXPECT_EQ(made.color_bar->label, "$F$ / N");
-}
-
-TEST(Prefixes, ServeFrequenciesAndThousandths) {
-    render::figure::Figure figure;
-    figure.panels.resize(1);
-    figure.panels[0].x.label = "$f$ / Hz", figure.panels[0].y.label = "d$w$/d$x$ / 10^{−3}";
-    figure.panels[0].series.resize(1);
-    figure.panels[0].series[0].x = {0, 2e5}, figure.panels[0].series[0].y = {0, -6e-3};
-    choose_prefixes(figure);
-    EXPECT_EQ(figure.panels[0].x.label, "$f$ / kHz");
-    EXPECT_NEAR(figure.panels[0].series[0].x[1], 200, 1e-9);
-    EXPECT_EQ(figure.panels[0].y.label, "d$w$/d$x$ / 10^{−6}");
-    EXPECT_NEAR(figure.panels[0].series[0].y[1], -6, 1e-12);
-}
-
 // Places along a beam of any size, in the unit that suits it; those of the paper in millimetres.
 TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
     const auto label = [](const char* scene) {
@@ -258,17 +221,17 @@ TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
 TEST(Figures, CaptionsStateTheAssumptionsInBothLanguages) {
     for (const Lang lang : {Lang::en, Lang::zh}) {
         const auto figure = figure_of(scene_from("{}"), "schematic", lang);
-        const std::string caption = render::figure::to_plain(figure.caption);
+        const std::string caption = render::to_plain(figure.caption);
         for (const char* value : {"e = 0.02 m", "K = 10⁸ N m", "0.7", "a = 0 m", "g = 9.81"})
             EXPECT_THAT(caption, HasSubstr(value));
         EXPECT_THAT(caption, HasSubstr(lang == Lang::en ? "assumptions" : "假定值"));
-        EXPECT_NO_THROW(render::figure::to_latex(figure.caption));
+        EXPECT_NO_THROW(render::to_latex(figure.caption));
     }
 }
 
 std::string caption_of(const std::string& text, const char* name, Lang lang = Lang::en) {
     const auto figure = figure_of(scene_from(text), name, lang);
-    return render::figure::to_plain(figure.caption + " " + figure.accuracy);
+    return render::to_plain(figure.caption + " " + figure.accuracy);
 }
 
 TEST(Captions, StateDriveAndStart) {
@@ -381,7 +344,7 @@ TEST(Figures, ModelsAreComparedInTheSameShapes) {
     EXPECT_LT(largest.at("1 paper"), 1e-2);
     EXPECT_GT(largest.at("2 second-order, hub–beam shapes"), 0.03);  // the basis, by itself
     EXPECT_EQ(largest.count("1 exact"), 0u);
-    const std::string caption = render::figure::to_plain(figure.caption);
+    const std::string caption = render::to_plain(figure.caption);
     EXPECT_THAT(caption, HasSubstr("2×10⁻⁵ rad between eq. (4) and first-order"));
     EXPECT_THAT(caption, HasSubstr("by 0.042 rad, which is no difference of the equations"));
 }
@@ -392,7 +355,7 @@ TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
     const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 2000}, "time": {"end": 10}})"), "models");
     EXPECT_GT(figure.panels[0].x.to, 0.3);
     EXPECT_LT(figure.panels[0].x.to, 2);
-    EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("Curves end where the work"));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("Curves end where the work"));
     for (std::size_t k : {1u, 2u})
         for (const auto& s : figure.panels[k].series)
             for (const double x : s.x) EXPECT_LE(x, figure.panels[0].x.to) << s.label;
@@ -545,9 +508,9 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
     EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
     EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
     EXPECT_THAT(figure.panels[1].series[1].x, ::testing::ElementsAre(2, 4, 8));
-    EXPECT_THAT(render::figure::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
     EXPECT_THROW(accuracy_figure({}, sim::Problem{}, Lang::en), render::PictureError);
-    EXPECT_NO_THROW(render::figure::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
+    EXPECT_NO_THROW(render::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
 }
 
 TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {

@@ -8,7 +8,6 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/fonts.hpp"
-#include "scenes/figures/prefixes.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -65,7 +64,7 @@ std::string series(Dice& dice) {
 
 // What is written on the sheet, and the picture.
 struct Drawn {
-    std::vector<plot::Sheet::Written> written;
+    std::vector<plot::PageCanvas::Written> written;
     render::Image image;
     render::Box page;
     bool has_axes = true;
@@ -87,11 +86,10 @@ Drawn drawn(const Scene& scene, const FigureOutput& how) {
     Results results;
     for (const sim::Result& run : runs) results.studies.push_back(&run);
     plot::Figure figure = make(results);
-    choose_prefixes(figure);
     const plot::Page page = plot::page_of(figure, *plot::column_named(how.column));
     const render::Fonts fonts(plot::needs_chinese(figure), render::Typefaces::print);
     const double w = plot::points(page.width), h = plot::points(page.height);
-    plot::Sheet sheet(plot::Medium::png, {w, h, kDpi}, fonts);
+    plot::PageCanvas sheet(plot::Medium::png, {w, h, kDpi}, fonts);
     plot::draw(figure, page, sheet);
     return {sheet.written, sheet.image(), {0, 0, w, h}, figure.panels.front().shapes.empty()};
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "render/base/error.hpp"
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "sim/beam/modes.hpp"
 #include "tests/scenes/support.hpp"
@@ -48,7 +48,7 @@ TEST(Series, HasAPanelForEachUnit) {
     EXPECT_EQ(figure.panels[2].y.label, "$w$, $q_{1}$ / mm");
     EXPECT_EQ(figure.panels[2].series.size(), 2u);
     EXPECT_EQ(figure.panels[2].x.label, "$t$ / s");
-    for (const auto& panel : figure.panels) EXPECT_NO_THROW(render::figure::parse_markup(panel.y.label));
+    for (const auto& panel : figure.panels) EXPECT_NO_THROW(render::parse_markup(panel.y.label));
 }
 
 // Between equally spaced rows, 0.2 ms apart, its peaks would be cut off.

@@ -187,7 +187,8 @@ TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
     request.horizon = true;
     const Result r = simulate(p, {&request, 1}, {}, nullptr, &both).front();
     EXPECT_LT(both.spent.rhs_evaluations, 4 * motion.spent.rhs_evaluations) << r.reproducibility;
-    EXPECT_EQ(both.integrations, 3);
+    // The motion, the tighter one, the other method; the last two once more to the end where the tail does not agree.
+    EXPECT_LE(both.integrations, 5);
 }
 
 TEST(Horizon, ComparesWithAnotherMethodWhereverOneIsFeasible) {

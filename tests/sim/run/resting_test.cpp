@@ -115,6 +115,16 @@ TEST(Resting, LastingContactIsSteppedOverAtEveryTolerance) {
         }
 }
 
+// A step whose iteration loses the contact is tried again, shorter, from where the contact is.
+TEST(Resting, ALostContactIsFoundAgainByShorterSteps) {
+    Problem p;
+    p.initial.shape = InitialShape::resting;
+    p.cam->speed = 5;
+    p.solver.rtol = 1e-8;
+    const Counters counters = run(p, 20).counters;
+    EXPECT_LT(counters.steps, 5000);
+}
+
 TEST(Resting, CarriesTheTorqueOfTheHub) {
     Problem p = riding(ModelKind::rigid, 0, 0);
     p.contact.model = ContactModel::restitution;

@@ -1,5 +1,5 @@
 // Shapes painted through what their path covered in the picture before.
-#include "render/draw/stencils.hpp"
+#include "render/draw/coverage_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,34 +37,34 @@ void draw_shapes(Canvas& canvas, double age) {
     canvas.text({90, 60}, "F = 12", {.size = 30, .color = red, .halo = blue});
 }
 
-Image picture(Stencils* stencils, Tiles& touched, double age) {
+Image picture(CoverageCache* coverage_cache, Tiles& touched, double age) {
     Image image = ground();
     Canvas canvas(image, fonts());
     canvas.touched = &touched;
-    canvas.stencils = stencils;
+    canvas.coverage_cache = coverage_cache;
     draw_shapes(canvas, age);
-    if (stencils) stencils->next_picture();
+    if (coverage_cache) coverage_cache->next_picture();
     return image;
 }
 
-TEST(Stencils, PaintWhatCairoPaints) {
-    EXPECT_TRUE(Stencils::exact());
-    Stencils stencils;
+TEST(CoverageCache, PaintWhatCairoPaints) {
+    EXPECT_TRUE(CoverageCache::exact());
+    CoverageCache coverage_cache;
     Tiles touched(200, 150);
     for (const double age : {1.0, 0.8, 0.5, 0.01, 0.0})
-        EXPECT_EQ(picture(&stencils, touched, age), picture(nullptr, touched, age)) << age;
+        EXPECT_EQ(picture(&coverage_cache, touched, age), picture(nullptr, touched, age)) << age;
 }
 
 // Each is a little different: nothing of the others may be used.
-TEST(Stencils, TellShapesApart) {
-    Stencils stencils;
+TEST(CoverageCache, TellShapesApart) {
+    CoverageCache coverage_cache;
     for (int round = 0; round < 3; ++round) {
-        const auto draw = [&](Stencils* with) {
+        const auto draw = [&](CoverageCache* with) {
             Image image = ground();
             Tiles touched(200, 150);
             Canvas canvas(image, fonts());
             canvas.touched = &touched;
-            canvas.stencils = with;
+            canvas.coverage_cache = with;
             const auto line = [&](Vec2 to, const Pen& pen) {
                 canvas.move_to({10, 10});
                 canvas.line_to(to);
@@ -82,8 +82,8 @@ TEST(Stencils, TellShapesApart) {
             canvas.clip({80, 60, 30, 30}, [&] { line({150, 120}, {ink, 8}); });
             return image;
         };
-        EXPECT_EQ(draw(&stencils), draw(nullptr)) << round;
-        stencils.next_picture();
+        EXPECT_EQ(draw(&coverage_cache), draw(nullptr)) << round;
+        coverage_cache.next_picture();
     }
 }
 

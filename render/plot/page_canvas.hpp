@@ -5,24 +5,24 @@
 // as outlines or, on request, as text. The same calls give the same bytes.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "render/draw/canvas.hpp"
 #include "render/draw/color.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
+#include "render/draw/label.hpp"
+#include "render/draw/painter.hpp"
+#include "render/draw/text_style.hpp"
 
 namespace beamcam::render::figure {
 
 inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
 inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
 
-struct Run;  // text.hpp
 enum class Medium { png, pdf, svg, eps };
 
 // What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
@@ -40,46 +40,26 @@ struct Paper {
     bool dark = false;                 // a slide; everything is drawn in the colours of white paper all the same
 };
 
-enum class VAlign {
-    baseline,
-    top,
-    middle,
-    bottom
-};  // what of the text stands at the point; ink of digits and capitals
-struct Lettering {
-    double size = 8;  // [pt]
-    Color color = {};
-    HAlign align = HAlign::left;
-    VAlign valign = VAlign::baseline;
-    bool bold = false;
-    double turned = 0;  // counter-clockwise [rad]
-};
-
 // No letter of a figure is smaller, sub- and superscripts included.
 inline constexpr double kSmallestLetter = 6;  // [pt]
 
-class Sheet : public Brush {
+class PageCanvas : public Painter {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
-    Sheet(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
-    ~Sheet() noexcept(false);
+    PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
+    ~PageCanvas() noexcept(false);
 
     Color shown(Color color) const { return recolor_ ? recolor_(color) : color; }  // on this paper
     double grain() const;  // the smallest distance that shows [pt]
 
-    void arc(Vec2 centre, double radius, double from, double to);  // as Brush::arc, unconnected to what came before
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
     // A line through any number of points; NaN breaks it.
     void curve(std::span<const Vec2> points, const Pen& pen);
-    // Pixels over a box, each as a rectangle.
-    void picture(const Image& image, const Box& box);
-    void clip(const Box& box);  // until `unclip`
-    void unclip();
 
     // The box that the text takes, turned text included.
-    Box text(Vec2 at, std::string_view markup, const Lettering& lettering);
+    Box text(Vec2 at, std::string_view markup, const TextStyle& style);
     // At (0, 0), not turned.
-    Box measure(std::string_view markup, const Lettering& lettering);
+    Box measure(std::string_view markup, const TextStyle& style) const;
     // Of Liberation Sans, as of Arial; of Liberation Serif.
     double cap_height(double size) const { return (serif() ? 0.655 : 0.716) * size; }
 
@@ -96,27 +76,18 @@ class Sheet : public Brush {
     std::string bytes();
 
   private:
-    struct Handles;
-    struct Set {  // a label in its runs
-        struct Piece;
-        std::vector<Piece> pieces;
-        std::vector<std::vector<Vec2>> rules;  // of fractions and roots
-        double width = 0, ascent = 0, descent = 0, smallest = 1e9;
-    };
     bool serif() const { return fonts_.typefaces() == Typefaces::serif; }
-    double lay(const Run& run, double size, bool bold) const;
-    Set set(std::string_view markup, const Lettering& lettering);
-    Set set(const std::vector<Run>& runs, const Lettering& lettering);
-    static void join(Set& label, Set part, double x, double y);
-    void set_parts(Set& label, const Run& run, const Lettering& lettering);
-    void show(const Set& label, const Lettering& lettering);
-    void add_text(const Set::Piece& piece, Vec2 at);
+    SetLabel set(std::string_view markup, const TextStyle& style) const;
+    void write(const SetRun& run, Vec2 at, const TextStyle& style);
+    void add_text(const SetRun& run, Vec2 at, const TextStyle& style);
 
     Medium medium_;
     Paper paper_;
     Document document_;
     const Fonts& fonts_;
-    std::unique_ptr<Handles> handles_;
+    Image image_;
+    std::string stream_;  // of PDF, EPS and SVG
+    std::string texts_;   // of SVG, where they are no outlines
 };
 
 }  // namespace beamcam::render::figure

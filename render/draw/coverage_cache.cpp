@@ -1,4 +1,4 @@
-#include "render/draw/stencils.hpp"
+#include "render/draw/coverage_cache.hpp"
 
 #include <cairo.h>
 
@@ -44,7 +44,7 @@ Probe probed(const Draw& draw) {
 
 }  // namespace
 
-bool Stencils::exact() {
+bool CoverageCache::exact() {
     static const bool all_same = [] {
         for (const double alpha : {1.0, 0.93, 0.5, 0.14, 0.01})
             for (const bool stroke : {false, true}) {
@@ -68,8 +68,8 @@ bool Stencils::exact() {
     return all_same;
 }
 
-bool Stencils::paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
-                     const std::function<void(cairo_t*)>& ink) {
+bool CoverageCache::paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
+                          const std::function<void(cairo_t*)>& ink) {
     const auto [at, fresh] = known_.try_emplace(key);
     Known& known = at->second;
     known.picture = picture_;
@@ -81,13 +81,14 @@ bool Stencils::paint(const std::string& key, const Box& box, Color color, cairo_
     return true;
 }
 
-void Stencils::next_picture() {
+void CoverageCache::next_picture() {
     std::erase_if(known_, [&](const auto& entry) { return entry.second.picture < picture_; });
     ++picture_;
 }
 
 // The path as Cairo has it, moved by whole pixels: neither its numbers nor their coverage change.
-Stencils::Stencil Stencils::stencil_of(const Box& box, cairo_t* cr, const std::function<void(cairo_t*)>& ink) {
+CoverageCache::Stencil CoverageCache::stencil_of(const Box& box, cairo_t* cr,
+                                                 const std::function<void(cairo_t*)>& ink) {
     if (std::isnan(box.x + box.y + box.right() + box.bottom())) return {};
     cairo_surface_t* picture = cairo_get_target(cr);
     Stencil s;
@@ -117,7 +118,7 @@ Stencils::Stencil Stencils::stencil_of(const Box& box, cairo_t* cr, const std::f
     return s;
 }
 
-void Stencils::paint(const Stencil& s, Color color, cairo_t* cr) {
+void CoverageCache::paint(const Stencil& s, Color color, cairo_t* cr) {
     cairo_surface_t* picture = cairo_get_target(cr);
     cairo_surface_flush(picture);
     unsigned char* bytes = cairo_image_surface_get_data(picture);

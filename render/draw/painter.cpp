@@ -1,4 +1,4 @@
-#include "render/draw/brush.hpp"
+#include "render/draw/painter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,30 +6,47 @@
 #include <numbers>
 #include <utility>
 
+#include "render/base/error.hpp"
 #include "render/draw/cairo_status.hpp"
+#include "render/draw/label.hpp"
+#include "render/draw/surface.hpp"
 
 namespace beamcam::render {
 
-void Brush::begin(cairo_t* cr) {
-    cr_ = cr;
+void Painter::begin(cairo_surface_t* surface, const std::string& what) {
+    surface_ = surface;
+    cr_ = cairo_create(surface);
     exceptions_ = std::uncaught_exceptions();
+    if (cairo_status(cr_) == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+    if (cairo_status(cr_) != CAIRO_STATUS_SUCCESS)
+        throw PictureError(fmt::format("{} cannot be drawn: {}", what, cairo_status_to_string(cairo_status(cr_))));
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
 }
 
-void Brush::end() {
+void Painter::end() {
     if (!cr_) return;
-    const cairo_status_t status = cairo_status(cr_);
+    cairo_status_t status = cairo_status(cr_);
     cairo_destroy(std::exchange(cr_, nullptr));
+    cairo_surface_finish(surface_);  // writes what is left of a document
+    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_);
+    cairo_surface_destroy(surface_);
     if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
-void Brush::use(Color color) {
+void Painter::use(Color color) {
     const Color c = recolor_ ? recolor_(color) : color;
     cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a);
 }
 
+std::vector<double> dashes(const std::vector<double>& pattern, double unit) {
+    std::vector<double> out = pattern;
+    for (double& length : out) length *= unit;
+    return out;
+}
+
 // ---- where the ink goes ------------------------------------------------------------------------
 
-void Brush::touch(const Box& box) {
+void Painter::touch(const Box& box) {
     if (!touched) return;
     const Box wide = box.inset(-1);  // antialiased edges reach into the next pixel
     if (!limit_) return touched->add(wide);
@@ -38,21 +55,21 @@ void Brush::touch(const Box& box) {
     if (!within.empty()) touched->add(within);
 }
 
-void Brush::pass(const Box& box) {
+void Painter::pass(const Box& box) {
     if (touched) path_.push_back(box);
 }
 
 // In pieces about as long as a tile, so that a slanted line keeps to few of them.
-void Brush::pass_line(Vec2 from, Vec2 to) {
-    constexpr double kPiece = 48, kMost = 1000;
-    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPiece), 1.0, kMost));
+void Painter::pass_line(Vec2 from, Vec2 to) {
+    constexpr double kPieceLength = 48, kMostPieces = 1000;
+    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPieceLength), 1.0, kMostPieces));
     for (int i = 0; i < pieces; ++i) {
         const Vec2 a = from + (to - from) * (double(i) / pieces), b = from + (to - from) * (double(i + 1) / pieces);
         path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
     }
 }
 
-void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
+void Painter::pass_arc(Vec2 c, double radius, double from, double to) {
     const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
     const double step = (to - from) / pieces;
     const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
@@ -66,7 +83,7 @@ void Brush::pass_arc(Vec2 c, double radius, double from, double to) {
 }
 
 // A stroke is near its path; a fill is anywhere between.
-void Brush::touch_path(double around, bool inside) {
+void Painter::touch_path(double around, bool inside) {
     if (!touched) return;
     if (!inside) {
         for (const Box& box : path_) touch(box.inset(-around));
@@ -75,46 +92,46 @@ void Brush::touch_path(double around, bool inside) {
     if (!path_.empty()) touch(path_box());
 }
 
-Box Brush::path_box() const {
+Box Painter::path_box() const {
     Bounds all;
     for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
-    return path_.empty() ? Box{} : Box{all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0};
+    return all.box();
 }
 
-void Brush::note(char what, std::initializer_list<double> numbers, std::string_view words) {
-    if (!keeps_stencils()) return;
+void Painter::note(char what, std::initializer_list<double> numbers, std::string_view words) {
+    if (!keeps_coverage()) return;
     key_.append(1, what).append(words);
     key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
 }
 
-void Brush::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
-    if (keeps_stencils() && !name.empty() && stencils->paint(name, box, color, cr_, paint)) return;
+void Painter::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
+    if (keeps_coverage() && !name.empty() && coverage_cache->paint(name, box, color, cr_, paint)) return;
     use(color);
     paint(cr_);
 }
 
 // ---- paths -------------------------------------------------------------------------------------
 
-void Brush::move_to(Vec2 p) {
+void Painter::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
     note('m', {p.x, p.y});
     start_ = at_ = p, open_ = true;
 }
-void Brush::line_to(Vec2 p) {
+void Painter::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
     note('l', {p.x, p.y});
     if (!open_) start_ = at_ = p;  // as Cairo does
     if (touched) pass_line(at_, p);
     at_ = p, open_ = true;
 }
-void Brush::close() {
+void Painter::close() {
     cairo_close_path(cr_);
     note('z', {});
     if (touched && open_) pass_line(at_, start_);
     at_ = start_;
 }
 
-void Brush::polyline(std::span<const Vec2> points) {
+void Painter::polyline(std::span<const Vec2> points) {
     bool pen_down = false;
     for (Vec2 p : points) {
         if (std::isnan(p.x) || std::isnan(p.y)) {
@@ -126,7 +143,7 @@ void Brush::polyline(std::span<const Vec2> points) {
     }
 }
 
-void Brush::arc(Vec2 c, double radius, double from, double to) {
+void Painter::arc(Vec2 c, double radius, double from, double to) {
     if (to >= from)
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
@@ -138,7 +155,7 @@ void Brush::arc(Vec2 c, double radius, double from, double to) {
     at_ = place(to), open_ = true;
 }
 
-void Brush::circle(Vec2 c, double radius) {
+void Painter::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
@@ -147,7 +164,7 @@ void Brush::circle(Vec2 c, double radius) {
     start_ = at_ = c + Vec2{radius, 0}, open_ = true;
 }
 
-void Brush::rectangle(const Box& b) {
+void Painter::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
     note('r', {b.x, b.y, b.w, b.h});
     pass(b);
@@ -155,16 +172,14 @@ void Brush::rectangle(const Box& b) {
 }
 
 // A shaft and a filled head; an arrow shorter than its head is a smaller head.
-void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
+void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     const Vec2 way = to - from;
     const double length = norm(way);
     if (!(length > 0)) return;
     const Vec2 u = way * (1 / length), v = sim::perp(u);
     const double tip = std::min(head.length, length);
     if (length > tip) {
-        move_to(from);
-        line_to(to - u * (0.8 * tip));
-        stroke({pen.color, pen.width, pen.dash, Cap::butt});
+        line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
     }
     move_to(to);
     line_to(to - u * tip + v * (head.half_width * tip));
@@ -176,23 +191,23 @@ void Brush::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
 
 // ---- ink ---------------------------------------------------------------------------------------
 
-void Brush::fill(Color c) {
+void Painter::fill(Color c) {
     fill_keeping_path(c);
     new_path();
 }
-void Brush::fill_keeping_path(Color c) {
+void Painter::fill_keeping_path(Color c) {
     // Cairo paints what is translucent inside faster than a stencil would.
     const bool kept = !key_.empty() && c.a == 1;
     ink(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
     touch_path(0, true);
 }
-void Brush::new_path() {
+void Painter::new_path() {
     cairo_new_path(cr_);
     path_.clear();
     key_.clear();
     open_ = false;
 }
-void Brush::stroke(const Pen& pen) {
+void Painter::stroke(const Pen& pen) {
     if (!key_.empty()) {
         note(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
         for (double length : pen.dash) note('d', {length});
@@ -205,6 +220,62 @@ void Brush::stroke(const Pen& pen) {
     });
     touch_path(pen.width / 2, false);  // joins are round
     new_path();
+}
+void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
+    move_to(from);
+    line_to(to);
+    stroke(pen);
+}
+
+// ---- parts, images, labels ----------------------------------------------------------------------
+
+void Painter::clip(const Box& b, const std::function<void()>& draw) {
+    cairo_save(cr_);
+    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
+    cairo_clip(cr_);
+    const Box* before = std::exchange(limit_, &b);
+    draw();
+    limit_ = before;
+    cairo_restore(cr_);
+}
+
+void Painter::place(const Image& image, const Box& into, bool smooth) {
+    cairo_surface_t* const surface = surface_of(image);
+    cairo_save(cr_);
+    if (smooth) {
+        cairo_rectangle(cr_, into.x, into.y, into.w, into.h);
+        cairo_clip(cr_);
+    }
+    cairo_translate(cr_, into.x, into.y);
+    cairo_scale(cr_, into.w / image.width, into.h / image.height);
+    cairo_set_source_surface(cr_, surface, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr_), smooth ? CAIRO_FILTER_BEST : CAIRO_FILTER_NEAREST);
+    if (smooth) cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
+    cairo_paint(cr_);
+    cairo_restore(cr_);
+    use({});
+    cairo_surface_destroy(surface);
+    touch(into);
+}
+void Painter::pixels(const Image& image, const Box& into) { place(image, into, false); }
+void Painter::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
+
+void Painter::set_down(const SetLabel& label, Vec2 at, double size, Color color,
+                       const std::function<void(const SetRun&, Vec2 at)>& write) {
+    for (std::vector<Vec2> rule : label.rules) {
+        for (Vec2& p : rule) p += at;
+        polyline(rule);
+        stroke({color, kRuleWidth * size});
+    }
+    for (const SetRun& run : label.runs) {
+        write(run, at + Vec2{run.x, run.y});
+        // Dots stand above the middle of the slanted letter.
+        for (int k = 0; k < run.run.dots; ++k) {
+            const double across = (k - 0.5 * (run.run.dots - 1)) * 0.22 * run.size;
+            circle(at + Vec2{run.x + 0.58 * run.advance + across, run.y - run.top - 0.14 * run.size}, 0.065 * run.size);
+            fill(color);
+        }
+    }
 }
 
 }  // namespace beamcam::render

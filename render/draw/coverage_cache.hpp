@@ -18,7 +18,7 @@ using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the lib
 
 namespace beamcam::render {
 
-class Stencils {
+class CoverageCache {
   public:
     // Whether the Cairo and pixman that run paint as these formulas say: tried once in a process, on a small picture.
     // Where they do not, a film is drawn without stencils, so that its pixels never depend on what was drawn before.

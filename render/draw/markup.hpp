@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 
 struct Run {
     std::string text;
@@ -32,4 +32,4 @@ std::string to_latex(std::string_view markup);
 std::string to_plain(std::string_view markup);
 std::string escaped(std::string_view plain);  // as markup
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

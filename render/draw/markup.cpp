@@ -1,6 +1,7 @@
-#include "render/plot/text.hpp"
+#include "render/draw/markup.hpp"
 
 #include <fmt/format.h>
+#include <glib.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace beamcam::render::figure {
+namespace beamcam::render {
 namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
@@ -45,13 +46,8 @@ constexpr std::array kLatexText{Pair{"–", "--"},
                                 Pair{"…", "\\dots{}"},
                                 Pair{"µ", "\\textmu{}"}};
 
-std::size_t sequence_length(char lead) {
-    const auto byte = static_cast<unsigned char>(lead);
-    return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
-}
-
 std::string_view next_character(std::string_view text, std::size_t at) {
-    return text.substr(at, sequence_length(text[at]));
+    return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
 }
 
 // ASCII and Greek letters; in mathematics they are set in italics.
@@ -208,35 +204,37 @@ const std::string_view* find(const std::array<Pair, N>& table, std::string_view 
     return it == table.end() ? nullptr : &it->second;
 }
 
+// Calls `visit` with each character, and with what follows it.
+template <class Visit>
+void each_character(std::string_view text, const Visit& visit) {
+    while (!text.empty()) {
+        const std::string_view c = next_character(text, 0);
+        text.remove_prefix(c.size());
+        visit(c, text);
+    }
+}
+
 std::string latex_math(std::string_view text) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
-        if (const std::string_view* known = find(kLatexMath, c)) {
-            out += *known;
-            // A command ends at the next letter.
-            const bool command = known->size() > 1 && known->front() == '\\' && known->back() != ' ';
-            if (command && at < text.size()) out += ' ';
-        } else {
-            out += c;
-        }
-    }
+    each_character(text, [&](std::string_view c, std::string_view rest) {
+        const std::string_view* known = find(kLatexMath, c);
+        out += known ? *known : c;
+        // A command ends at the next letter.
+        if (known && known->size() > 1 && known->front() == '\\' && known->back() != ' ' && !rest.empty()) out += ' ';
+    });
     return out;
 }
 
 std::string latex_text(std::string_view text) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
+    each_character(text, [&](std::string_view c, std::string_view) {
         if (const std::string_view* known = find(kLatexText, c))
             out += *known;
         else if (const std::string_view* sign = find(kLatexMath, c))
             out += fmt::format("${}$", *sign);
         else
             out += c;
-    }
+    });
     return out;
 }
 
@@ -278,18 +276,17 @@ std::string latex_of(const std::vector<Run>& runs) {
 }
 
 std::string superscript(std::string_view text) {
-    static constexpr std::array kRaised{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
-                                        Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
-                                        Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
+    static constexpr std::array kSuperscripts{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
+                                              Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
+                                              Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view c = next_character(text, at);
-        at += c.size();
-        const std::string_view* known = find(kRaised, c);
-        if (!known) return fmt::format("^{}", text);
-        out += *known;
-    }
-    return out;
+    bool all = true;
+    each_character(text, [&](std::string_view c, std::string_view) {
+        const std::string_view* known = find(kSuperscripts, c);
+        all = all && known;
+        if (known) out += *known;
+    });
+    return all ? out : fmt::format("^{}", text);
 }
 
 }  // namespace
@@ -314,7 +311,7 @@ std::string to_latex(std::string_view markup) { return latex_of(parse_markup(mar
 static std::string plain_of(const std::vector<Run>& runs) {
     const auto part = [](const std::vector<Run>& some) {
         const std::string text = plain_of(some);
-        const bool one = !text.empty() && sequence_length(text[0]) == text.size();
+        const bool one = !text.empty() && next_character(text, 0).size() == text.size();
         return one ? text : fmt::format("({})", text);
     };
     std::string out;
@@ -335,4 +332,4 @@ static std::string plain_of(const std::vector<Run>& runs) {
 
 std::string to_plain(std::string_view markup) { return plain_of(parse_markup(markup)); }
 
-}  // namespace beamcam::render::figure
+}  // namespace beamcam::render

@@ -1,5 +1,5 @@
-// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::Sheet) have in common.
-// Units are the drawing's own, y down.
+// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::PageCanvas) have in
+// common. Units are the drawing's own, y down.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/coverage_cache.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/draw/stencils.hpp"
 #include "render/draw/tiles.hpp"
 
-using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library's own name
+using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier): the library's own names
+using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
 
 namespace beamcam::render {
 
@@ -26,17 +27,22 @@ struct Pen {
     std::vector<double> dash = {};
     Cap cap = Cap::round;
 };
+// A pattern of dashes, each multiplied by `unit`.
+std::vector<double> dashes(const std::vector<double>& pattern, double unit);
 
 // In parts of its length: half its width, and how far from the tip its back stands on the shaft.
 struct ArrowHead {
     double length = 0, half_width = 0.42, back = 1;
 };
-enum class HAlign { left, centre, right };
 
-class Brush {
+struct Image;
+struct SetLabel;
+struct SetRun;
+
+class Painter {
   public:
-    Brush(const Brush&) = delete;
-    Brush& operator=(const Brush&) = delete;
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
 
     void move_to(Vec2 p);
     void line_to(Vec2 p);
@@ -49,17 +55,26 @@ class Brush {
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
+    void line(Vec2 from, Vec2 to, const Pen& pen);
+    // What `draw` draws shows within the box only.
+    void clip(const Box& box, const std::function<void()>& draw);
+    // The whole image, each pixel a rectangle.
+    void pixels(const Image& image, const Box& into);
+    // The same smoothly, made smaller or larger.
+    void image_fitted(const Image& image, const Box& into);
 
     // Where ink went, while this is set: never too few tiles.
     Tiles* touched = nullptr;
     // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
-    Stencils* stencils = nullptr;
+    CoverageCache* coverage_cache = nullptr;
 
   protected:
-    Brush() = default;
-    ~Brush() noexcept(false) { end(); }
-    void begin(cairo_t* cr);     // takes it over; before anything is drawn
-    void end();                  // while its surface is there; throws what Cairo could not draw
+    Painter() = default;
+    ~Painter() noexcept(false) { end(); }
+    // Takes the surface over, before anything is drawn. Throws PictureError where Cairo cannot draw `what` on it.
+    void begin(cairo_surface_t* surface, const std::string& what);
+    // Ends the drawing, what it is drawn on included: while that is there. Throws what Cairo could not draw.
+    void end();
     void use(Color color);       // for what is painted next
     void touch(const Box& box);  // ink within it, blurred edges included
     void pass(const Box& box);   // the path is there
@@ -68,19 +83,24 @@ class Brush {
     void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
     // Paints the path, or the stencil called `name` that it made.
     void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
-    bool keeps_stencils() const { return stencils && touched && !limit_; }
+    // The rules and dots of a label whose baseline begins here; `write` puts down the letters of each run.
+    void set_down(const SetLabel& label, Vec2 at, double size, Color color,
+                  const std::function<void(const SetRun&, Vec2 at)>& write);
+    bool keeps_coverage() const { return coverage_cache && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // what is painted in place of a colour, while it is set
     const Box* limit_ = nullptr;         // nothing is painted beyond
 
   private:
+    cairo_surface_t* surface_ = nullptr;
     int exceptions_ = 0;  // in flight when drawing began
+    void place(const Image& image, const Box& into, bool smooth);
     void pass_line(Vec2 from, Vec2 to);
     void pass_arc(Vec2 centre, double radius, double from, double to);
     void touch_path(double around, bool inside);
     Box path_box() const;
     std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
-    std::string key_;        // of the path, while stencils are kept
+    std::string key_;        // of the path, while coverage is kept
     Vec2 start_, at_;        // of the open part of the path
     bool open_ = false;
 };

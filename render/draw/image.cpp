@@ -1,2 +1,0 @@
-// Image is all in its header.
-#include "render/draw/image.hpp"

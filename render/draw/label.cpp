@@ -1,0 +1,133 @@
+#include "render/draw/label.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace beamcam::render {
+namespace {
+
+// All by the size of the letters that something belongs to.
+constexpr double kScriptSize = 0.72, kRaised = 0.36, kLowered = 0.17;  // size and baselines of scripts
+constexpr double kRaisedMore = 0.06, kLoweredMore = 0.07;              // of one base that has both
+constexpr double kBehindItalic = 0.08, kUprightBehindItalic = 0.03;    // a superscript leans away from a slanted letter
+constexpr double kFractionSize = 0.64;                                 // of what stands above and below its line
+constexpr double kMathAxis = 0.27;                                     // height of a fraction's line
+constexpr double kClearance = 0.09;                                    // free beside lines
+constexpr double kRootSign = 0.55;                                     // its width
+
+class LabelSetter {
+  public:
+    LabelSetter(double size, const LetterMetrics& letters) : size_(size), letters_(letters) {
+        label_.ascent = letters.cap_height * size;
+    }
+
+    SetLabel set(const std::vector<Run>& runs) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            if (runs[i].over.empty())
+                add_text(runs, i);
+            else if (runs[i].under.empty())
+                add_root(runs[i]);
+            else
+                add_fraction(runs[i]);
+        }
+        return std::move(label_);
+    }
+
+  private:
+    // Scripts of one base stand above each other.
+    void add_text(const std::vector<Run>& runs, std::size_t i) {
+        const Run& run = runs[i];
+        SetRun set{.run = run, .size = run.script ? smaller(kScriptSize) : size_};
+        const LetterMetrics::Extent extent = letters_.measure(run, set.size);
+        set.advance = extent.advance, set.top = extent.top;
+        const bool both = run.script != 0 && has_both_scripts(runs, i);
+        if (run.script > 0) set.y = -(kRaised + (both ? kRaisedMore : 0)) * size_;
+        if (run.script < 0) set.y = (kLowered + (both ? kLoweredMore : 0)) * size_;
+        double& end = run.script > 0 ? above_end_ : run.script < 0 ? below_end_ : label_.width;
+        set.x = end;
+        if (base_is_italic_ && !run.symbol) {
+            if (run.script == 0 && runs[i - 1].script == 0) set.x += kUprightBehindItalic * size_;
+            if (run.script > 0 && above_end_ == base_end_) set.x += kBehindItalic * size_;
+        }
+        end = set.x + set.advance;
+        label_.width = std::max(label_.width, end);
+        if (run.script == 0) {
+            above_end_ = below_end_ = base_end_ = end;
+            base_is_italic_ = run.symbol;
+        }
+        label_.smallest_letter = std::min(label_.smallest_letter, set.size);
+        label_.ascent = std::max(label_.ascent, -set.y + (run.script ? letters_.cap_height * set.size : 0));
+        if (run.dots) label_.ascent = std::max(label_.ascent, 0.98 * size_);
+        if (run.script < 0) label_.descent = std::max(label_.descent, set.y + 0.12 * set.size);
+        label_.runs.push_back(std::move(set));
+    }
+    static bool has_both_scripts(const std::vector<Run>& runs, std::size_t i) {
+        const auto is_other = [&](std::size_t k) { return runs[k].script == -runs[i].script; };
+        for (std::size_t k = i; k-- > 0 && runs[k].script != 0;)
+            if (is_other(k)) return true;
+        for (std::size_t k = i + 1; k < runs.size() && runs[k].script != 0; ++k)
+            if (is_other(k)) return true;
+        return false;
+    }
+
+    void add_fraction(const Run& run) {
+        const double small = smaller(kFractionSize), gap = kClearance * size_, axis = -kMathAxis * size_;
+        SetLabel above = set_label(run.over, small, letters_), below = set_label(run.under, small, letters_);
+        const double x = label_.width, wide = std::max(above.width, below.width) + 2 * gap;
+        label_.rules.push_back({{x + gap / 2, axis}, {x + wide - gap / 2, axis}});
+        const Vec2 up{x + (wide - above.width) / 2, axis - gap - above.descent},
+            down{x + (wide - below.width) / 2, axis + gap + below.ascent};
+        take_over(std::move(above), up);
+        take_over(std::move(below), down);
+        end_base(x + wide);
+    }
+
+    void add_root(const Run& run) {
+        const double gap = kClearance * size_, sign = kRootSign * size_;
+        SetLabel inside = set_label(run.over, size_, letters_);
+        const double x = label_.width + (label_.width > 0 ? gap : 0);  // it begins low, where what is before it may end
+        const double top = -inside.ascent - gap, end = x + sign + inside.width;
+        label_.rules.push_back({{x, -0.3 * size_},
+                                {x + 0.3 * sign, -0.36 * size_},
+                                {x + 0.6 * sign, inside.descent},
+                                {x + sign, top},
+                                {end, top}});
+        take_over(std::move(inside), {x + sign, 0});
+        label_.ascent = std::max(label_.ascent, gap - top);
+        end_base(end + gap / 2);
+    }
+
+    // A part whose baseline begins here.
+    void take_over(SetLabel part, Vec2 at) {
+        for (SetRun& run : part.runs) {
+            run.x += at.x, run.y += at.y;
+            label_.runs.push_back(std::move(run));
+        }
+        for (std::vector<Vec2>& rule : part.rules) {
+            for (Vec2& p : rule) p += at;
+            label_.rules.push_back(std::move(rule));
+        }
+        label_.smallest_letter = std::min(label_.smallest_letter, part.smallest_letter);
+        label_.ascent = std::max(label_.ascent, part.ascent - at.y);
+        label_.descent = std::max(label_.descent, part.descent + at.y);
+    }
+    void end_base(double x) {
+        label_.width = base_end_ = above_end_ = below_end_ = x;
+        base_is_italic_ = false;
+    }
+    double smaller(double share) const { return std::max(letters_.smallest, share * size_); }
+
+    double size_;
+    const LetterMetrics& letters_;
+    SetLabel label_;
+    double base_end_ = 0, above_end_ = 0, below_end_ = 0;  // of the last base and its scripts
+    bool base_is_italic_ = false;
+};
+
+}  // namespace
+
+SetLabel set_label(const std::vector<Run>& runs, double size, const LetterMetrics& letters) {
+    return LabelSetter(size, letters).set(runs);
+}
+
+}  // namespace beamcam::render

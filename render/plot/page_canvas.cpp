@@ -1,0 +1,280 @@
+#include "render/plot/page_canvas.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-ps.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <pango/pangocairo.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/base/error.hpp"
+#include "render/draw/canvas.hpp"
+#include "render/draw/font_handles.hpp"
+#include "render/draw/markup.hpp"
+#include "render/draw/surface.hpp"
+#include "render/plot/style.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+// Liberation Serif looks smaller than Liberation Sans; this brings the x-heights together.
+constexpr double kSymbolSize = 1.12;
+constexpr double kLetterTop = 0.76;     // of any letter, by its size: dots stand above
+constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistake, and 1 GB
+
+cairo_status_t collect(void* out, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+std::string xml(std::string_view text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+}  // namespace
+
+namespace {
+
+// By the name's and the file's own words; in comments of EPS lines end and are short.
+void describe_eps(cairo_surface_t* eps, const Document& d) {
+    const auto say = [&](const char* key, const std::string& text) {
+        constexpr std::size_t kLongestComment = 200;  // a line has 255 characters
+        std::string line;
+        for (const char c : text.substr(0, kLongestComment)) line += c >= ' ' && c <= '~' ? c : ' ';
+        if (!line.empty()) cairo_ps_surface_dsc_comment(eps, fmt::format("%%{}: {}", key, line).c_str());
+    };
+    say("Title", d.title);
+    say("For", d.creator);
+}
+
+void describe(cairo_surface_t* pdf, const Document& d) {
+    const auto say = [&](cairo_pdf_metadata_t key, const std::string& text) {
+        if (!text.empty()) cairo_pdf_surface_set_metadata(pdf, key, text.c_str());
+    };
+    say(CAIRO_PDF_METADATA_TITLE, d.title);
+    say(CAIRO_PDF_METADATA_SUBJECT, d.subject);
+    say(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
+    say(CAIRO_PDF_METADATA_CREATOR, d.creator);
+    const std::string when = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(d.created)));
+    say(CAIRO_PDF_METADATA_CREATE_DATE, when);
+    say(CAIRO_PDF_METADATA_MOD_DATE, when);
+}
+
+}  // namespace
+
+PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
+    : medium_(medium), paper_(paper), document_(document), fonts_(fonts) {
+    if (paper.dark) recolor_ = on_dark;
+    const double scale = paper.dpi / kPointsPerInch;
+    const std::string what =
+        fmt::format("a figure of {:.4g} × {:.4g} mm", paper.width / points(1), paper.height / points(1));
+    if (!(paper.width > 0 && paper.height > 0 && std::max(paper.width, paper.height) * scale <= kLargestSide))
+        throw PictureError(
+            fmt::format("{} at {:g} dpi cannot be drawn; its sides must be positive and at most {:g} pixels", what,
+                        paper.dpi, kLargestSide));
+    double unit = 1;  // device units of a point
+    if (medium == Medium::png) {
+        // At least a pixel, and never less than the page.
+        image_ = Image(static_cast<int>(std::ceil(paper.width * scale - 1e-6)),
+                       static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
+        unit = scale;
+        begin(surface_of(image_), what);
+    } else if (medium == Medium::eps) {
+        begin(cairo_ps_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
+        cairo_ps_surface_set_eps(cairo_get_target(cr_), 1);
+        describe_eps(cairo_get_target(cr_), document);
+    } else if (medium == Medium::pdf) {
+        begin(cairo_pdf_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
+        describe(cairo_get_target(cr_), document);
+    } else {
+        unit = kMillimetresPerInch / kPointsPerInch;
+        begin(cairo_svg_surface_create_for_stream(collect, &stream_, paper.width * unit, paper.height * unit), what);
+        cairo_svg_surface_set_document_unit(cairo_get_target(cr_), CAIRO_SVG_UNIT_MM);
+    }
+    cairo_scale(cr_, unit, unit);
+    use(rgb(0xFFFFFF));
+    cairo_paint(cr_);
+}
+PageCanvas::~PageCanvas() noexcept(false) { end(); }
+
+// A quarter of a pixel, or of the 1/600 inch of a good printer.
+double PageCanvas::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? paper_.dpi : 600)); }
+
+void PageCanvas::curve(std::span<const Vec2> points, const Pen& pen) {
+    // To fill pixels, Cairo carries every edge of a path along from row to row: a long one goes in pieces, whose round
+    // ends are the joins. A file keeps the path as it is.
+    constexpr std::size_t kLongPath = 10'000, kPointsOfAPiece = 128;  // points
+    if (medium_ != Medium::png || points.size() <= kLongPath || !pen.dash.empty()) {
+        polyline(points);
+        return stroke(pen);
+    }
+    const Pen part{pen.color, pen.width, {}, Cap::round};
+    for (std::size_t from = 0; from + 1 < points.size(); from += kPointsOfAPiece - 1) {
+        polyline(points.subspan(from, std::min(kPointsOfAPiece, points.size() - from)));
+        stroke(part);
+    }
+}
+
+void PageCanvas::gradient(const Box& box, std::span<const Color> colors) {
+    cairo_pattern_t* pattern = cairo_pattern_create_linear(0, box.bottom(), 0, box.y);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const Color color = shown(colors[i]);
+        cairo_pattern_add_color_stop_rgb(pattern, static_cast<double>(i) / static_cast<double>(colors.size() - 1),
+                                         color.r, color.g, color.b);
+    }
+    cairo_set_source(cr_, pattern);
+    rectangle(box);
+    cairo_fill(cr_);
+    cairo_pattern_destroy(pattern);
+}
+
+// ---- letters -------------------------------------------------------------------------------------
+
+namespace {
+
+LetterFace face_of(const Run& run, const TextStyle& style, double size, const Fonts& fonts) {
+    const bool all_serif = fonts.typefaces() == Typefaces::serif, serif = run.symbol || all_serif;
+    return {.family = serif ? "Liberation Serif,Droid Sans Fallback" : "Liberation Sans,Droid Sans Fallback",
+            .size = (run.symbol && !all_serif ? kSymbolSize : 1) * size,
+            .weight = run.bold ? Weight::bold : style.weight,
+            .italic = run.symbol};
+}
+
+PangoLayout* layout_of(const Run& run, const TextStyle& style, double size, const Fonts& fonts) {
+    PangoLayout* layout = laid_out(fonts, face_of(run, style, size, fonts), escape(run.text));
+    if (pango_layout_get_unknown_glyphs_count(layout) > 0) throw FontError(missing_glyphs(run.text));
+    return layout;
+}
+
+}  // namespace
+
+SetLabel PageCanvas::set(std::string_view markup, const TextStyle& style) const {
+    const auto extent = [&](const Run& run, double size) -> LetterMetrics::Extent {
+        PangoRectangle logical;
+        pango_layout_get_extents(layout_of(run, style, size, fonts_), nullptr, &logical);
+        return {static_cast<double>(logical.width) / PANGO_SCALE, kLetterTop * size};
+    };
+    return set_label(parse_markup(markup), style.size, {extent, cap_height(1), kSmallestLetter});
+}
+
+void PageCanvas::write(const SetRun& set, Vec2 at, const TextStyle& style) {
+    if (medium_ == Medium::svg && document_.editable) return add_text(set, at, style);
+    PangoLayout* letters = layout_of(set.run, style, set.size, fonts_);
+    cairo_move_to(cr_, at.x, at.y - static_cast<double>(pango_layout_get_baseline(letters)) / PANGO_SCALE);
+    pango_cairo_show_layout(cr_, letters);
+    new_path();
+}
+
+// An element of SVG; it stands behind everything that is drawn.
+void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
+    cairo_user_to_device(cr_, &at.x, &at.y);
+    cairo_matrix_t matrix;
+    cairo_get_matrix(cr_, &matrix);
+    const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
+    const bool symbol = set.run.symbol;
+    const LetterFace letters = face_of(set.run, style, set.size, fonts_);
+    texts_ += fmt::format(
+        R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="{}" xml:space="preserve">{}</text>)svg"
+        "\n",
+        at.x, at.y, turned * 180 / std::numbers::pi,
+        symbol || serif() ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
+        letters.size * scale, symbol ? R"( font-style="italic")" : "",
+        letters.weight == Weight::bold ? R"( font-weight="bold")" : "", hex(shown(style.color)), xml(set.run.text));
+}
+
+Box PageCanvas::measure(std::string_view markup, const TextStyle& style) const {
+    const SetLabel label = set(markup, style);
+    return {0, -label.ascent, label.width, label.ascent + label.descent};
+}
+
+Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
+    const SetLabel label = set(markup, style);
+    double dx = 0, dy = 0;
+    if (style.align == HAlign::centre) dx = -label.width / 2;
+    if (style.align == HAlign::right) dx = -label.width;
+    if (style.valign == VAlign::top) dy = label.ascent;
+    if (style.valign == VAlign::middle) dy = cap_height(style.size) / 2;
+    if (style.valign == VAlign::bottom) dy = -label.descent;
+    cairo_save(cr_);
+    cairo_translate(cr_, at.x, at.y);
+    cairo_rotate(cr_, -style.turned);
+    use(style.color);
+    // Where Cairo's numbers, of 1/256 of a unit, let it begin: letters of one label keep their distances.
+    cairo_move_to(cr_, dx, dy);
+    cairo_get_current_point(cr_, &dx, &dy);
+    new_path();
+    set_down(label, {dx, dy}, style.size, style.color, [&](const SetRun& run, Vec2 p) { write(run, p, style); });
+    cairo_restore(cr_);
+
+    // The corners turned, and the box around them.
+    Bounds around;
+    for (const double x : {dx, dx + label.width})
+        for (const double y : {dy - label.ascent, dy + label.descent})
+            around.add({at.x + x * std::cos(style.turned) + y * std::sin(style.turned),
+                        at.y - x * std::sin(style.turned) + y * std::cos(style.turned)});
+    const Box box = around.box();
+    if (!label.runs.empty()) written.push_back({box, label.smallest_letter, std::string(markup)});
+    return box;
+}
+
+namespace {
+
+// Cairo writes the clock's.
+std::string with_date(std::string eps, std::int64_t created) {
+    const std::string key = "%%CreationDate: ";
+    const std::size_t at = eps.find(key), end = eps.find('\n', at);
+    if (at == std::string::npos || end == std::string::npos) return eps;
+    return eps.replace(at + key.size(), end - at - key.size(),
+                       fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(created))));
+}
+
+}  // namespace
+
+// ---- the end -------------------------------------------------------------------------------------
+
+Image PageCanvas::image() {
+    end();
+    return std::move(image_);
+}
+
+std::string PageCanvas::bytes() {
+    cairo_show_page(cr_);
+    end();
+    std::string file = std::move(stream_);
+    if (medium_ == Medium::eps) return with_date(std::move(file), document_.created);
+    if (medium_ != Medium::svg) return file;
+    // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.
+    if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
+        const std::size_t number = id + 14;
+        file.erase(number, file.find('"', number) - number);
+    }
+    // Cairo says nothing about an SVG's content; it goes behind the opening tag.
+    const std::size_t tag = file.find("<svg"), end = file.find('>', tag);
+    if (end == std::string::npos) return file;
+    file.insert(end + 1, fmt::format("\n<title>{}</title>\n<desc>{}</desc>\n<metadata>\n<creator>{}</creator>\n"
+                                     "<scene>{}</scene>\n</metadata>",
+                                     xml(document_.title), xml(document_.subject), xml(document_.creator),
+                                     xml(document_.scene)));
+    if (const std::size_t last = file.rfind("</svg>"); last != std::string::npos) file.insert(last, texts_);
+    return file;
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,96 @@
+// Where the runs of a label stand, in letters as wide as half their size.
+#include "render/draw/label.hpp"
+
+#include <gtest/gtest.h>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kSize = 10;
+
+SetLabel set(std::string_view markup, double smallest = 0) {
+    const LetterMetrics letters{[](const render::Run& run, double size) -> LetterMetrics::Extent {
+                                    return {0.5 * size * static_cast<double>(run.text.size()), 0.7 * size};
+                                },
+                                0.7, smallest};
+    return set_label(parse_markup(markup), kSize, letters);
+}
+
+TEST(Label, TextIsAsWideAsItsLetters) {
+    const SetLabel label = set("abc");
+    EXPECT_DOUBLE_EQ(label.width, 15);
+    EXPECT_DOUBLE_EQ(label.ascent, 7);
+    EXPECT_DOUBLE_EQ(label.descent, 0);
+    EXPECT_DOUBLE_EQ(label.smallest_letter, kSize);
+}
+
+TEST(Label, ScriptsStandBehindTheirBase) {
+    const SetLabel label = set("1^{22}");
+    ASSERT_EQ(label.runs.size(), 2u);
+    EXPECT_DOUBLE_EQ(label.runs[1].x, 5);
+    EXPECT_DOUBLE_EQ(label.runs[1].y, -3.6);
+    EXPECT_DOUBLE_EQ(label.runs[1].size, 7.2);
+    EXPECT_DOUBLE_EQ(label.width, 5 + 7.2);
+    EXPECT_DOUBLE_EQ(set("1^{22}", 9).runs[1].size, 9);  // no letter is smaller
+}
+
+// Above each other and further apart than one alone; the wider one counts.
+TEST(Label, ScriptsOfOneBaseStandAboveEachOther) {
+    for (const char* markup : {"1_{2}^{33}", "1^{33}_{2}"}) {
+        const SetLabel label = set(markup);
+        ASSERT_EQ(label.runs.size(), 3u) << markup;
+        EXPECT_DOUBLE_EQ(label.runs[1].x, 5);
+        EXPECT_DOUBLE_EQ(label.runs[2].x, 5);
+        EXPECT_DOUBLE_EQ(std::min(label.runs[1].y, label.runs[2].y), -4.2);
+        EXPECT_DOUBLE_EQ(std::max(label.runs[1].y, label.runs[2].y), 2.4);
+        EXPECT_DOUBLE_EQ(label.width, 5 + 7.2);
+    }
+    // A superscript of two runs, one of them italic, keeps to one height, and what follows to the end of both.
+    const SetLabel mixed = set("$2^{n+1}_3$4");
+    ASSERT_EQ(mixed.runs.size(), 5u);
+    EXPECT_DOUBLE_EQ(mixed.runs[1].y, -4.2);
+    EXPECT_DOUBLE_EQ(mixed.runs[2].y, -4.2);
+    EXPECT_DOUBLE_EQ(mixed.runs[2].x, 5 + 3.6);
+    EXPECT_DOUBLE_EQ(mixed.runs[3].x, 5);
+    EXPECT_DOUBLE_EQ(mixed.runs[4].x, 5 + 3 * 3.6);
+}
+
+// An upright superscript, before or behind a subscript.
+TEST(Label, SuperscriptsLeanAwayFromItalicLetters) {
+    EXPECT_DOUBLE_EQ(set("$x^2$").runs[1].x, 5 + 0.8);
+    EXPECT_DOUBLE_EQ(set("$x^2_1$").runs[1].x, 5 + 0.8);
+    EXPECT_DOUBLE_EQ(set("$x_1^2$").runs[2].x, 5 + 0.8);
+    EXPECT_DOUBLE_EQ(set("$x_1^2$").runs[1].x, 5);
+    EXPECT_DOUBLE_EQ(set("$x^n$").runs[1].x, 5);
+    EXPECT_DOUBLE_EQ(set("$x$)").runs[1].x, 5 + 0.3);
+}
+
+// As wide as the wider of its parts and a gap on either side; the line lies between them.
+TEST(Label, FractionsHaveALineBetweenTheirParts) {
+    const SetLabel label = set("$\\frac{1}{234}$");
+    ASSERT_EQ(label.runs.size(), 2u);
+    ASSERT_EQ(label.rules.size(), 1u);
+    EXPECT_NEAR(label.width, 3 * 3.2 + 2 * 0.9, 1e-12);
+    EXPECT_NEAR(label.runs[0].x + label.runs[0].advance / 2, label.width / 2, 1e-12);
+    const double line = label.rules[0].front().y;
+    EXPECT_NEAR(line, -2.7, 1e-12);
+    EXPECT_NEAR(line - label.runs[0].y, 0.9, 1e-12);                             // below the upper part's baseline
+    EXPECT_NEAR(label.runs[1].y - 0.7 * label.runs[1].size - line, 0.9, 1e-12);  // above the lower part's capitals
+    EXPECT_NEAR(label.ascent, -label.runs[0].y + 0.7 * 6.4, 1e-12);
+    EXPECT_NEAR(label.descent, label.runs[1].y, 1e-12);
+}
+
+TEST(Label, RootsCoverWhatIsInside) {
+    const SetLabel label = set("$\\sqrt{\\frac{1}{2}}$"), inside = set("$\\frac{1}{2}$");
+    ASSERT_EQ(label.rules.size(), 2u);
+    const std::vector<Vec2>& sign = label.rules.front();
+    EXPECT_NEAR(sign.back().x - sign[3].x, inside.width, 1e-12);
+    EXPECT_NEAR(sign.back().y, -inside.ascent - 0.9, 1e-12);
+    EXPECT_NEAR(sign[2].y, inside.descent, 1e-12);
+    EXPECT_GT(label.ascent, -sign.back().y);
+    // Behind a fraction it begins further on: their lines do not touch.
+    EXPECT_NEAR(set("$\\frac{1}{2}\\sqrt{3}$").width, inside.width + set("$\\sqrt{3}$").width + 0.9, 1e-12);
+}
+
+}  // namespace
+}  // namespace beamcam::render
