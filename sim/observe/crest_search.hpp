@@ -79,7 +79,8 @@ void sign_changes(const F& f, const Variation& variation, double rounding, const
     if (std::min(a.value, b.value) > stray || std::max(a.value, b.value) < -stray) return;
     const bool monotone = std::fabs(b.value - a.value) > length * variation.slope_strays(length);
     if (monotone || stray <= rounding || !(t > a.t && t < b.t)) {
-        if ((a.value > 0) != (b.value > 0)) found(a, b);
+        // Where the beam bends beyond its model, a step may have an end but no values within.
+        if (std::isfinite(a.value) && std::isfinite(b.value) && (a.value > 0) != (b.value > 0)) found(a, b);
         return;
     }
     const TimedValue m{t, f(t)};
