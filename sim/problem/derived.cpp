@@ -24,7 +24,7 @@ double contact_stiffness(const Problem& problem) {
     return 4.0 / 3.0 / compliance * std::sqrt(cam.radius);  // (S29)
 }
 
-// 20 ms of a beam of 1 m that falls on Earth; without gravity as if it did.
+// Auto: 20 ms for a beam of 1 m that falls on Earth; without gravity as if it did.
 double collision_gap(const Problem& problem) {
     constexpr double kEarth = 9.81;  // [m/s²]
     const double g = problem.gravity == 0 ? kEarth : std::fabs(problem.gravity);

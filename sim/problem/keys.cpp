@@ -152,7 +152,7 @@ static void visit(Visitor& v, Contact& contact) {
              "Dissipation laws divide by the approach speed of a touch; this replaces a tiny one.");
     v.number(
         "collision_gap", contact.collision_gap, dim::kTime, kNotNegative,
-        "Impacts closer in time than this form one collision. auto: 20 ms of a beam of 1 m, of others in proportion "
+        "Impacts closer in time than this form one collision. auto: for a beam of 1 m 20 ms, for others in proportion "
         "to √(L/g), the time of a fall.",
         "auto");
 }

@@ -131,7 +131,7 @@ struct Contact {
     Friction friction;
     std::optional<double> offset = 0.0;  // d [m], >= 0, of the contact face; absent: "half-depth"
     ApproachFloor approach_floor;
-    std::optional<double> collision_gap;  // [s]: impacts closer than this form one collision; absent: "auto"
+    std::optional<double> collision_gap = 0.02;  // [s]: impacts closer than this form one collision; absent: "auto"
 };
 
 // ---- initial state, solver -------------------------------------------------------------------

@@ -321,6 +321,7 @@ TEST_P(PropertyOfProblems, ScaledLengthMassAndTimeScaleTheMotion) {
             s.cam->speed /= t;
             s.contact.stiffness = *p.contact.stiffness * force / std::pow(l, p.contact.exponent);
             s.contact.approach_floor.value *= speed;
+            *s.contact.collision_gap *= t;
             if (const auto* coulomb = std::get_if<CoulombFriction>(&p.contact.friction))
                 s.contact.friction = CoulombFriction{coulomb->coefficient, coulomb->slip_speed * speed};
             if (const auto* torque = std::get_if<ConstantTorque>(&p.hub.drive))
