@@ -30,7 +30,7 @@ FileIdentity identity_of(const fs::path& file) {
 }
 
 // Which of the versions stands there; null when it is none.
-const MadeFile* standing(const fs::path& file, const std::vector<MadeFile>& versions) {
+const FileRecord* standing(const fs::path& file, const std::vector<FileRecord>& versions) {
     const FileIdentity there = identity_of(file);
     std::string digest;
     for (auto made = versions.rbegin(); made != versions.rend(); ++made) {
@@ -47,10 +47,10 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, unreadable);
 }
 
-MadeFiles read_manifest(const fs::path& directory) {
+FileRecords read_manifest(const fs::path& directory) {
     const fs::path manifest = directory / Manifest::kFileName;
-    if (!is_there(manifest) || !is_file(manifest)) return {};
-    return parse_manifest(read_file(manifest)).value_or(MadeFiles{});
+    if (!path_exists(manifest) || !is_file(manifest)) return {};
+    return parse_manifest(read_file(manifest)).value_or(FileRecords{});
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ Manifest::Versions& Manifest::known_in(const fs::path& directory) {
     return *known;
 }
 
-const MadeFile* Manifest::known(const fs::path& file) {
+const FileRecord* Manifest::known(const fs::path& file) {
     const Versions& all = known_in(directory_of(file));
     const auto versions = all.find(file.filename().string());
     return versions == all.end() ? nullptr : standing(file, versions->second);
@@ -97,7 +97,7 @@ void Manifest::require_replaceable(const fs::path& file) {
 }
 
 void Manifest::require_own(const fs::path& file) {
-    if (force_ || !is_there(file) || !is_file(file)) return;  // AtomicFile refuses what is no file
+    if (force_ || !path_exists(file) || !is_file(file)) return;  // AtomicFile refuses what is no file
     if (known(file)) return;
     Directory& directory = directories_[directory_of(file)];
     directory.known = load(directory_of(file));  // another run may have made it meanwhile
@@ -108,10 +108,10 @@ void Manifest::require_own(const fs::path& file) {
                          "; move it, choose another name, or replace it with --force");
 }
 
-bool Manifest::is_made_from(const fs::path& file, const std::string& inputs) {
+bool Manifest::is_up_to_date(const fs::path& file, const std::string& inputs) {
     if (inputs.empty() || !is_file(file)) return false;
     const std::lock_guard lock(mutex_);
-    const MadeFile* made = known(file);
+    const FileRecord* made = known(file);
     return made != nullptr && made->origin.inputs == inputs;
 }
 
@@ -119,7 +119,7 @@ std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
     const Versions known = load(directory_of(file));
     const auto versions = known.find(file.filename().string());
     if (versions == known.end()) return std::nullopt;
-    const MadeFile* made = standing(file, versions->second);
+    const FileRecord* made = standing(file, versions->second);
     return Entry{made ? *made : versions->second.back(), made != nullptr};
 }
 
@@ -139,7 +139,7 @@ Target Manifest::target(const fs::path& file, Origin origin) {
     };
     target.before_rename = [this, file, origin = std::move(origin)](const fs::path& temporary) {
         const FileIdentity identity = identity_of(temporary);
-        const MadeFile made{sha256_of_file(temporary), identity.size, origin, identity.stamp};
+        const FileRecord made{sha256_of_file(temporary), identity.size, origin, identity.stamp};
         const std::string name = file.filename().string();
         const std::lock_guard lock(mutex_);
         require_own(file);  // the user may have put one there meanwhile
@@ -172,10 +172,10 @@ void Manifest::settle(const fs::path& directory, std::unique_ptr<Journal>& own) 
     std::vector<fs::path> abandoned;
     for (const fs::path& journal : journals_in(directory))
         if (is_abandoned(journal)) abandoned.push_back(journal);
-    MadeFiles files;
+    FileRecords files;
     for (const auto& [name, versions] : load(directory)) {
         if (!is_file(directory / name)) continue;  // gone
-        const MadeFile* made = versions.size() > 1 ? standing(directory / name, versions) : nullptr;
+        const FileRecord* made = versions.size() > 1 ? standing(directory / name, versions) : nullptr;
         files[name] = made ? *made : versions.back();
     }
     if (files != read_manifest(directory)) {

@@ -40,7 +40,7 @@ class Manifest {
     void require_replaceable(const std::filesystem::path& file);
 
     // The file stands there, unchanged since it was made from these inputs.
-    bool is_made_from(const std::filesystem::path& file, const std::string& inputs);
+    bool is_up_to_date(const std::filesystem::path& file, const std::string& inputs);
 
     // Hand it to the writer of the file, from any thread: the file is recorded as it appears, and not put in the place
     // of one that is not beamcam's own. This object must outlive the writer.
@@ -52,14 +52,14 @@ class Manifest {
     void recover(const std::filesystem::path& directory);
 
     // What the manifest beside a file says of it; nothing when it is not listed.
-    struct Entry : MadeFile {
+    struct Entry : FileRecord {
         bool unchanged = true;
     };
     static std::optional<Entry> find(const std::filesystem::path& file);
 
   private:
     // All that a file of this name may be, the latest last: a run that was killed may or may not have replaced it.
-    using Versions = std::map<std::string, std::vector<MadeFile>>;
+    using Versions = std::map<std::string, std::vector<FileRecord>>;
     struct Directory {
         std::optional<Versions> known;  // as first read, and what this run has put there
         std::unique_ptr<Journal> journal;
@@ -69,7 +69,7 @@ class Manifest {
     static void settle(const std::filesystem::path& directory, std::unique_ptr<Journal>& own);
 
     Versions& known_in(const std::filesystem::path& directory);
-    const MadeFile* known(const std::filesystem::path& file);
+    const FileRecord* known(const std::filesystem::path& file);
     Journal& journal_in(const std::filesystem::path& directory);
     void require_own(const std::filesystem::path& file);
 

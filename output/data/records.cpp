@@ -130,7 +130,7 @@ void add_reproducibility(const sim::Result& result, Json& json) {
 
 constexpr const char* kManifestFormat = "beamcam manifest 1";
 
-Json json_of(const MadeFile& made) {
+Json json_of(const FileRecord& made) {
     Json entry = {{"sha256", made.sha256}, {"size", made.size}};
     const auto add = [&entry](const char* key, const std::string& text) {
         if (!text.empty()) entry[key] = text;
@@ -143,7 +143,7 @@ Json json_of(const MadeFile& made) {
 }
 
 // Nothing where it is not one.
-std::optional<MadeFile> made_file_of(const Json& entry) {
+std::optional<FileRecord> file_record_of(const Json& entry) {
     if (!entry.is_object()) return {};
     const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
     if (!digest.is_string() || !size.is_number_unsigned()) return {};
@@ -151,8 +151,8 @@ std::optional<MadeFile> made_file_of(const Json& entry) {
         const Json value = entry.value(key, Json());
         return value.is_string() ? value.get<std::string>() : std::string();
     };
-    return MadeFile{digest.get<std::string>(), size.get<std::uintmax_t>(),
-                    Origin{text("inputs"), text("version"), text("scene")}, text("stamp")};
+    return FileRecord{digest.get<std::string>(), size.get<std::uintmax_t>(),
+                      Origin{text("inputs"), text("version"), text("scene")}, text("stamp")};
 }
 
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -337,7 +337,7 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
     return text_of({{"plates", std::move(plates)}, {"cases", std::move(cases)}});
 }
 
-std::string manifest_json(const MadeFiles& files) {
+std::string manifest_json(const FileRecords& files) {
     Json json;
     json["format"] = kManifestFormat;
     json["files"] = Json::object();
@@ -345,14 +345,14 @@ std::string manifest_json(const MadeFiles& files) {
     return text_of(json);
 }
 
-std::optional<MadeFiles> parse_manifest(const std::string& text) {
+std::optional<FileRecords> parse_manifest(const std::string& text) {
     const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (!json.is_object() || json.value("format", Json()) != kManifestFormat) return {};
     const Json entries = json.value("files", Json());
     if (!entries.is_object()) return {};
-    MadeFiles files;
+    FileRecords files;
     for (const auto& item : entries.items()) {
-        const auto made = made_file_of(item.value());
+        const auto made = file_record_of(item.value());
         if (!made) return {};
         files[item.key()] = *made;
     }
@@ -361,7 +361,7 @@ std::optional<MadeFiles> parse_manifest(const std::string& text) {
 
 std::string journal_line(const std::string& temporary) { return line_of({{"temporary", temporary}}); }
 
-std::string journal_line(const std::string& name, const MadeFile& made) {
+std::string journal_line(const std::string& name, const FileRecord& made) {
     return line_of({{"name", name}, {"made", json_of(made)}});
 }
 
@@ -374,7 +374,7 @@ JournalLines parse_journal(const std::string& text) {
         const Json temporary = json.value("temporary", Json()), name = json.value("name", Json());
         if (temporary.is_string()) all.temporaries.push_back(temporary.get<std::string>());
         if (!name.is_string()) continue;
-        if (const auto made = made_file_of(json.value("made", Json())))
+        if (const auto made = file_record_of(json.value("made", Json())))
             all.placed.emplace_back(name.get<std::string>(), *made);
     }
     return all;

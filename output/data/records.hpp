@@ -54,28 +54,28 @@ struct Origin {
 };
 
 // What beamcam knows of a file it made.
-struct MadeFile {
+struct FileRecord {
     std::string sha256;
     std::uintmax_t size = 0;  // [bytes]
     Origin origin;
     std::string stamp;  // of the file system, as long as nobody touched it; spares reading it; empty: not known
-    bool operator==(const MadeFile&) const = default;
+    bool operator==(const FileRecord&) const = default;
 };
-using MadeFiles = std::map<std::string, MadeFile>;  // by file name, without directory
+using FileRecords = std::map<std::string, FileRecord>;  // by file name, without directory
 
 // {"plates": […], "cases": [{"plate", "row", "column", "variant", "outcome", "closure", "steps_per_second", …}, …]}
 std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
-std::string manifest_json(const MadeFiles& files);
+std::string manifest_json(const FileRecords& files);
 // Nothing where the text is not a manifest.
-std::optional<MadeFiles> parse_manifest(const std::string& text);
+std::optional<FileRecords> parse_manifest(const std::string& text);
 
 // Lines of a journal: a temporary file that is about to be created, and a file that is about to be put in its place.
 std::string journal_line(const std::string& temporary);
-std::string journal_line(const std::string& name, const MadeFile& made);
+std::string journal_line(const std::string& name, const FileRecord& made);
 struct JournalLines {
     std::vector<std::string> temporaries;
-    std::vector<std::pair<std::string, MadeFile>> placed;  // by file name, in the order of the text
+    std::vector<std::pair<std::string, FileRecord>> placed;  // by file name, in the order of the text
 };
 // Leaves out lines that are cut off.
 JournalLines parse_journal(const std::string& text);

@@ -157,7 +157,7 @@ void require_within(const fs::path& file, const fs::path& folder) {
     require_below(file, real, folder);
 }
 
-bool is_there(const fs::path& file) {
+bool path_exists(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (status.type() == fs::file_type::none) throw read_error(file, error.value());

@@ -56,7 +56,7 @@ void write_file(const Target& target, std::string_view bytes, Durability durabil
 void require_within(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 // Whether there is anything at `file`, links followed. Throws IoError when that cannot be known, as without permission.
-bool is_there(const std::filesystem::path& file);
+bool path_exists(const std::filesystem::path& file);
 
 // Creates the directory and those above it. Throws IoError.
 void ensure_directory(const std::filesystem::path& directory);

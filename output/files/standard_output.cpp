@@ -22,7 +22,7 @@ void print_data(std::string_view text) {
 void print_text(std::string_view text) { print_data(visible(text)); }
 void print_json(std::string_view text) { print_data(escaped_json(text)); }
 
-void print_message(std::string_view text) noexcept try {
+void write_message(std::string_view text) noexcept try {
     const std::string shown = visible(text);
     [[maybe_unused]] const std::size_t written = std::fwrite(shown.data(), 1, shown.size(), stderr);
 } catch (const std::bad_alloc&) {

@@ -17,10 +17,10 @@ void print_json(std::string_view text);  // for programs and people: as `escaped
 void flush_data();
 
 // For people, as print_text. A full disk or a reader that has gone does not end the work: nobody is left to read it.
-void print_message(std::string_view text) noexcept;
+void write_message(std::string_view text) noexcept;
 template <typename... Values>
-void tell(fmt::format_string<Values...> words, Values&&... values) {
-    print_message(fmt::format(words, std::forward<Values>(values)...));
+void print_message(fmt::format_string<Values...> text, Values&&... values) {
+    write_message(fmt::format(text, std::forward<Values>(values)...));
 }
 
 }  // namespace beamcam::output

@@ -108,7 +108,7 @@ bool PictureSource::next(Raster& picture, std::string& name) {
     if (film_) {
         if (!film_->next(picture)) return false;
         name = path_.string();
-        if (!film_->facts().is_still()) name.append(1, '#').append(std::to_string(next_++));
+        if (!film_->info().is_still()) name.append(1, '#').append(std::to_string(next_++));
         return true;
     }
     if (next_ == files_.size()) return false;

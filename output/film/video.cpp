@@ -60,7 +60,7 @@ bool has_memory_for_svt_av1(int width, int height) {
 
 }  // namespace
 
-void quiet_encoders() { setenv("SVT_LOG", "1", 0); }
+void silence_encoder_logs() { setenv("SVT_LOG", "1", 0); }
 
 FrameRate frame_rate(double fps) {
     if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);

@@ -23,7 +23,7 @@
 namespace beamcam::output {
 
 // Encoders tell errors alone on stderr from now on, unless the environment says otherwise. Before any thread starts.
-void quiet_encoders();
+void silence_encoder_logs();
 
 // Frames per second as films state it: 29.97 means 30000/1001.
 struct FrameRate {

@@ -72,7 +72,7 @@ class Encoder {
     virtual void finish() = 0;
 };
 
-struct VideoFacts {
+struct VideoInfo {
     int width = 0, height = 0;  // [px]
     long frames = 0;            // as the file says; 0: it does not
     double seconds = 0;         // as the file says; 0: it does not
@@ -85,7 +85,7 @@ struct VideoFacts {
 class Decoder {
   public:
     virtual ~Decoder() = default;
-    virtual const VideoFacts& facts() const = 0;
+    virtual const VideoInfo& info() const = 0;
     // The next picture as 4·width·height bytes R, G, B, A. False after the last one.
     virtual bool next(std::uint8_t* rgba) = 0;
 };

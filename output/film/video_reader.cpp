@@ -8,7 +8,7 @@ namespace beamcam::output {
 
 VideoReader::VideoReader(const std::filesystem::path& file)
     : file_(file), decoder_(video_library().open_decoder(file)) {
-    const VideoFacts& found = facts();
+    const VideoInfo& found = info();
     if (found.width <= kLargestSide && found.height <= kLargestSide) return;
     throw IoError("cannot read " + file.string() + ": " + std::to_string(found.width) + "x" +
                   std::to_string(found.height) + " pixels are more than the " + std::to_string(kLargestSide) + "x" +
@@ -16,20 +16,20 @@ VideoReader::VideoReader(const std::filesystem::path& file)
 }
 
 bool VideoReader::next(Raster& picture) {
-    picture.resize(facts().width, facts().height);
+    picture.resize(info().width, info().height);
     if (decoder_->next(picture.rgba.data())) {
         ++read_;
         return true;
     }
-    if (read_ == 0 || read_ < facts().frames)
+    if (read_ == 0 || read_ < info().frames)
         throw IoError("cannot read " + file_.string() + ": the film ends after " + std::to_string(read_) + " of its " +
-                      std::to_string(facts().frames) + " frames; make or copy it again");
+                      std::to_string(info().frames) + " frames; make or copy it again");
     return false;
 }
 
-VideoAbilities video_abilities() {
+VideoCapabilities video_capabilities() {
     const VideoLibrary& library = video_library();
-    VideoAbilities found{library.versions(), {}};
+    VideoCapabilities found{library.versions(), {}};
     const std::pair<const char*, std::vector<const char*>> wanted[] = {
         {"H.264 (libx264)", {"libx264"}},
         {"HEVC (libx265)", {"libx265"}},

@@ -20,7 +20,7 @@ class VideoReader {
     // Throws IoError, MissingCodec.
     explicit VideoReader(const std::filesystem::path& file);
 
-    const VideoFacts& facts() const { return decoder_->facts(); }
+    const VideoInfo& info() const { return decoder_->info(); }
     bool next(Raster& picture);  // false after the last; throws IoError
 
   private:
@@ -30,10 +30,10 @@ class VideoReader {
 };
 
 // What the FFmpeg libraries of this machine can do. Throws MissingCodec.
-struct VideoAbilities {
+struct VideoCapabilities {
     std::string versions;                  // "libavcodec 59.37.100, …"
     std::map<std::string, bool> encoders;  // of those that beamcam's outputs use
 };
-VideoAbilities video_abilities();
+VideoCapabilities video_capabilities();
 
 }  // namespace beamcam::output

@@ -46,13 +46,13 @@ class PngDecoder {
     PngDecoder(const PngDecoder&) = delete;
     PngDecoder& operator=(const PngDecoder&) = delete;
 
-    PngFacts facts() {
+    PngInfo info() {
         if (!guarded(&PngDecoder::read_header)) fail();
         png_textp text = nullptr;
         const int count = png_get_text(png_, info_, &text, nullptr);
-        PngFacts found{static_cast<int>(png_get_image_width(png_, info_)),
-                       static_cast<int>(png_get_image_height(png_, info_)),
-                       {}};
+        PngInfo found{static_cast<int>(png_get_image_width(png_, info_)),
+                      static_cast<int>(png_get_image_height(png_, info_)),
+                      {}};
         for (int i = 0; i < count; ++i) found.metadata[text[i].key] = text[i].text != nullptr ? text[i].text : "";
         return found;
     }
@@ -147,6 +147,6 @@ PngKind png_kind(const fs::path& file) {
 
 Raster read_png(const fs::path& file) { return PngDecoder(file, read_file(file)).pixels(); }
 
-PngFacts read_png_facts(const fs::path& file) { return PngDecoder(file, read_file(file)).facts(); }
+PngInfo read_png_info(const fs::path& file) { return PngDecoder(file, read_file(file)).info(); }
 
 }  // namespace beamcam::output

@@ -20,10 +20,10 @@ PngKind png_kind(const std::filesystem::path& file);
 Raster read_png(const std::filesystem::path& file);
 
 // What stands before the pixels; those are not decoded.
-struct PngFacts {
+struct PngInfo {
     int width = 0, height = 0;                    // [px]
     std::map<std::string, std::string> metadata;  // keyword → text (UTF-8)
 };
-PngFacts read_png_facts(const std::filesystem::path& file);
+PngInfo read_png_info(const std::filesystem::path& file);
 
 }  // namespace beamcam::output

@@ -17,7 +17,7 @@ int act(const CheckArguments& args) {
     bool fine = true;
     for (const std::string& path : args.scenes) {
         const Reading reading = read_scene(load_source(path), args.common.overrides);
-        output::tell("{}", reading.report());
+        output::print_message("{}", reading.report());
         if (reading.scene)
             say(args.common, fmt::format("{}: fine", path));
         else

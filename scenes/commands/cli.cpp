@@ -120,7 +120,7 @@ int parse_and_run(int argc, const char* const* argv) {
 }
 
 int fail(int code, const std::string& text) {
-    if (!text.empty()) output::tell("{}{}", text, text.ends_with('\n') ? "" : "\n");
+    if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
     return code;
 }
 
@@ -137,7 +137,7 @@ int command_line(int argc, const char* const* argv) {
         output::install_handlers();
         output::install_crash_handlers(kInputOutput);
         render::ignored_gl_settings();  // the environment may be changed while there is one thread
-        output::quiet_encoders();
+        output::silence_encoder_logs();
         return parse_and_run(argc, argv);
     } catch (const UsageError& e) {
         return fail(kUsage, fmt::format("beamcam: {}", e.what()));

@@ -38,13 +38,13 @@ void add_work(Command& app, Common& common) {
 }
 
 void say(const Common& common, const std::string& text) {
-    if (!common.quiet) output::tell("{}\n", text);
+    if (!common.quiet) output::print_message("{}\n", text);
 }
 
 Scene read_or_refuse(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
-    if (!common.quiet && !reading.messages.empty()) output::tell("{}", reading.report());
+    if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
     return std::move(*reading.scene);
 }
 

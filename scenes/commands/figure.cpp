@@ -130,7 +130,7 @@ FigureOutput with_keys(const FigureArguments& args, Scene scene) {
     if (!read_only_output(output_node(args), args.scene, "--", files, scene, messages))
         throw UsageError(std::ranges::find(messages, true, &Message::fatal)->text);
     for (const Message& warning : messages)
-        if (!args.common.quiet) output::tell("{}: warning: {}\n", args.scene, warning.text);
+        if (!args.common.quiet) output::print_message("{}: warning: {}\n", args.scene, warning.text);
     FigureOutput figure = std::get<FigureOutput>(scene.outputs.front());
     SeriesKeys& keys = figure.series;
     if (!keys.compare.empty()) keys.compare.front().problem = scene.problem;  // with what --set says of it

@@ -82,7 +82,7 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
         if (shown.size() != args.others.size() + 1) {
             picture.layout.reset();
             if (!args.common.quiet)
-                output::tell(
+                output::print_message(
                     "note: the layout in {} does not show {} motions; they stand in the standard arrangement\n",
                     args.scene, args.others.size() + 1);
         }

@@ -24,7 +24,7 @@ int act(const RunArguments& args) {
     std::vector<Scene> scenes;
     int code = kDone;
     const auto refuse = [&code](int why, const std::string& text) {
-        output::tell("{}", text);
+        output::print_message("{}", text);
         if (code == kDone) code = why;
     };
     for (const std::string& path : args.scenes) try {

@@ -73,7 +73,7 @@ void write_reports(const TestArguments& args, const RegressionResult& result, co
 void tell_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
     const char* actions = std::getenv("GITHUB_ACTIONS");
     if (args.annotate == "none" || (args.annotate == "auto" && !(actions && *actions))) return;
-    output::tell("{}", to_annotations(result, rule));
+    output::print_message("{}", to_annotations(result, rule));
     const char* summary = std::getenv("GITHUB_STEP_SUMMARY");
     if (!summary || !*summary) return;
     std::ofstream file(summary, std::ios::app);

@@ -154,9 +154,9 @@ void Motions::tell(const Group& group) const {
     const sim::Result& run = first.results.front();
     if (!options_.quiet)
         for (const std::string& warning : run.warnings)
-            output::tell("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
+            output::print_message("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
     if (options_.verbose && run.counters.steps > 0)
-        output::tell(
+        output::print_message(
             "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
             "{:.3g} J\n",
             first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
@@ -254,7 +254,7 @@ std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress&
     if (entry->commit(writer.reached(), writer.steps(), words_about(job.problem)))
         ++kept_;
     else if (options_.verbose)
-        output::tell("the motion was not kept for later runs: {}\n", entry->why());
+        output::print_message("the motion was not kept for later runs: {}\n", entry->why());
     return results;
 }
 

@@ -56,7 +56,7 @@ void make_motions(RunContext& context, const SceneRuns& all) {
         try {
             for (const auto& scene : all) scene->keep_partial_tables();
         } catch (const output::IoError& also) {
-            output::tell("beamcam: {}\n", also.what());  // the solver's failure is the one to report
+            output::print_message("beamcam: {}\n", also.what());  // the solver's failure is the one to report
         }
         throw;
     }
@@ -73,7 +73,7 @@ void make_motions(RunContext& context, const SceneRuns& all) {
 
 void report_times_and_work(const RunContext& context) {
     const Times& times = context.times;
-    output::tell(
+    output::print_message(
         "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
         "{:.2f} s, "
         "encoding {:.2f} s, other files {:.2f} s\n",
@@ -81,7 +81,7 @@ void report_times_and_work(const RunContext& context) {
         times.convert, times.encode, times.write);
     std::string text;
     for_each_count(context.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
-    output::tell("work:{}\n", text);
+    output::print_message("work:{}\n", text);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct RunContext {
     // A message, unless the run is quiet.
     template <class... Values>
     void say(fmt::format_string<Values...> words, Values&&... values) const {
-        if (!options.quiet) output::tell(words, std::forward<Values>(values)...);
+        if (!options.quiet) output::print_message(words, std::forward<Values>(values)...);
     }
 
     const RunOptions& options;

@@ -271,8 +271,8 @@ void SceneRun::attempt(std::size_t output, const std::function<void()>& work) {
 void SceneRun::refuse(std::size_t output, const std::string& why) {
     context_.progress.end();
     const bool listed = output < scene_.output_places.size();
-    output::tell("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
-                 file_of(scene_.outputs[output]), why);
+    output::print_message("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
+                          file_of(scene_.outputs[output]), why);
     ++context_.refused;
     refused_ = true;
 }

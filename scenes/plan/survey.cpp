@@ -47,7 +47,7 @@ class Surveyor {
     }
 
     bool is_there(const std::string& file, std::size_t output) {
-        return file != "-" && manifest_.is_made_from(place_of(directory_, file), found_.inputs[output]);
+        return file != "-" && manifest_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
     }
 
     void look_at_files() {

@@ -86,7 +86,7 @@ class Acceptor {
         for (std::size_t k = 0; k < found.sha256.size(); ++k)
             put(entry, found, k, fresh / picture_name(static_cast<long>(k)));
         for (const auto& [name, file] : marked_files(old).value_or(ReferenceFiles()))  // the motion
-            if (!name.ends_with(".png") && output::is_there(old / name))
+            if (!name.ends_with(".png") && output::path_exists(old / name))
                 output::write_file(fresh / name, output::read_file(old / name));
         take_motion(entry, found, fresh);
     }

@@ -114,7 +114,7 @@ Baselines read_recovered(const std::string& path) {
     if (path == "-") return baselines;
     const std::string told = ReferenceUpdate::recover(baselines.references);
     if (told.empty()) return baselines;
-    output::tell("{}: {}\n", path, told);
+    output::print_message("{}: {}\n", path, told);
     return read_baselines(path);
 }
 

@@ -75,7 +75,7 @@ void EntryMotion::judge_sweep(int threads, Progress& progress) {
     const MadeSweep made(entry_.scene, threads, progress);
     references_.read([&] {
         const fs::path kept = references_.folder / kSweepRecord;
-        if (!output::is_there(kept)) return miss("");
+        if (!output::path_exists(kept)) return miss("");
         take(compare_sweeps(output::read_table(kept), made.table(), tolerance_), "", {kSweepRecord});
     });
     const bool is_reported = report_.folder && result_.motion > Verdict::equivalent;

@@ -113,7 +113,7 @@ std::string EntryPictures::unaccepted_reference(long frame) const {
     for (const Accepted& accepted : entry_.accepted) names.push_back(picture_name(frame, accepted.renderer));
     for (const std::string& name : names) {
         const fs::path picture = references_.folder / name;
-        if (!output::is_there(picture)) continue;
+        if (!output::path_exists(picture)) continue;
         const ReferenceFile* file = references_.marked(name);
         const bool as_marked = file && output::sha256_of_file(picture) == file->sha256;
         if (!is_accepted(frame, as_marked ? file->pixels : output::digest(output::read_png(picture)))) return name;
@@ -123,12 +123,12 @@ std::string EntryPictures::unaccepted_reference(long frame) const {
 
 fs::path EntryPictures::reference_of(long frame) const {
     const fs::path own = references_.folder / picture_name(frame, renderer_);
-    return output::is_there(own) ? own : references_.folder / picture_name(frame);
+    return output::path_exists(own) ? own : references_.folder / picture_name(frame);
 }
 
 void EntryPictures::compare_with_reference(long frame, const output::Raster& actual, FrameResult& found) {
     const fs::path reference = reference_of(frame);
-    if (!output::is_there(reference)) return write_actual(frame, actual, found);
+    if (!output::path_exists(reference)) return write_actual(frame, actual, found);
     const output::Raster expected = output::read_png(reference);
     found.expected = reference;
     found.compared = true;

@@ -199,7 +199,7 @@ void write_record(const std::function<output::Target(const std::string& name)>& 
 }
 
 std::optional<MotionRecord> read_record(const fs::path& folder, const RecordNames& names) {
-    if (!output::is_there(folder / names.table) || !output::is_there(folder / names.impacts)) return std::nullopt;
+    if (!output::path_exists(folder / names.table) || !output::path_exists(folder / names.impacts)) return std::nullopt;
     MotionRecord record;
     record.table = output::read_table(folder / names.table);
     auto impacts = parse_impacts(output::read_file(folder / names.impacts));

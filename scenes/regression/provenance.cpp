@@ -62,9 +62,9 @@ void read_document(const output::DocumentMetadata& document, Provenance& p) {
     if (!document.subject.empty()) p.facts["subject"] = document.subject;
 }
 
-void read_png_facts(const std::string& file, Provenance& p) {
+void read_png_info(const std::string& file, Provenance& p) {
     p.kind = "PNG picture";
-    const output::PngFacts facts = output::read_png_facts(file);
+    const output::PngInfo facts = output::read_png_info(file);
     p.facts["size"] = fmt::format("{}x{}", facts.width, facts.height);
     read_own_keys(facts.metadata, p);
 }
@@ -73,7 +73,7 @@ void read_manifest(const std::string& file, Provenance& p);
 
 void read_film(const std::string& file, Provenance& p) {
     const output::VideoReader film(file);
-    const output::VideoFacts& facts = film.facts();
+    const output::VideoInfo& facts = film.info();
     p.kind = facts.is_still() ? "picture" : "film";
     p.facts["size"] = fmt::format("{}x{}", facts.width, facts.height);
     p.facts["codec"] = facts.codec;
@@ -129,7 +129,7 @@ void examine_films(std::vector<Check>& checks) {
     examine(checks, "films", "FFmpeg",
             "install the Debian packages libavcodec59, libavformat59, libswscale6 (or newer)", [&] {
                 lines.str(in_child([&] {
-                    const output::VideoAbilities abilities = output::video_abilities();
+                    const output::VideoCapabilities abilities = output::video_capabilities();
                     std::string text = abilities.versions + "\n";
                     for (const auto& [name, there] : abilities.encoders)
                         text += fmt::format("{}\n{}\n", name, there ? found : "not in these libraries");
@@ -155,7 +155,7 @@ Provenance provenance_of(const std::string& file) {
     p.file = file;
     const std::string ending = lower_ending(file);
     if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
-        read_png_facts(file, p);
+        read_png_info(file, p);
     } else if (ending == ".svg") {
         p.kind = "SVG figure";
         read_document(output::read_svg_metadata(file), p);

@@ -26,7 +26,7 @@ constexpr const char *kTasks = "tasks", *kText = "baselines.json", *kNew = "new"
 
 // Empty when there is no file.
 std::string digest_of(const fs::path& file) {
-    return output::is_there(file) ? output::sha256_of_file(file) : std::string();
+    return output::path_exists(file) ? output::sha256_of_file(file) : std::string();
 }
 
 void remove_file(const fs::path& file) {
@@ -137,7 +137,7 @@ class Carrier {
     // They come first: as long as their new text is in the staging folder, no reference is changed.
     void write_baselines() {
         const fs::path text = staging_ / kText;
-        if (!output::is_there(text)) return;
+        if (!output::path_exists(text)) return;
         const std::string now = digest_of(baselines_);
         if (now != tasks_.before && now != tasks_.after) give_up(baselines_);
         if (now != tasks_.after) {
@@ -194,7 +194,7 @@ void remove_staging(const fs::path& staging) {
 }  // namespace
 
 std::optional<ReferenceFiles> marked_files(const fs::path& folder) {
-    if (!output::is_there(folder / kMarker)) return std::nullopt;
+    if (!output::path_exists(folder / kMarker)) return std::nullopt;
     ReferenceFiles files;
     for (std::istringstream& line : lines_of(folder / kMarker, kMarkerFormat)) {
         const ReferenceFile file{word_of(line), word_of(line)};
@@ -205,15 +205,15 @@ std::optional<ReferenceFiles> marked_files(const fs::path& folder) {
 
 std::string ReferenceUpdate::recover(const fs::path& references) {
     const fs::path staging = references / kStaging;
-    if (!output::is_there(staging)) return {};
+    if (!output::path_exists(staging)) return {};
     const output::DirectoryLock lock(references);
-    if (!output::is_there(staging)) return {};
+    if (!output::path_exists(staging)) return {};
     if (!is_own_staging(staging))
         throw output::WouldOverwrite(
             fmt::format("{} is not beamcam's own; move it, updates need that name", staging.string()));
     const std::vector<fs::path> journals = output::journals_in(staging);
     if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // it is under way
-    const bool listed = output::is_there(staging / kTasks);
+    const bool listed = output::path_exists(staging / kTasks);
     if (listed) {
         output::Journal own(staging);
         Carrier carrier(references, own);
@@ -234,7 +234,7 @@ ReferenceUpdate::ReferenceUpdate(fs::path baselines, fs::path references, bool f
       force_(force) {
     output::ensure_directory(references_);
     const output::DirectoryLock lock(references_);
-    if (output::is_there(staging_) && !fs::is_empty(staging_))
+    if (output::path_exists(staging_) && !fs::is_empty(staging_))
         throw output::IoError(fmt::format("another update of {} is under way", references_.string()));
     output::ensure_directory(staging_);
     journal_ = std::make_unique<output::Journal>(staging_);
@@ -255,7 +255,7 @@ fs::path ReferenceUpdate::begin(const std::string& entry, bool stay) {
     const fs::path folder = folder_of(entry);
     std::error_code error;
     if (fs::is_symlink(folder, error)) refuse(folder, "is a symbolic link");
-    if (output::is_there(folder)) {
+    if (output::path_exists(folder)) {
         if (!fs::is_directory(folder)) refuse(folder, "is no folder");
         const auto marked = marked_files(folder);
         if (!marked && !force_ && !fs::is_empty(folder))

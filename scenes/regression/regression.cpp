@@ -113,7 +113,7 @@ class Regression {
 
     // There is no test for an entry that cannot be read.
     static void refuse(EntryResult& result, const std::string& problem, int exit_code) {
-        output::tell("{}", problem);
+        output::print_message("{}", problem);
         result.picture = Verdict::missing;
         result.picture_lines = {problem.substr(0, problem.find('\n'))};
         result.exit_code = exit_code;

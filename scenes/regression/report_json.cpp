@@ -81,11 +81,11 @@ ReportedEntry reported_entry(const nlohmann::json& entry) {
 
 // CI services put what they kept into a folder of its own.
 fs::path folder_of_report(const fs::path& given) {
-    if (output::is_there(given / kReportFile)) return given;
+    if (output::path_exists(given / kReportFile)) return given;
     std::vector<fs::path> found;
     if (fs::is_directory(given))
         for (const fs::directory_entry& inner : fs::directory_iterator(given))
-            if (output::is_there(inner.path() / kReportFile)) found.push_back(inner.path());
+            if (output::path_exists(inner.path() / kReportFile)) found.push_back(inner.path());
     if (found.size() == 1) return found.front();
     throw output::IoError(
         fmt::format("{} holds no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",

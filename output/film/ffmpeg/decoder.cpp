@@ -27,13 +27,13 @@ class FfmpegDecoder : public Decoder {
         if (best < 0) file_.refuse("there are no pictures in it");
         stream_ = file_.format().streams[best];
         open_codec();
-        read_facts();
+        read_info();
     }
     ~FfmpegDecoder() override { sws_freeContext(scaler_); }
     FfmpegDecoder(const FfmpegDecoder&) = delete;
     FfmpegDecoder& operator=(const FfmpegDecoder&) = delete;
 
-    const VideoFacts& facts() const override { return facts_; }
+    const VideoInfo& info() const override { return info_; }
 
     bool next(std::uint8_t* rgba) override {
         for (;;) {
@@ -84,18 +84,18 @@ class FfmpegDecoder : public Decoder {
                              : "it has pictures of no size");
     }
 
-    void read_facts() {
-        facts_.width = codec_->width;
-        facts_.height = codec_->height;
-        facts_.frames = std::max(0L, declared_frames(file_, *stream_));
+    void read_info() {
+        info_.width = codec_->width;
+        info_.height = codec_->height;
+        info_.frames = std::max(0L, declared_frames(file_, *stream_));
         const std::int64_t duration = file_.format().duration;
-        facts_.seconds = duration > 0 ? static_cast<double>(duration) / AV_TIME_BASE : 0;
-        facts_.codec = avcodec_get_name(stream_->codecpar->codec_id);
-        facts_.container = file_.format().iformat->name;
+        info_.seconds = duration > 0 ? static_cast<double>(duration) / AV_TIME_BASE : 0;
+        info_.codec = avcodec_get_name(stream_->codecpar->codec_id);
+        info_.container = file_.format().iformat->name;
         for (const AVDictionary* some : {file_.format().metadata, stream_->metadata}) {
             const AVDictionaryEntry* entry = nullptr;
             while ((entry = av_dict_get(some, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr)
-                facts_.metadata[entry->key] = entry->value;
+                info_.metadata[entry->key] = entry->value;
         }
     }
 
@@ -146,7 +146,7 @@ class FfmpegDecoder : public Decoder {
 
     void convert(std::uint8_t* rgba) {
         const AVFrame& f = *frame_;
-        if (f.width != facts_.width || f.height != facts_.height) file_.refuse("its pictures change their size");
+        if (f.width != info_.width || f.height != info_.height) file_.refuse("its pictures change their size");
         if ((f.flags & AV_FRAME_FLAG_CORRUPT) != 0 || f.decode_error_flags != 0) file_.refuse(kDamaged);
         prepare_scaler();
         std::uint8_t* const to[4] = {rgba, nullptr, nullptr, nullptr};
@@ -163,7 +163,7 @@ class FfmpegDecoder : public Decoder {
     SwsContext* scaler_ = nullptr;
     AVPixelFormat scaler_from_ = AV_PIX_FMT_NONE;
     bool drained_ = false;  // the decoder was told that nothing more comes
-    VideoFacts facts_;
+    VideoInfo info_;
 };
 
 }  // namespace

@@ -113,12 +113,12 @@ TEST(Manifest, KnowsWhatAFileWasMadeFrom) {
         Manifest manifest(false);
         write_file(manifest.target(scratch / "a.csv", {"recipe", "", ""}), "first");
     }
-    EXPECT_TRUE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
-    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "other"));
-    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", ""));
-    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "b.csv", "recipe"));
+    EXPECT_TRUE(Manifest(false).is_up_to_date(scratch / "a.csv", "recipe"));
+    EXPECT_FALSE(Manifest(false).is_up_to_date(scratch / "a.csv", "other"));
+    EXPECT_FALSE(Manifest(false).is_up_to_date(scratch / "a.csv", ""));
+    EXPECT_FALSE(Manifest(false).is_up_to_date(scratch / "b.csv", "recipe"));
     write_file(scratch / "a.csv", "edits");
-    EXPECT_FALSE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+    EXPECT_FALSE(Manifest(false).is_up_to_date(scratch / "a.csv", "recipe"));
 }
 
 // ---- runs that are killed ------------------------------------------------------------------------
@@ -137,7 +137,7 @@ TEST(Manifest, AFileThatAKilledRunPutInItsPlaceIsOnesOwn) {
     Scratch scratch;
     killed([&](Manifest& manifest) { write_file(manifest.target(scratch / "a.csv", {"recipe", "", ""}), "made"); });
     EXPECT_EQ(refusal(scratch / "a.csv"), "");
-    EXPECT_TRUE(Manifest(false).is_made_from(scratch / "a.csv", "recipe"));
+    EXPECT_TRUE(Manifest(false).is_up_to_date(scratch / "a.csv", "recipe"));
 }
 
 TEST(Manifest, AFileThatTheUserPutsWhereAKilledRunWasAboutToIsTheUsers) {
@@ -209,7 +209,7 @@ TEST(Manifest, AForgedJournalRemovesNothingElse) {
 }
 
 TEST(Manifest, ALineOfTheJournalThatIsCutOffIsLeftOut) {
-    const MadeFile made{"00", 3, {"recipe", "", ""}, "1:2"};
+    const FileRecord made{"00", 3, {"recipe", "", ""}, "1:2"};
     const std::string text = journal_line(".a.01234567.part") + journal_line("a", made) + journal_line("b", made);
     const JournalLines lines = parse_journal(text.substr(0, text.size() - 5));
     EXPECT_EQ(lines.temporaries, std::vector<std::string>{".a.01234567.part"});
@@ -246,7 +246,7 @@ TEST(Manifest, LeavesNothingOfARunThatMadeNothing) {
 }
 
 TEST(Manifest, NamesOfAnyBytesSurvive) {
-    const MadeFiles files = {{"Balken θ \"x\"\n.mp4", {"00", 3, {"recipe", "0.1", "{}"}, "1:2"}}};
+    const FileRecords files = {{"Balken θ \"x\"\n.mp4", {"00", 3, {"recipe", "0.1", "{}"}, "1:2"}}};
     EXPECT_EQ(parse_manifest(manifest_json(files)), files);
 }
 

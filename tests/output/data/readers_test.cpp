@@ -84,7 +84,7 @@ TEST(PngReader, GivesThePixelsThatWereWritten) {
 TEST(PngReader, GivesTheMetadataWithoutDecodingPixels) {
     Scratch scratch;
     write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, {{"beamcam-scene", "{\"ω\": 1}"}, {"Title", ""}}});
-    const auto found = read_png_facts(scratch / "a.png").metadata;
+    const auto found = read_png_info(scratch / "a.png").metadata;
     EXPECT_EQ(found.at("beamcam-scene"), "{\"ω\": 1}");
     EXPECT_EQ(found.at("Title"), "");
 }
@@ -158,9 +158,9 @@ TEST(VideoReader, KnowsWhatTheFileSaysOfItself) {
     Scratch scratch;
     make_film(scratch / "a.mp4");
     const VideoReader film(scratch / "a.mp4");
-    EXPECT_EQ(film.facts().frames, 40);
-    EXPECT_EQ(film.facts().codec, "h264");
-    EXPECT_EQ(film.facts().metadata.at("beamcam-scene"), "{}");
+    EXPECT_EQ(film.info().frames, 40);
+    EXPECT_EQ(film.info().codec, "h264");
+    EXPECT_EQ(film.info().metadata.at("beamcam-scene"), "{}");
 }
 
 TEST(VideoReader, AFilmThatEndsEarlyOrIsDamagedIsAnError) {
