@@ -224,7 +224,7 @@ std::uint8_t PaletteTable::index_of(std::uint32_t pixel) const {
 }
 
 void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
-                           const render::Tiles& part) const {
+                           const render::DirtyTiles& part) const {
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y) {
             const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
@@ -235,7 +235,7 @@ void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::pt
     });
 }
 void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const {
-    render::Tiles all(image.width, image.height);
+    render::DirtyTiles all(image.width, image.height);
     all.add_all();
     convert(image, to, stride, all);
 }

@@ -13,8 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -40,7 +40,8 @@ class PaletteTable {
   public:
     explicit PaletteTable(std::span<const std::uint32_t> colors);  // 1 to 256
     // One byte a pixel, rows of `stride` bytes; what is not of the part stays.
-    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride, const render::Tiles& part) const;
+    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
+                 const render::DirtyTiles& part) const;
     void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const;
 
   private:

@@ -23,7 +23,7 @@ void copy_pixels(const std::uint32_t* from, int count, PixelLayout layout, std::
     }
 }
 void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride,
-                 const render::Tiles& part) {
+                 const render::DirtyTiles& part) {
     const std::ptrdiff_t size = layout == PixelLayout::rgb ? 3 : 4;
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y)
@@ -35,7 +35,7 @@ void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* t
 }  // namespace
 
 void convert(const render::Image& image, PixelLayout layout, const PaletteTable* table, const FramePlanes& frame,
-             const render::Tiles& part) {
+             const render::DirtyTiles& part) {
     YuvaPlanes planes;
     for (std::size_t i = 0; i < 4; ++i) {
         planes.plane[i] = frame.plane[i];

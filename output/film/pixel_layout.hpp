@@ -11,6 +11,6 @@ enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices }
 
 // Writes `part` of the picture into the frame. `table`: of a film of indices; else unused.
 void convert(const render::Image& image, PixelLayout layout, const PaletteTable* table, const FramePlanes& frame,
-             const render::Tiles& part);
+             const render::DirtyTiles& part);
 
 }  // namespace beamcam::output

@@ -100,8 +100,8 @@ std::vector<std::string> problems(const VideoOptions& o, std::string_view ending
 // A picture on its way: a frame that belongs to the module.
 struct VideoInput::Slot {
     FramePlanes* frame = nullptr;
-    int uses = 0;         // places in the queue, and one for being the latest picture
-    render::Tiles stale;  // where it is not what its input converted last
+    int uses = 0;              // places in the queue, and one for being the latest picture
+    render::DirtyTiles stale;  // where it is not what its input converted last
 };
 
 // Each input fills a few slots of its own in turn and queues them; `worker` encodes the queue in order. The number of
@@ -206,7 +206,7 @@ struct VideoWriter::Impl {
         const std::lock_guard lock(mutex);
         std::vector<Slot*> more;
         for (std::size_t i = 0; i < kSlotsOfAnInput; ++i) {
-            slots.push_back({&encoder->make_frame(), 0, render::Tiles(options.width, options.height)});
+            slots.push_back({&encoder->make_frame(), 0, render::DirtyTiles(options.width, options.height)});
             slots.back().stale.add_all();
             more.push_back(&slots.back());
         }
@@ -351,7 +351,7 @@ VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::write(const render::Image& image) {
     if (!impl_->own) impl_->own = std::make_unique<VideoInput>(*this);
-    render::Tiles all(impl_->options.width, impl_->options.height);
+    render::DirtyTiles all(impl_->options.width, impl_->options.height);
     all.add_all();
     impl_->own->convert(image, all);
     impl_->own->send();
@@ -365,7 +365,7 @@ void VideoWriter::repeat() {
 
 VideoInput::VideoInput(VideoWriter& film) : film_(*film.impl_), slots_(film_.more_slots()) {}
 
-void VideoInput::convert(const render::Image& image, const render::Tiles& changed) {
+void VideoInput::convert(const render::Image& image, const render::DirtyTiles& changed) {
     for (Slot* slot : slots_) slot->stale.add(changed);
     Slot& slot = film_.unused(slots_);
     film_.convert(image, slot);

@@ -17,8 +17,8 @@
 #include "output/files/target.hpp"
 #include "output/film/video_format.hpp"
 #include "output/film/video_library.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -98,7 +98,7 @@ class VideoInput {
     explicit VideoInput(VideoWriter& film);  // before the film is finished, which outlives it
     // Waits while the encoder has to do with this thread's pictures before. `changed`: where the picture may differ
     // from the last one that this input converted.
-    void convert(const render::Image& image, const render::Tiles& changed);
+    void convert(const render::Image& image, const render::DirtyTiles& changed);
     // What was converted becomes the film's next picture.
     void send();
 

@@ -70,15 +70,15 @@ void require_even(const render::Image& image, const char* what) {
                                std::to_string(image.height));
 }
 
-render::Tiles whole(const render::Image& image) {
-    render::Tiles all(image.width, image.height);
+render::DirtyTiles whole(const render::Image& image) {
+    render::DirtyTiles all(image.width, image.height);
     all.add_all();
     return all;
 }
 
 }  // namespace
 
-void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::Tiles& part) {
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::DirtyTiles& part) {
     require_even(image, "convert_to_yuv420");
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int row = top; row < bottom; row += 2) {
@@ -144,7 +144,7 @@ void convert_row_10(const render::Image& image, const YuvaPlanes& to, int y, int
 
 }  // namespace
 
-void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part) {
     require_even(image, "convert_to_yuva420");
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; y += 2)
@@ -155,7 +155,7 @@ void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to) {
     convert_to_yuva420(image, to, whole(image));
 }
 
-void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part) {
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part) {
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y) convert_row_10(image, to, y, left, right);
     });

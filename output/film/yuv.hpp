@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -24,7 +24,7 @@ struct YuvPlanes {
 };
 
 // Width and height must be even, and the planes large enough. With `part`, all else stays as it is.
-void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::Tiles& part);
+void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::DirtyTiles& part);
 void convert_to_yuv420(const render::Image& image, const YuvPlanes& to);
 
 // The same with transparency: colours not premultiplied, and a fourth plane of alpha, 0…255, full range. Chroma is the
@@ -33,11 +33,11 @@ struct YuvaPlanes {
     std::array<std::uint8_t*, 4> plane{};
     std::array<std::ptrdiff_t, 4> stride{};  // [bytes]
 };
-void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part);
+void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part);
 void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to);
 
 // 4:4:4 in 10 bits (16-bit words, native order), limited range, with 10 bits of full-range alpha.
-void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::Tiles& part);
+void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part);
 void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to);
 
 }  // namespace beamcam::output

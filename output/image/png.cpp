@@ -27,7 +27,7 @@ constexpr std::uint8_t kFilterUp = 2;  // each byte less the one above it
 using Pixels = std::span<const std::uint32_t>;
 constexpr std::size_t kLongestChunk = 0x7fffffff;
 constexpr std::size_t kStretch = 8;  // pixels that are compared with those above at once
-static_assert(render::Tiles::kWidth % kStretch == 0, "a stretch lies in one tile");
+static_assert(render::DirtyTiles::kWidth % kStretch == 0, "a stretch lies in one tile");
 constexpr double kMetresPerInch = 0.0254;
 
 void put_u32(std::string& out, std::uint32_t value) {
@@ -237,7 +237,7 @@ std::span<const std::uint8_t> PngSequence::Others::row(std::size_t y) const {
 }
 
 // The row below a tile is compared with the tile's last.
-void PngSequence::Others::compare(const render::Image& image, const render::Tiles& changed) {
+void PngSequence::Others::compare(const render::Image& image, const render::DirtyTiles& changed) {
     const auto width = static_cast<std::size_t>(image.width);
     changed.for_each_run([&](int left, int top, int right, int bottom) {
         const auto end = static_cast<std::size_t>(right);
@@ -254,7 +254,7 @@ void PngSequence::Others::compare(const render::Image& image, const render::Tile
 
 PngSequence::PngSequence(PngOptions options) : options_(std::move(options)) {}
 
-const std::string& PngSequence::encode(const render::Image& image, const render::Tiles& changed) {
+const std::string& PngSequence::encode(const render::Image& image, const render::DirtyTiles& changed) {
     if (image.width <= 0 || image.height <= 0) throw std::logic_error("encode_png: an empty image");
     if (file_.empty())
         others_ = Others(image.width, image.height);
@@ -265,7 +265,7 @@ const std::string& PngSequence::encode(const render::Image& image, const render:
 }
 
 std::string encode_png(const render::Image& image, const PngOptions& options) {
-    render::Tiles all(image.width, image.height);
+    render::DirtyTiles all(image.width, image.height);
     all.add_all();
     return PngSequence(options).encode(image, all);
 }

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "output/files/atomic_file.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 
 namespace beamcam::output {
 
@@ -39,14 +39,14 @@ class PngSequence {
 
     // `changed`: where the picture may differ from the one before; all of the first. The file's bytes stay until the
     // next is encoded. Throws as encode_png.
-    const std::string& encode(const render::Image& image, const render::Tiles& changed);
+    const std::string& encode(const render::Image& image, const render::DirtyTiles& changed);
 
     // The stretches of a row in which a pixel may differ from the one above it.
     class Others {
       public:
         Others() = default;
         Others(int width, int height);
-        void compare(const render::Image& image, const render::Tiles& changed);
+        void compare(const render::Image& image, const render::DirtyTiles& changed);
         std::span<const std::uint8_t> row(std::size_t y) const;  // 0 or 1 for each stretch
 
       private:

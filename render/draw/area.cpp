@@ -33,9 +33,9 @@ std::vector<Vec2> circle(Vec2 centre, double radius) {
 
 // How much more of each pixel is covered than of the one to the left: rows of a picture that are worked on together,
 // `width` columns from `left` on.
-class Sums {
+class CoverageAccumulator {
   public:
-    Sums(int left, int width)
+    CoverageAccumulator(int left, int width)
         : left_(left),
           width_(width),
           stride_(static_cast<std::size_t>(width) + 2 + 2 * kEight),
@@ -147,27 +147,27 @@ class Sums {
 };
 
 // Tells the tiles of stretches of pixels, neighbours in a row together.
-class Noted {
+class DirtySpans {
   public:
-    explicit Noted(Tiles* touched) : touched_(touched) {}
-    ~Noted() { tell(); }
-    Noted(const Noted&) = delete;
-    Noted& operator=(const Noted&) = delete;
+    explicit DirtySpans(DirtyTiles* touched) : touched_(touched) {}
+    ~DirtySpans() { flush(); }
+    DirtySpans(const DirtySpans&) = delete;
+    DirtySpans& operator=(const DirtySpans&) = delete;
 
     void add(int y, int first, int end) {
-        if (y == y_ && first <= end_ + Tiles::kWidth) {
+        if (y == y_ && first <= end_ + DirtyTiles::kWidth) {
             end_ = end;
             return;
         }
-        tell();
+        flush();
         y_ = y, first_ = first, end_ = end;
     }
 
   private:
-    void tell() {
+    void flush() {
         if (touched_ && y_ >= 0) touched_->add({double(first_), double(y_), double(end_ - 1 - first_), 0});
     }
-    Tiles* touched_;
+    DirtyTiles* touched_;
     int y_ = -1, first_ = 0, end_ = 0;
 };
 
@@ -195,14 +195,14 @@ void Area::put(std::span<const Vec2> corners, float sense) {
 void Area::add_circle(Vec2 centre, double radius) { add(circle(centre, radius)); }
 void Area::cut_circle(Vec2 centre, double radius) { cut(circle(centre, radius)); }
 
-void Area::paint(const PixelView& picture, Color opaque, Tiles* touched) const {
+void Area::paint(const PixelView& picture, Color opaque, DirtyTiles* touched) const {
     if (edges_.empty()) return;
     const auto whole = [](double at, int end) { return static_cast<int>(std::clamp(at, 0.0, double(end))); };
     const int left = whole(std::floor(box_.x0), picture.width), right = whole(std::ceil(box_.x1), picture.width);
     const int end = whole(std::ceil(box_.y1), picture.height);
     const std::uint32_t ink = pixel_of(opaque);
-    Noted noted(touched);
-    Sums sums(left, right - left);
+    DirtySpans dirty(touched);
+    CoverageAccumulator sums(left, right - left);
     for (int top = whole(std::floor(box_.y0), picture.height); top < end; top += kBand) {
         const int bottom = std::min(top + kBand, end);
         for (const Edge& e : edges_)
@@ -213,17 +213,18 @@ void Area::paint(const PixelView& picture, Color opaque, Tiles* touched) const {
                 y - top,
                 [&](int x, std::uint32_t part) {
                     row[x] = over(ink, part, row[x]);
-                    noted.add(y, x, x + 1);
+                    dirty.add(y, x, x + 1);
                 },
                 [&](int first, int last) {
                     std::fill(row + first, row + last, ink);
-                    noted.add(y, first, last);
+                    dirty.add(y, first, last);
                 });
         }
     }
 }
 
-void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& picture, Color opaque, Tiles* touched) {
+void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& picture, Color opaque,
+                         DirtyTiles* touched) {
     // A side always runs downwards, so that it is the same one for both of its quadrilaterals.
     struct Side {
         Vec2 top, bottom;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/draw/tiles.hpp"
 
 namespace beamcam::render {
 
@@ -34,7 +34,7 @@ class Area {
     void cut_circle(Vec2 centre, double radius);
 
     // `touched` may be null.
-    void paint(const PixelView& picture, Color opaque, Tiles* touched) const;
+    void paint(const PixelView& picture, Color opaque, DirtyTiles* touched) const;
 
   private:
     struct Edge {
@@ -48,6 +48,7 @@ class Area {
 
 // The pixels whose centres lie within the four sides, one behind the other. Quadrilaterals with a common side have no
 // pixel in common and leave none out between them.
-void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& picture, Color opaque, Tiles* touched);
+void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& picture, Color opaque,
+                         DirtyTiles* touched);
 
 }  // namespace beamcam::render

@@ -107,7 +107,7 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     if (!there.empty()) touch(there);
 }
 
-void Canvas::image_tiles(const Image& source, int x, int y, const Tiles& tiles) {
+void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         const int x0 = std::max(left, x), y0 = std::max(top, y);
@@ -125,7 +125,7 @@ void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
     cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
 }
 
-void Canvas::paint_pixels(const std::function<void(const PixelView&, Tiles*)>& paint) {
+void Canvas::paint_pixels(const std::function<void(const PixelView&, DirtyTiles*)>& paint) {
     if (limit_) throw std::logic_error("Canvas::paint_pixels: clips are not kept to");
     cairo_surface_t* surface = cairo_get_target(cr_);
     cairo_surface_flush(surface);

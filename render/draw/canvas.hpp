@@ -36,11 +36,11 @@ class Canvas : public Painter {
     // pixels.
     void image_part(const Image& source, int x, int y, const Box& part);
     // The same within these tiles of the picture.
-    void image_tiles(const Image& source, int x, int y, const Tiles& tiles);
+    void image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles);
     // Puts it in the place of what is there.
     void replace_part(const Image& source, int x, int y, const Box& part);
     // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
-    void paint_pixels(const std::function<void(const PixelView&, Tiles* touched)>& paint);
+    void paint_pixels(const std::function<void(const PixelView&, DirtyTiles* touched)>& paint);
 
     // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
     std::string drawable(std::string_view plain) const;

@@ -12,8 +12,8 @@
 
 #include "render/draw/color.hpp"
 #include "render/draw/coverage_cache.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/draw/tiles.hpp"
 
 using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier): the library's own names
 using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
@@ -64,7 +64,7 @@ class Painter {
     void image_fitted(const Image& image, const Box& into);
 
     // Where ink went, while this is set: never too few tiles.
-    Tiles* touched = nullptr;
+    DirtyTiles* touched = nullptr;
     // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
     CoverageCache* coverage_cache = nullptr;
 

@@ -59,11 +59,11 @@ Seen between(const Seen& a, const Seen& b, double share) {
 
 }  // namespace
 
-std::vector<Sighting> sightings(const Shot& first, const std::vector<CameraMove>& moves, const Camera& whole,
-                                const Box& box, const std::vector<Followed>& followed, double fps) {
+std::vector<CameraFrame> camera_frames(const Shot& first, const std::vector<CameraMove>& moves, const Camera& whole,
+                                       const Box& box, const std::vector<Followed>& followed, double fps) {
     const std::vector<Followed> mean = averaged(followed, static_cast<int>(kMean / 2 * fps));
     const Vec2 middle = whole.to_world(box.centre());
-    std::vector<Sighting> out;
+    std::vector<CameraFrame> out;
     for (std::size_t k = 0; k < mean.size(); ++k) {
         const auto seen = [&](const Shot& shot) -> Seen {
             const Followed& at = mean[k];

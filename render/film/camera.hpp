@@ -44,17 +44,17 @@ struct Followed {
 };
 
 // The camera at one frame.
-struct Sighting {
+struct CameraFrame {
     Camera camera;
     double zoom = 1, yaw = 0, pitch = 0;
-    bool operator==(const Sighting& o) const {
+    bool operator==(const CameraFrame& o) const {
         return camera.scale == o.camera.scale && camera.origin == o.camera.origin && yaw == o.yaw && pitch == o.pitch;
     }
 };
 
 // Of every frame, in the mechanism's box; `whole`: the camera that shows all. What vibrates is followed by its mean
 // over a third of a second of the film.
-std::vector<Sighting> sightings(const Shot& first, const std::vector<CameraMove>& moves, const Camera& whole,
-                                const Box& box, const std::vector<Followed>& followed, double fps);
+std::vector<CameraFrame> camera_frames(const Shot& first, const std::vector<CameraMove>& moves, const Camera& whole,
+                                       const Box& box, const std::vector<Followed>& followed, double fps);
 
 }  // namespace beamcam::render

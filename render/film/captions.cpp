@@ -35,13 +35,13 @@ class Captions {
         for (const auto* label : {&placed.speed, &placed.angle})
             if (*label) labels.push_back(s.at.label_box(**label, s.view));
         if (placed.force)
-            labels.push_back(s.at.label_box(*placed.force, s.view, s.push ? s.push->foot : placed.force->base));
+            labels.push_back(s.at.label_box(*placed.force, s.view, s.arrow ? s.arrow->foot : placed.force->base));
     }
 
     void draw() const {
         lead_to_contact();
         double free = box.bottom() - kFreeBelow * u;  // above it, for captions of the whole picture
-        for (const Callout& c : s.at.facts.setup->callouts) {
+        for (const Callout& c : s.at.context.setup->callouts) {
             if (!c.shown(s.frame)) continue;
             const Anchor::Kind kind = c.anchor.value_or(Anchor{Anchor::Kind::contact, {}}).kind;
             if (kind == Anchor::Kind::contact)
@@ -211,7 +211,7 @@ class Captions {
     void draw_at_contact(const Callout& words) const {
         Caption caption = caption_of(words, {});
         caption.plate = contact_plate(words);
-        for (const Callout& other : s.at.facts.setup->callouts)
+        for (const Callout& other : s.at.context.setup->callouts)
             if (is_at_contact(other) && other.shown(s.frame) && comes_before(words, other) &&
                 caption.plate.overlaps(contact_plate(other)))
                 return;
@@ -221,7 +221,7 @@ class Captions {
     // From the latest caption to the contact while there is one; without a cam to the tip.
     void lead_to_contact() const {
         const Callout* latest = nullptr;
-        for (const Callout& c : s.at.facts.setup->callouts)
+        for (const Callout& c : s.at.context.setup->callouts)
             if (is_at_contact(c) && c.shown(s.frame) && (!latest || comes_before(*latest, c))) latest = &c;
         const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
         if (!latest || (s.at.problem().cam && !near) || !s.at.shows(contact_foot())) return;
@@ -243,7 +243,7 @@ class Captions {
     Box contact_plate(const Callout& words) const {
         if (const auto found = plates.find(&words); found != plates.end()) return found->second;
         std::vector<Box> taken;
-        for (const Callout& other : s.at.facts.setup->callouts)
+        for (const Callout& other : s.at.context.setup->callouts)
             if (is_at_contact(other) && comes_before(other, words) && other.last >= words.first)
                 taken.push_back(contact_plate(other));
         const Box first = first_plate(words), found = free_plate(first, taken).value_or(first);
@@ -270,10 +270,10 @@ class Captions {
         const auto comes_meanwhile = [&](const Callout& c) {
             return is_at_contact(c) && comes_before(words, c) && c.first <= words.last;
         };
-        for (const Callout& latest : s.at.facts.setup->callouts) {
+        for (const Callout& latest : s.at.context.setup->callouts) {
             if (!comes_meanwhile(latest)) continue;
             double all = 0;
-            for (const Callout& c : s.at.facts.setup->callouts)
+            for (const Callout& c : s.at.context.setup->callouts)
                 if (comes_meanwhile(c) && c.shown(latest.first)) all += kBetweenPlates * u + caption_of(c, {}).plate.h;
             most = std::max(most, all);
         }
@@ -309,7 +309,7 @@ class Captions {
 }  // namespace
 
 void draw_captions(const MechanismScene& s) {
-    const auto& all = s.at.facts.setup->callouts;
+    const auto& all = s.at.context.setup->callouts;
     if (std::ranges::any_of(all, [&](const Callout& c) { return c.shown(s.frame); })) Captions(s).draw();
 }
 

@@ -9,7 +9,7 @@
 
 namespace beamcam::render {
 
-inline ChartStyle chart_style(const FilmFacts& facts) { return {*facts.palette, facts.unit, facts.tick}; }
+inline ChartStyle chart_style(const FilmContext& context) { return {*context.palette, context.unit, context.tick}; }
 
 // Shows what has been as far as this column; `shown`: the first column that does not show it yet.
 inline void show_past(Canvas& kept, const Chart& chart, const Image& past, double until, double& shown) {
@@ -25,27 +25,28 @@ class ChartPanel : public FilmPanel {
     };
 
   public:
-    ChartPanel(const FilmFacts& facts, ChartContent content, const Box& box)
-        : facts_(facts), chart_(std::move(content), box, plot_area(box, facts.unit, facts.tick), chart_style(facts)) {
-        past_ = chart_.past(*facts.fonts);
+    ChartPanel(const FilmContext& context, ChartContent content, const Box& box)
+        : context_(context),
+          chart_(std::move(content), box, plot_area(box, context.unit, context.tick), chart_style(context)) {
+        past_ = chart_.past(*context.fonts);
     }
-    void draw_ground(Canvas& canvas) const override { chart_.draw_ground(canvas); }
-    Box growing() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
+    void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
+    Box accumulated_box() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
     // What has been, column by column.
-    void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
+    void accumulate(Canvas& kept, const Image&, int frame, bool restart, State* state) const override {
         if (chart_.windowed()) return;
         double& shown = static_cast<Shown*>(state)->until;
-        if (anew) shown = chart_.past_box().x;
-        show_past(kept, chart_, past_, chart_.past_column(facts_.at(0, frame)), shown);
+        if (restart) shown = chart_.past_box().x;
+        show_past(kept, chart_, past_, chart_.past_column(context_.at(0, frame)), shown);
     }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, facts_.at(0, frame), readings(frame));
+        chart_.draw_moving(canvas, context_.at(0, frame), readings(frame));
     }
 
   protected:
     virtual std::vector<double> readings(int frame) const = 0;
-    const FilmFacts& facts_;
+    const FilmContext& context_;
 
   private:
     Chart chart_;

@@ -16,15 +16,15 @@ constexpr double kBelow = 1.35, kAbove = 1.9;  // heights shown, in largest pene
 
 class CloseUpPanel final : public FilmPanel {
   public:
-    CloseUpPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
-        const double u = facts.unit;
-        const double left = 70 * u + 2.4 * (facts.tick - 17 * u);  // as in plot_area
+    CloseUpPanel(const FilmContext& context, const PanelSlot& slot)
+        : context_(context), member_(std::min(slot.spec.member, context.members() - 1)), box_(slot.box) {
+        const double u = context.unit;
+        const double left = 70 * u + 2.4 * (context.tick - 17 * u);  // as in plot_area
         plot_ = {std::round(box_.x + left), std::round(box_.y + 46 * u), std::round(box_.w - left - 8 * u),
                  std::round(box_.h - 46 * u - 40 * u)};
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
-        for (int k = 0; k < facts.frames(); ++k)
-            if (const auto near = facts.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
+        for (int k = 0; k < context.frames(); ++k)
+            if (const auto near = context.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
         if (!motion().problem.cam) return;
         const double radius = motion().problem.cam->radius;
         // An impulsive contact does not penetrate: a millionth of the radius keeps a scale.
@@ -35,16 +35,16 @@ class CloseUpPanel final : public FilmPanel {
         if (shown_.high < 2e-6 || shown_.high > 5e-3) unit_ = prefix_for(shown_.high);
     }
 
-    void draw_ground(Canvas& canvas) const override {
-        const double u = facts_.unit;
-        const Palette& p = *facts_.palette;
+    void draw_background(Canvas& canvas) const override {
+        const double u = context_.unit;
+        const Palette& p = *context_.palette;
         const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
             plain{.size = 21 * u, .weight = Weight::medium};
-        const double room = plot_.w - canvas.measure(facts_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
-        const std::string whose = of_motion(facts_, member_);
-        const std::string whole = facts_.say("Contact close-up"), brief = facts_.say("Contact");
+        const double room = plot_.w - canvas.measure(context_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
+        const std::string whose = of_motion(context_, member_);
+        const std::string whole = context_.say("Contact close-up"), brief = context_.say("Contact");
         // The reading stands beside it.
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
+        draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
         canvas.rectangle(plot_);
         canvas.fill(p.tint(p.grid, 0.35));
@@ -53,16 +53,16 @@ class CloseUpPanel final : public FilmPanel {
         Ticks marks;
         for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
             marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
-        const TextStyle label{.size = facts_.tick, .color = p.muted, .align = HAlign::right};
+        const TextStyle label{.size = context_.tick, .color = p.muted, .align = HAlign::right};
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * facts_.tick}, fixed(v, marks.decimals), label);
+            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.tick}, fixed(v, marks.decimals), label);
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
         const std::string how =
-            facts_.say(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
-        TextStyle note{.size = 16.0 / 17 * facts_.tick, .color = p.muted};
+            context_.say(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
+        TextStyle note{.size = 16.0 / 17 * context_.tick, .color = p.muted};
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
         const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
         canvas.move_to({x1 - w, y - 4 * u});
@@ -71,16 +71,16 @@ class CloseUpPanel final : public FilmPanel {
         canvas.line_to({x1, y - 4 * u});
         canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 3 * u + facts_.tick}, length,
-                    {.size = 16.0 / 17 * facts_.tick, .color = p.muted, .align = HAlign::right});
+        canvas.text({x1, y + 3 * u + context_.tick}, length,
+                    {.size = 16.0 / 17 * context_.tick, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
-        const std::string brief_how = facts_.say(fmt::format("heights in {}m", unit_.symbol));
-        canvas.text({plot_.x, y - 3 * u + facts_.tick},
+        const std::string brief_how = context_.say(fmt::format("heights in {}m", unit_.symbol));
+        canvas.text({plot_.x, y - 3 * u + context_.tick},
                     first_that_fits(canvas, {how, brief_how, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        const sim::Pose& pose = facts_.pose(member_, frame);
+        const sim::Pose& pose = context_.pose(member_, frame);
         if (!motion().problem.cam || !pose.nearest) return;
         const sim::Nearest& near = *pose.nearest;
         canvas.clip(plot_, [&] {
@@ -91,7 +91,7 @@ class CloseUpPanel final : public FilmPanel {
     }
 
   private:
-    const Motion& motion() const { return facts_.motion(member_); }
+    const Motion& motion() const { return context_.motion(member_); }
     Vec2 at(double x, double y) const {
         return {plot_.x + plot_.w * (x + half_width_) / (2 * half_width_),
                 plot_.bottom() - plot_.h * (y - shown_.low) / (shown_.high - shown_.low)};
@@ -111,7 +111,7 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_cam(Canvas& canvas) const {
-        const Palette& p = *facts_.palette;
+        const Palette& p = *context_.palette;
         const std::vector<Vec2> edge = rim();
         canvas.polyline(edge);
         canvas.line_to({edge.back().x, plot_.bottom() + 4});
@@ -119,7 +119,7 @@ class CloseUpPanel final : public FilmPanel {
         canvas.close();
         canvas.fill(p.steel);
         canvas.polyline(edge);
-        canvas.stroke({p.steel_edge, 2 * facts_.unit});
+        canvas.stroke({p.steel_edge, 2 * context_.unit});
     }
 
     // The touching face beside the contact, from the true centre line: heights above the contact's tangent.
@@ -149,13 +149,13 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
-        const Palette& p = *facts_.palette;
-        const double u = facts_.unit;
+        const Palette& p = *context_.palette;
+        const double u = context_.unit;
         if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, plot_.y + 31 * u}, facts_.say("beam"),
-                        {.size = facts_.tick, .color = p.motion, .weight = Weight::medium});
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.say("beam"),
+                        {.size = context_.tick, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
@@ -180,24 +180,24 @@ class CloseUpPanel final : public FilmPanel {
         }
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
-        const TextStyle name{.size = facts_.tick, .color = p.motion, .weight = Weight::medium};
+        const TextStyle name{.size = context_.tick, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
-            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, facts_.say("beam"), name);
+            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.say("beam"), name);
         if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
-            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, facts_.say("cam"),
-                        {.size = facts_.tick, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.say("cam"),
+                        {.size = context_.tick, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
 
     void forces(Canvas& canvas, const sim::Nearest& near) const {
-        if (!near.touching || !(near.force > 0) || !(facts_.force_scale > 0)) return;
-        const Palette& p = *facts_.palette;
-        const double u = facts_.unit, longest = 0.55 * plot_.h;
+        if (!near.touching || !(near.force > 0) || !(context_.force_scale > 0)) return;
+        const Palette& p = *context_.palette;
+        const double u = context_.unit, longest = 0.55 * plot_.h;
         const Vec2 foot = at(0, near.gap / 2);
         // One scale for both, from zero; what is too short for an arrow is told in numbers alone.
         const auto arrow = [&](double force, Vec2 way) {
-            const double length = longest * std::min(1.0, force / facts_.force_scale);
+            const double length = longest * std::min(1.0, force / context_.force_scale);
             if (length > 5 * u)
                 canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.7 * length)});
         };
@@ -208,33 +208,33 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_state(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
-        const Palette& p = *facts_.palette;
-        const double u = facts_.unit;
+        const Palette& p = *context_.palette;
+        const double u = context_.unit;
         const bool deep = near.gap < 0;
         const double size = std::abs(near.gap);
         const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                    : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-        told(canvas, {plot_.right(), box_.y + 26 * u}, facts_.say(deep ? "penetration" : "gap"), amount, "00.0\u00A0mm",
-             {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+        told(canvas, {plot_.right(), box_.y + 26 * u}, context_.say(deep ? "penetration" : "gap"), amount,
+             "00.0\u00A0mm", {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
         // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
         // it.
-        const Color ground = p.tint(p.grid, 0.35);
+        const Color background = p.tint(p.grid, 0.35);
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
-        const Color behind = over_beam ? mix(ground, p.motion, 0.30) : ground;
+        const Color behind = over_beam ? mix(background, p.motion, 0.30) : background;
         const std::string count = counted(pose.t);
-        const double room = plot_.w - canvas.measure(facts_.say("beam"), {.size = facts_.tick}).w - 40 * u;
-        TextStyle style{.size = facts_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
+        const double room = plot_.w - canvas.measure(context_.say("beam"), {.size = context_.tick}).w - 40 * u;
+        TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
             canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
-        if (canvas.measure(facts_.say("friction "), style).w + canvas.measure(widest, style).w > room) return;
-        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, facts_.say("force"), quantity(near.force, "N"), widest,
-             style);
+        if (canvas.measure(context_.say("friction "), style).w + canvas.measure(widest, style).w > room) return;
+        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, context_.say("force"), quantity(near.force, "N"),
+             widest, style);
         if (near.friction != 0)
-            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, facts_.say("friction"),
+            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, context_.say("friction"),
                  quantity(std::abs(near.friction), "N"), widest, style);
     }
 
@@ -262,10 +262,10 @@ class CloseUpPanel final : public FilmPanel {
             end = i.t_end.value_or(t);
         }
         if (t > end + sim::collision_gap(motion().problem)) return {};
-        return facts_.say(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
+        return context_.say(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
     }
 
-    const FilmFacts& facts_;
+    const FilmContext& context_;
     int member_;
     Box box_, plot_;
     double depth_ = 0, half_width_ = 1;  // [m]
@@ -275,8 +275,8 @@ class CloseUpPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    return std::make_unique<CloseUpPanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_close_up_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<CloseUpPanel>(context, slot);
 }
 
 }  // namespace beamcam::render

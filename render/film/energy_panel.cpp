@@ -14,13 +14,13 @@ using sim::ChannelKind;
 // work done by cam and drive, so the outline of the stack is what was supplied.
 class EnergyPanel final : public ChartPanel {
   public:
-    EnergyPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : ChartPanel(facts, content(facts, slot), slot.box),
+    EnergyPanel(const FilmContext& context, const PanelSlot& slot)
+        : ChartPanel(context, content(context, slot), slot.box),
           box_(slot.box),
-          member_(std::min(slot.spec.member, facts.members() - 1)) {}
+          member_(std::min(slot.spec.member, context.members() - 1)) {}
 
-    void draw_ground(Canvas& canvas) const override {
-        ChartPanel::draw_ground(canvas);
+    void draw_background(Canvas& canvas) const override {
+        ChartPanel::draw_background(canvas);
         legend(canvas);
     }
     void draw(Canvas& canvas, int frame, Style style, State* state) const override {
@@ -35,12 +35,12 @@ class EnergyPanel final : public ChartPanel {
         std::vector<ChannelKind> channels;
         Color color;
     };
-    static std::vector<Part> parts(const FilmFacts& facts) {
-        const Palette& p = *facts.palette;
+    static std::vector<Part> parts(const FilmContext& context) {
+        const Palette& p = *context.palette;
         using K = ChannelKind;
         const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
             const Color color = *energy_color(p, channels.front());
-            return Part{facts.say(label), std::move(symbol), std::move(channels), color};
+            return Part{context.say(label), std::move(symbol), std::move(channels), color};
         };
         return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
                 part("bending", math("U"), {K::energy_elastic}),
@@ -48,20 +48,21 @@ class EnergyPanel final : public ChartPanel {
                 part("lost", math("D"), {K::loss_structural, K::loss_contact, K::loss_friction})};
     }
 
-    static ChartContent content(const FilmFacts& facts, const PanelSlot& slot) {
+    static ChartContent content(const FilmContext& context, const PanelSlot& slot) {
         const PanelSpec& spec = slot.spec;
-        const int member = std::min(spec.member, facts.members() - 1);
-        ChartContent c = blank_content(facts, spec, member);
-        if (is_wide(facts, slot.box)) c.words = facts.say("Energy ");  // else the legend alone stands beside the symbol
+        const int member = std::min(spec.member, context.members() - 1);
+        ChartContent c = blank_content(context, spec, member);
+        if (is_wide(context, slot.box))
+            c.words = context.say("Energy ");  // else the legend alone stands beside the symbol
         c.symbol = math("E");
         c.unit = "J";
-        const sim::Table& table = facts.motion(member).chart;
+        const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
         if (!t) return c;
         c.band_times = *t;
         std::vector<double> base(t->size(), 0.0);
         double most = 0;
-        for (const Part& part : parts(facts)) {
+        for (const Part& part : parts(context)) {
             ChartBand band{base, base, part.color};
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
@@ -80,17 +81,17 @@ class EnergyPanel final : public ChartPanel {
         return c;
     }
 
-    static bool is_wide(const FilmFacts& facts, const Box& box) { return box.w > 600 * facts.unit; }
+    static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.unit; }
 
     // Beside the heading, closer and smaller where it would not find room; below it, whose energy this is.
     void legend(Canvas& canvas) const {
-        const double u = facts_.unit;
-        const Box plot = plot_area(box_, u, facts_.tick);
-        std::vector<Part> shown = parts(facts_);
+        const double u = context_.unit;
+        const Box plot = plot_area(box_, u, context_.tick);
+        std::vector<Part> shown = parts(context_);
         std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
         const double first = plot.x +
                              canvas
-                                 .measure(facts_.say(is_wide(facts_, box_) ? "Energy E / mJ" : "E / mJ"),
+                                 .measure(context_.say(is_wide(context_, box_) ? "Energy E / mJ" : "E / mJ"),
                                           {.size = 21 * u, .weight = Weight::semibold})
                                  .w +
                              20 * u;
@@ -106,7 +107,7 @@ class EnergyPanel final : public ChartPanel {
                 end += (step.gap + step.swatch) * u + canvas.measure(words(part), {.size = step.size * u}).w;
             if (end <= box_.right()) break;
         }
-        const TextStyle style{.size = chosen.size * u, .color = facts_.palette->muted};
+        const TextStyle style{.size = chosen.size * u, .color = context_.palette->muted};
         const double side = 0.8 * chosen.size * u;
         double x = first;
         for (const Part& part : shown) {
@@ -120,7 +121,7 @@ class EnergyPanel final : public ChartPanel {
     }
     // A rigid beam does not bend, impulses store nothing: a colour that is nowhere needs no name.
     bool is_there(const Part& part) const {
-        const sim::Table& table = facts_.motion(member_).chart;
+        const sim::Table& table = context_.motion(member_).chart;
         return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
             const auto* v = column(table, {kind, 0});
             const double zero = zero_of(table, {kind, 0});
@@ -129,15 +130,15 @@ class EnergyPanel final : public ChartPanel {
     }
     // Over the bands, which grow beneath it.
     void whose(Canvas& canvas) const {
-        if (facts_.members() == 1) return;
-        const double u = facts_.unit;
-        const Box plot = plot_area(box_, u, facts_.tick);
-        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, facts_.labels[static_cast<std::size_t>(member_)],
+        if (context_.members() == 1) return;
+        const double u = context_.unit;
+        const Box plot = plot_area(box_, u, context_.tick);
+        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, context_.labels[static_cast<std::size_t>(member_)],
                     {.size = 18 * u,
-                     .color = facts_.palette->ink,
+                     .color = context_.palette->ink,
                      .weight = Weight::semibold,
                      .max_width = plot.w - 20 * u,
-                     .halo = facts_.palette->paper});
+                     .halo = context_.palette->paper});
     }
     std::vector<double> readings(int) const override { return {}; }
     Box box_;
@@ -146,8 +147,8 @@ class EnergyPanel final : public ChartPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    return std::make_unique<EnergyPanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_energy_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<EnergyPanel>(context, slot);
 }
 
 }  // namespace beamcam::render

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "render/draw/tiles.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
@@ -19,168 +19,168 @@ namespace beamcam::render {
 // ---- prepared once for a film ----------------------------------------------------------------
 
 struct Film::Prepared {
-    FilmFacts facts;
+    FilmContext context;
     std::vector<std::unique_ptr<FilmPanel>> panels;  // of the layer
     const MechanismPanel* mechanism = nullptr;       // the first
-    Image ground;                                    // all that never changes
-    std::vector<Box> ground_texts;
+    Image background;                                // everything that never changes
+    std::vector<Box> background_texts;
     std::string widest_speed;  // of all frames
     bool steady = true;        // one speed throughout
     bool title_cut = false;
 
-    explicit Prepared(std::shared_ptr<const FilmSetup> setup) : facts(std::move(setup)) {
-        for (const PanelSlot& slot : facts.places.panels) {
+    explicit Prepared(std::shared_ptr<const FilmSetup> setup) : context(std::move(setup)) {
+        for (const PanelSlot& slot : context.places.panels) {
             if (!shows(slot.spec.kind == PanelKind::mechanism ? LayerOf::mechanism : LayerOf::charts)) continue;
-            panels.push_back(type_of(slot.spec.kind).make(facts, slot));
+            panels.push_back(type_of(slot.spec.kind).make(context, slot));
             if (slot.spec.kind == PanelKind::mechanism && !mechanism)
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
-        draw_ground();
-        widest_speed = facts.say(widest_speed_text(facts.setup->speeds));
-        steady = steady_speed(facts.setup->speeds);
+        draw_background();
+        widest_speed = context.say(widest_speed_text(context.setup->speeds));
+        steady = steady_speed(context.setup->speeds);
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
-                if (panels[i]->growing().overlaps(panels[k]->growing())) growing_apart = false;
-        facts.fonts.reset();
-        facts.sight = {};  // nobody asks any more
+                if (panels[i]->accumulated_box().overlaps(panels[k]->accumulated_box())) accumulate_apart = false;
+        context.fonts.reset();
+        context.extent = {};  // nobody asks any more
     }
 
     bool shows(LayerOf layer) const {
-        const LayerOf wanted = facts.setup->view.layer;
+        const LayerOf wanted = context.setup->view.layer;
         return wanted == LayerOf::all || wanted == layer;
     }
     void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
-    std::vector<int> stages(int frame) const;
-    bool growing_apart = true;  // no two panels add to the same pixels
+    std::vector<int> layer_epochs(int frame) const;
+    bool accumulate_apart = true;  // no two panels add to the same pixels
 
   private:
-    void draw_ground();
+    void draw_background();
     void draw_header(Canvas& canvas);
     void draw_color_bars(Canvas& canvas) const;
 };
 
-// What a thread keeps from one frame to the next. A frame is the kept layer (the ground, and what panels added until
-// then) with what moves on top, unclipped: the same pixels whichever was drawn before.
-struct Film::Tools {
-    explicit Tools(const Prepared& p)
-        : fonts(p.facts.cjk),
-          picture(p.ground.width, p.ground.height),
+// What a thread keeps between frames. A frame is the accumulated layer (the background and what the panels added up to
+// this frame) with the moving parts on top, unclipped; so its pixels do not depend on which frame was drawn before.
+struct Film::FrameRenderer {
+    explicit FrameRenderer(const Prepared& p)
+        : fonts(p.context.cjk),
+          picture(p.background.width, p.background.height),
           grown(picture.width, picture.height),
           moved(grown),
           changed(grown) {
-        ++p.facts.counts->font_sets;
+        ++p.context.counts->font_sets;
         for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
 
     // Brings the kept layer to a frame.
     void keep(const Prepared& p, int wanted) {
-        std::vector<int> now = p.stages(wanted);
-        const bool anew = kept_frame < 0 || wanted < kept_frame || now != stages || !p.growing_apart;
+        std::vector<int> now = p.layer_epochs(wanted);
+        const bool restart = kept_frame < 0 || wanted < kept_frame || now != layer_epochs || !p.accumulate_apart;
         kept_frame = -1;
-        if (anew) {
-            kept = p.ground;
+        if (restart) {
+            kept = p.background;
             grown.add_all();
         }
         Canvas canvas(kept, fonts);
-        canvas.outline = p.facts.outline();
+        canvas.outline = p.context.outline();
         canvas.touched = &grown;
         for (std::size_t i = 0; i < p.panels.size(); ++i)
-            p.panels[i]->grow(canvas, p.ground, wanted, anew, states[i].get());
-        stages = std::move(now);
+            p.panels[i]->accumulate(canvas, p.background, wanted, restart, states[i].get());
+        layer_epochs = std::move(now);
         kept_frame = wanted;
     }
 
     Fonts fonts;
     std::vector<std::unique_ptr<FilmPanel::State>> states;
     Image kept;
-    int kept_frame = -1;      // < 0: none
-    std::vector<int> stages;  // of that frame
+    int kept_frame = -1;            // < 0: none
+    std::vector<int> layer_epochs;  // of that frame
     Image picture;
     int frame = -1;  // that the picture shows; < 0: none
     CoverageCache coverage_cache;
-    Tiles grown;    // where `kept` changed since the picture was drawn
-    Tiles moved;    // where the picture may differ from `kept` as it was then
-    Tiles changed;  // where the picture may differ from the one before
+    DirtyTiles grown;    // where `kept` changed since the picture was drawn
+    DirtyTiles moved;    // where the picture may differ from `kept` as it was then
+    DirtyTiles changed;  // where the picture may differ from the one before
 };
 
-// ---- the ground layer ------------------------------------------------------------------------
+// ---- the background --------------------------------------------------------------------------
 
-void Film::Prepared::draw_ground() {
-    const FilmSetup& setup = *facts.setup;
-    ground = Image(setup.width, setup.height);
-    Canvas canvas(ground, *facts.fonts);
-    canvas.outline = facts.outline();
-    canvas.record = &ground_texts;
-    if (!setup.view.transparent) canvas.paint(facts.palette->paper);
+void Film::Prepared::draw_background() {
+    const FilmSetup& setup = *context.setup;
+    background = Image(setup.width, setup.height);
+    Canvas canvas(background, *context.fonts);
+    canvas.outline = context.outline();
+    canvas.record = &background_texts;
+    if (!setup.view.transparent) canvas.paint(context.palette->paper);
     if (shows(LayerOf::charts)) draw_header(canvas);
-    for (const auto& panel : panels) panel->draw_ground(canvas);
+    for (const auto& panel : panels) panel->draw_background(canvas);
     if (shows(LayerOf::charts)) draw_color_bars(canvas);
 }
 
 void Film::Prepared::draw_header(Canvas& canvas) {
-    const double u = facts.unit;
-    const FilmSetup& setup = *facts.setup;
-    const Layout& places = facts.places;
+    const double u = context.unit;
+    const FilmSetup& setup = *context.setup;
+    const Layout& places = context.places;
     if (places.logo) canvas.image_fitted(*setup.logo, *places.logo);
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const FittedTitle title = fitted_title(canvas, setup.title, *b, u, facts.palette->ink);
+        const FittedTitle title = fitted_title(canvas, setup.title, *b, u, context.palette->ink);
         title_cut = title.cut;
         for (const FittedTitle::Line& line : title.lines) canvas.text(line.baseline, line.markup, title.style);
     }
     std::vector<const sim::Problem*> problems;
-    for (int m = 0; m < facts.members(); ++m) problems.push_back(&facts.motion(m).problem);
+    for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
     std::vector<std::string> pieces = common_pieces(problems, setup.units.rpm);
-    for (std::string& piece : pieces) piece = facts.say(std::move(piece));
+    for (std::string& piece : pieces) piece = context.say(std::move(piece));
     const ParameterLine line = parameter_line(canvas, places, setup.title, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
-        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = facts.palette->muted});
+        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escape(facts.say(setup.accuracy_note)),
-                    {.size = 17 * u + 0.4 * (facts.tick - 17 * u),
-                     .color = facts.palette->muted,
+        canvas.text({b->right(), b->y + 19 * u}, escape(context.say(setup.accuracy_note)),
+                    {.size = 17 * u + 0.4 * (context.tick - 17 * u),
+                     .color = context.palette->muted,
                      .align = HAlign::right,
                      .max_width = b->w});
 }
 
 void Film::Prepared::draw_color_bars(Canvas& canvas) const {
-    if (!facts.places.scales || !facts.places.first(PanelKind::mechanism)) return;
-    const double u = facts.unit;
-    const Palette& palette = *facts.palette;
-    const Box& b = *facts.places.scales;
+    if (!context.places.scales || !context.places.first(PanelKind::mechanism)) return;
+    const double u = context.unit;
+    const Palette& palette = *context.palette;
+    const Box& b = *context.places.scales;
     const TextStyle small{
-        .size = 16 * u + 0.4 * (facts.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
+        .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
     const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks) {
         const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
         for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
         }
-        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, facts.say(name), small);
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, context.say(name), small);
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
-            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (facts.tick - 17 * u)},
+            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (context.tick - 17 * u)},
                         marks[i], style);
         }
     };
     double right = b.right();
-    if (facts.force_scale > 0) {
-        const std::string top = quantity(facts.force_scale, "N"),
-                          quarter = quantity(facts.force_scale / 4, prefix_for(facts.force_scale), "N");
-        if (facts.setup->view.trace == TraceColor::force) {
+    if (context.force_scale > 0) {
+        const std::string top = quantity(context.force_scale, "N"),
+                          quarter = quantity(context.force_scale / 4, prefix_for(context.force_scale), "N");
+        if (context.setup->view.trace == TraceColor::force) {
             bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
                 {"0", quarter, top});
         } else {
-            const double half_life = trace_half_life(facts.span), oldest = 4 * half_life;
+            const double half_life = trace_half_life(context.span), oldest = 4 * half_life;
             bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
                 {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)});
         }
         right -= 300 * u;
     }
-    if (facts.moment_scale > 0) {
-        const std::string top = quantity(facts.moment_scale, "N\u2009m");
+    if (context.moment_scale > 0) {
+        const std::string top = quantity(context.moment_scale, "N\u2009m");
         bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
     }
 }
@@ -196,14 +196,14 @@ static std::string short_of(std::string words) {
 
 // The clock, and beside it how the picture differs from what an eye would see.
 void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
-    if (!facts.places.clock || !shows(LayerOf::charts)) return;
-    const Box& b = *facts.places.clock;
-    const double u = facts.unit;
-    const FilmSetup& setup = *facts.setup;
-    const TextStyle big{.size = 46 * u, .color = facts.palette->ink, .weight = Weight::semibold};
+    if (!context.places.clock || !shows(LayerOf::charts)) return;
+    const Box& b = *context.places.clock;
+    const double u = context.unit;
+    const FilmSetup& setup = *context.setup;
+    const TextStyle big{.size = 46 * u, .color = context.palette->ink, .weight = Weight::semibold};
     const double last = setup.time(setup.frames() - 1);
-    const std::string text = clock_text(facts.time, facts.at(0, frame), last);
-    const double widest = canvas.measure(clock_text(facts.time, last, last), big).w;
+    const std::string text = clock_text(context.time, context.at(0, frame), last);
+    const double widest = canvas.measure(clock_text(context.time, last, last), big).w;
     if (widest > b.w) return;
     if (setup.view.show.clock) canvas.text({b.x, b.y + 40 * u}, text, big);
     struct Pill {
@@ -211,17 +211,17 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         Color color;
     };
     std::vector<Pill> pills;
-    if (setup.view.show.legend && facts.factor > 1 && facts.places.first(PanelKind::mechanism)) {
-        const std::string words = facts.say("deflection ×") + power_text(facts.factor);
-        pills.push_back({words, words, facts.palette->motion});
+    if (setup.view.show.legend && context.factor > 1 && context.places.first(PanelKind::mechanism)) {
+        const std::string words = context.say("deflection ×") + power_text(context.factor);
+        pills.push_back({words, words, context.palette->motion});
     }
     if (setup.view.show.legend && !setup.speeds.empty())
-        pills.push_back({facts.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)), widest_speed,
-                         facts.palette->contact});
+        pills.push_back({context.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)), widest_speed,
+                         context.palette->contact});
     const bool clear = setup.view.transparent;  // its words are read on whatever it is laid upon
     const auto style_of = [&](const Pill& p) {
         return TextStyle{.size = 20 * u,
-                         .color = clear ? facts.palette->paper : p.color,
+                         .color = clear ? context.palette->paper : p.color,
                          .weight = Weight::medium,
                          .align = HAlign::centre};
     };
@@ -255,33 +255,34 @@ Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 
 Film Film::another() const { return Film(prepared_); }
-int Film::frames() const { return prepared_->facts.frames(); }
-double Film::exaggeration() const { return prepared_->facts.factor; }
+int Film::frames() const { return prepared_->context.frames(); }
+double Film::exaggeration() const { return prepared_->context.factor; }
 bool Film::yields() const {
-    const FilmFacts& facts = prepared_->facts;
+    const FilmContext& context = prepared_->context;
     bool flexible = false;
-    for (int m = 0; m < facts.members(); ++m)
-        flexible = flexible || facts.motion(m).problem.beam.model != sim::ModelKind::rigid;
-    return flexible && facts.factor < facts.setup->view.exaggeration.value_or(1);
+    for (int m = 0; m < context.members(); ++m)
+        flexible = flexible || context.motion(m).problem.beam.model != sim::ModelKind::rigid;
+    return flexible && context.factor < context.setup->view.exaggeration.value_or(1);
 }
 bool Film::cuts_title() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
-const DrawingCounts& Film::counts() const { return *prepared_->facts.counts; }
+const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }
 
-std::vector<int> Film::Prepared::stages(int frame) const {
+std::vector<int> Film::Prepared::layer_epochs(int frame) const {
     std::vector<int> out;
-    for (const auto& panel : panels) out.push_back(panel->stage(frame));
+    for (const auto& panel : panels) out.push_back(panel->layer_epoch(frame));
     return out;
 }
 
 bool Film::repeats(int frame) const {
     if (frame < 1 || frame >= frames()) return false;
-    const FilmSetup& setup = *prepared_->facts.setup;
+    const FilmSetup& setup = *prepared_->context.setup;
     const auto now = static_cast<std::size_t>(frame), before = now - 1;
     if (!setup.speeds.empty() && setup.speeds[now] != setup.speeds[before]) return false;
     for (const Callout& words : setup.callouts)
         if (words.opacity(frame) != words.opacity(frame - 1)) return false;
-    if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->plays(frame); })) return false;
+    if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->animates_while_paused(frame); }))
+        return false;
     const auto still = [&](const Motion& motion) { return motion.time(now) == motion.time(before); };
     return still(setup) && std::ranges::all_of(setup.others, still);
 }
@@ -293,14 +294,14 @@ void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
 }
 
 // Made when first needed: the film that others are made from may never draw.
-Film::Tools& Film::tools_for(int frame) {
+Film::FrameRenderer& Film::renderer_for(int frame) {
     if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
-    if (!tools_) tools_ = std::make_unique<Tools>(*prepared_);
-    return *tools_;
+    if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(*prepared_);
+    return *renderer_;
 }
 
 const Image& Film::draw(int frame) {
-    Tools& t = tools_for(frame);
+    FrameRenderer& t = renderer_for(frame);
     t.changed.clear();
     if (t.frame == frame) return t.picture;
     if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first, or the last one failed halfway
@@ -311,31 +312,31 @@ const Image& Film::draw(int frame) {
     t.grown.clear();
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
-    canvas.outline = prepared_->facts.outline();
+    canvas.outline = prepared_->context.outline();
     canvas.touched = &t.moved;
     if (CoverageCache::exact()) canvas.coverage_cache = &t.coverage_cache;
-    prepared_->draw_moving(canvas, frame, prepared_->facts.setup->view.style, t.states);
+    prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.states);
     t.coverage_cache.next_picture();
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;
 }
 
-const Tiles& Film::changed() const {
-    if (!tools_) throw std::logic_error("Film::changed: nothing is drawn yet");
-    return tools_->changed;
+const DirtyTiles& Film::changed() const {
+    if (!renderer_) throw std::logic_error("Film::changed: nothing is drawn yet");
+    return renderer_->changed;
 }
 
 void Film::draw(int frame, Image& out) { out = draw(frame); }
 
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
-    Tools& t = tools_for(frame);
-    FrameGeometry out{p.facts.places, {}, p.facts.factor, {}, p.ground_texts, {}, {}};
+    FrameRenderer& t = renderer_for(frame);
+    FrameGeometry out{p.context.places, {}, p.context.factor, {}, p.background_texts, {}, {}};
     t.keep(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
-    canvas.outline = p.facts.outline();
+    canvas.outline = p.context.outline();
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

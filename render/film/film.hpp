@@ -2,7 +2,7 @@
 // with the same pixels. Nothing grows with the number of frames drawn; what a drawing thread keeps from one frame to
 // the next only saves time.
 //
-// A frame is a grid of panels (panel.hpp) that share one instant, on a ground that never changes. The mechanism is
+// A frame is a grid of panels (panel.hpp) that share one instant, on a background that never changes. The mechanism is
 // drawn lit through OpenGL (lit.hpp) or flat with Cairo alone; titles, charts and labels are Cairo's in both. Drawing
 // never changes what was simulated and never simulates.
 #pragma once
@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 #include "render/film/camera.hpp"
 #include "render/film/layout.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -189,10 +189,10 @@ class Film {
     int frames() const;
     // The frame shows what the one before shows: time stands still.
     bool repeats(int frame) const;
-    // 0 <= frame < frames(). The picture stays until the next is drawn. Only what moved since the one before is drawn
-    // anew, and every pixel is as if all were.
+    // 0 <= frame < frames(). The picture is valid until the next one is drawn. Only parts that changed since the last
+    // picture are redrawn; the pixels equal those of a full redraw.
     const Image& draw(int frame);
-    const Tiles& changed() const;       // where the last picture may differ from the one before; all of the first
+    const DirtyTiles& changed() const;  // where the last picture may differ from the one before; all of the first
     void draw(int frame, Image& out);   // a copy; `out` is resized as needed
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
@@ -203,11 +203,11 @@ class Film {
 
   private:
     struct Prepared;
-    struct Tools;
+    struct FrameRenderer;
     explicit Film(std::shared_ptr<const Prepared> prepared);
-    Tools& tools_for(int frame);
+    FrameRenderer& renderer_for(int frame);
     std::shared_ptr<const Prepared> prepared_;
-    std::unique_ptr<Tools> tools_;
+    std::unique_ptr<FrameRenderer> renderer_;
 };
 
 }  // namespace beamcam::render

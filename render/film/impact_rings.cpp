@@ -13,15 +13,15 @@ constexpr std::ptrdiff_t kMostRings = 6;  // more at once would be a heap
 }  // namespace
 
 void ImpactRings::find(const MechanismView& at) {
-    frames_ = kRing * at.facts.setup->fps;
+    frames_ = kRing * at.context.setup->fps;
     labelled_ = at.labelled();
     std::vector<double> times;
-    for (int k = 0; k < at.facts.frames(); ++k) times.push_back(at.facts.at(at.member, k));
+    for (int k = 0; k < at.context.frames(); ++k) times.push_back(at.context.at(at.member, k));
     for (const sim::Impact& impact : at.motion().impacts) {
         const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
         if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
         const int frame = static_cast<int>(first - times.begin());
-        const sim::Pose pose = at.facts.pose(at.member, frame);
+        const sim::Pose pose = at.context.pose(at.member, frame);
         const DrawnBeam b = at.drawn(at.member, pose);
         if (!b.contact) continue;
         const Vec2 n = b.contact->normal;
@@ -54,7 +54,7 @@ void ImpactRings::draw(const MechanismScene& s) const {
     }
 }
 
-std::optional<Push> ImpactRings::peak(int frame) const {
+std::optional<ForceArrow> ImpactRings::peak(int frame) const {
     if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
     for (const Ring& r : rings_) {

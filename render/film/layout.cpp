@@ -158,30 +158,32 @@ CellGrid cells(const Box& box, int count, int columns, double u) {
     return out;
 }
 
-double scale_in(const CellGrid& c, const Sight& sight, double u) { return sight.camera({0, 0, c.w, c.h}, u).scale; }
+double scale_in(const CellGrid& c, const ViewExtent& extent, double u) {
+    return extent.camera({0, 0, c.w, c.h}, u).scale;
+}
 
 // As many as have room, in the rows and columns that give them the largest scale.
-CellGrid best_cells(const Box& box, int& count, const Sight& sight, double u) {
+CellGrid best_cells(const Box& box, int& count, const ViewExtent& extent, double u) {
     const Vec2 least = type_of(PanelKind::mechanism).smallest * u;
     for (; count > 1; --count) {
         std::optional<CellGrid> best;
         for (int columns = count; columns >= 1; --columns) {
             const CellGrid one = cells(box, count, columns, u);
             if (one.w < least.x || one.h < least.y) continue;
-            if (!best || scale_in(one, sight, u) > scale_in(*best, sight, u)) best = one;
+            if (!best || scale_in(one, extent, u) > scale_in(*best, extent, u)) best = one;
         }
         if (best) return *best;
     }
     return cells(box, 1, 1, u);
 }
 
-void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sight) {
+void place_mechanisms(Layout& out, const Box& box, int members, const ViewExtent& extent) {
     const double u = out.unit;
     if (members == 1) {
         out.panels.insert(out.panels.begin(), {{.kind = PanelKind::mechanism}, whole(box)});
         return;
     }
-    const CellGrid c = best_cells(box, members, sight, u);
+    const CellGrid c = best_cells(box, members, extent, u);
     std::vector<PanelSlot> slots;
     for (int i = 0; i < members; ++i) {
         const double x = box.x + (c.w + CellGrid::kAcross * u) * (i % c.columns),
@@ -193,9 +195,9 @@ void place_mechanisms(Layout& out, const Box& box, int members, const Sight& sig
 }
 
 // What the mechanisms leave of their box at the scale that it gives them [px].
-Vec2 spare(const Box& box, int members, const Sight& sight, double u) {
-    const CellGrid c = best_cells(box, members, sight, u);
-    const Vec2 used = sight.room({0, 0, c.w, c.h}, u);
+Vec2 spare(const Box& box, int members, const ViewExtent& extent, double u) {
+    const CellGrid c = best_cells(box, members, extent, u);
+    const Vec2 used = extent.room({0, 0, c.w, c.h}, u);
     return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
 }
 
@@ -220,7 +222,7 @@ Box plot_area(const Box& box, double u, double tick) {
 }
 
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
-                               const Sight& sight, const Shown& shown) {
+                               const ViewExtent& extent, const Shown& shown) {
     const bool beside = members < kSeveral;
     Frame f = frame(width, height, beside, shown);
     Layout& out = f.out;
@@ -234,7 +236,7 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             if (!has_column(w, h, u)) return {};
             Box left = room;
             left.w -= kPanelColumn * u + 40 * u;
-            const double column = kPanelColumn * u + given(spare(left, members, sight, u).x, widening(w, u));
+            const double column = kPanelColumn * u + given(spare(left, members, extent, u).x, widening(w, u));
             // Beside the title, too, where height is what lacks.
             const double top = f.wide && beside ? f.margin * 0.8 : f.top;
             stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);
@@ -246,7 +248,7 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             if (w < 420 * u || room.h < 620 * u) return {};
             Box above = room;
             above.h -= 320 * u;
-            const double row = 300 * u + given(spare(above, members, sight, u).y, 140 * u);
+            const double row = 300 * u + given(spare(above, members, extent, u).y, 140 * u);
             spread(out, side, {room.x, room.bottom() - row, room.w, row});
             room.h -= row + 20 * u;
             break;
@@ -260,7 +262,7 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             double used = out.panels.back().box.bottom() - out.panels.front().box.y;
             Box above = room;
             above.h -= used + 20 * u;
-            used += given(spare(above, members, sight, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
+            used += given(spare(above, members, extent, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
             const std::vector<PanelSpec> fitting(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
             out.panels.clear();
             stack(out, fitting, {room.x, room.bottom() - used, room.w, used});
@@ -270,33 +272,33 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
     }
     if (out.panels.empty() && how != Arrangement::alone) return {};
     if (room.w < 8 || room.h < 8) room = {0, 0, w, h};
-    place_mechanisms(out, room, members, sight);
+    place_mechanisms(out, room, members, extent);
     return std::move(f.out);
 }
 
-double scale_of(const Layout& layout, const Sight& sight) {
+double scale_of(const Layout& layout, const ViewExtent& extent) {
     double least = 0;
     for (const PanelSlot& slot : layout.panels) {
         if (slot.spec.kind != PanelKind::mechanism) continue;
-        const double scale = sight.camera(slot.box, layout.unit).scale;
+        const double scale = extent.camera(slot.box, layout.unit).scale;
         least = least > 0 ? std::min(least, scale) : scale;
     }
     return least;
 }
 
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const Sight& sight,
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members, const ViewExtent& extent,
               const Shown& shown) {
     using enum Arrangement;
     const bool wide = width >= 1.4 * height, tall = height > 1.35 * width;
     std::optional<Layout> best;
-    Layout without = *arranged(alone, width, height, side, members, sight, shown);
-    const double least = members < kSeveral ? 0 : kKept * scale_of(without, sight);
+    Layout without = *arranged(alone, width, height, side, members, extent, shown);
+    const double least = members < kSeveral ? 0 : kKept * scale_of(without, extent);
     for (Arrangement how : wide   ? std::vector{column, row}
                            : tall ? std::vector{stack, column}
                                   : std::vector{row, column}) {
-        std::optional<Layout> one = arranged(how, width, height, side, members, sight, shown);
-        if (!one || scale_of(*one, sight) < least) continue;
-        if (!best || scale_of(*one, sight) > scale_of(*best, sight)) best = std::move(one);
+        std::optional<Layout> one = arranged(how, width, height, side, members, extent, shown);
+        if (!one || scale_of(*one, extent) < least) continue;
+        if (!best || scale_of(*one, extent) > scale_of(*best, extent)) best = std::move(one);
     }
     return best ? *std::move(best) : without;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/draw/geometry.hpp"
-#include "render/film/sight.hpp"
+#include "render/film/view_extent.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::render {
@@ -71,16 +71,16 @@ enum class Arrangement { alone, column, row, stack };
 
 // width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
 // with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable:
-// where that leaves the mechanisms the larger scale for their `sight`. Room that they do not need goes to the panels.
+// where that leaves the mechanisms the larger scale for their `extent`. Room that they do not need goes to the panels.
 // The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a
 // motion.
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const Sight& sight = {},
+Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const ViewExtent& extent = {},
               const Shown& shown = {});
 // One of them; none where the picture is too small for it.
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
-                               const Sight& sight, const Shown& shown = {});
+                               const ViewExtent& extent, const Shown& shown = {});
 // Of the smallest mechanism [px/m]; 0 without one.
-double scale_of(const Layout& layout, const Sight& sight);
+double scale_of(const Layout& layout, const ViewExtent& extent);
 // The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
 // become rows.
 Layout layout(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
@@ -94,14 +94,14 @@ Box plot_area(const Box& box, double unit, double tick);
 // ---- kinds of panels ---------------------------------------------------------------------------
 
 class FilmPanel;
-struct FilmFacts;
+struct FilmContext;
 
 // All that layouts, scenes and films know of a kind of panel.
 struct PanelType {
     PanelKind kind;
     const char* name;  // as scenes write it
     Vec2 smallest;     // room that it can use [design px]
-    std::unique_ptr<FilmPanel> (*make)(const FilmFacts& facts, const PanelSlot& slot);
+    std::unique_ptr<FilmPanel> (*make)(const FilmContext& context, const PanelSlot& slot);
     std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
     bool draws_curve = false;                     // the second of `channels` over the first
     bool takes_channels = false;                  // scenes name them

@@ -42,8 +42,8 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
 }
 
 // Tiles that a round can touch in a picture of this height.
-void add_round(Tiles& tiles, int height, Vec2 centre, double radius) {
-    constexpr double kRow = Tiles::kHeight;
+void add_round(DirtyTiles& tiles, int height, Vec2 centre, double radius) {
+    constexpr double kRow = DirtyTiles::kHeight;
     const double from = std::min<double>(height, std::max(0.0, centre.y - radius)),
                  to = std::min<double>(height, centre.y + radius);
     for (int row = static_cast<int>(std::floor(from / kRow)); row * kRow < to; ++row) {
@@ -55,8 +55,8 @@ void add_round(Tiles& tiles, int height, Vec2 centre, double radius) {
 }
 
 // What the scene, whose corner is at `origin`, can touch, shadows included: beyond it the lit picture is transparent.
-Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
-    Tiles tiles(width, height);
+DirtyTiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
+    DirtyTiles tiles(width, height);
     const double around = 26 * scene.unit + 4;
     for (const auto* rounds : {&scene.behind, &scene.front})
         for (const LitRound& r : *rounds) add_round(tiles, height, origin + r.centre, r.radius + around);
@@ -75,13 +75,13 @@ Tiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
 void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const MechanismView& at, const Box& within) {
     if (!renderer_) {
         renderer_ = make_lit_renderer(static_cast<int>(within.w), static_cast<int>(within.h));
-        ++at.facts.counts->gl_contexts;
+        ++at.context.counts->gl_contexts;
     }
     const LitScene scene = lit_scene(shape, at.look, at.palette, {within.x, within.y});
     if (shape_ != shape) {
         const int width = static_cast<int>(within.w), height = static_cast<int>(within.h);
         const double before = renderer_->read_back;
-        Tiles now = lit_tiles(scene, {}, width, height), changed = now;
+        DirtyTiles now = lit_tiles(scene, {}, width, height), changed = now;
         if (std::exchange(shape_, std::nullopt)) {
             changed.add(tiles_);
             renderer_->redraw(scene, changed, image_);
@@ -90,8 +90,8 @@ void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const Mecha
         }
         tiles_ = std::move(now);
         shape_ = shape;
-        at.facts.counts->read_back += renderer_->read_back - before;
-        ++at.facts.counts->mechanisms_lit;
+        at.context.counts->read_back += renderer_->read_back - before;
+        ++at.context.counts->mechanisms_lit;
     }
     canvas.image_tiles(image_, static_cast<int>(within.x), static_cast<int>(within.y),
                        lit_tiles(scene, {within.x, within.y}, canvas.image().width, canvas.image().height));

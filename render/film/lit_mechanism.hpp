@@ -19,7 +19,7 @@ class LitMechanism {
     std::unique_ptr<LitRenderer> renderer_;  // made when first needed
     Image image_;
     std::optional<MechanismShape> shape_;  // what the image shows
-    Tiles tiles_;                          // where it does
+    DirtyTiles tiles_;                     // where it does
 };
 
 // A box with room for shadows around these shapes, in whole pixels, cut to the mechanism's.

@@ -54,12 +54,12 @@ Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
 
 // The other motions: outlines of their beams, and of their discs where those stand elsewhere.
 void draw_ghost_outlines(const MechanismScene& s) {
-    for (int m = 0; m < s.at.facts.members(); ++m) {
+    for (int m = 0; m < s.at.context.members(); ++m) {
         if (m == s.at.member) continue;
         const DrawnBeam other = s.at.beam_of(m, s.frame);
-        const Color color = s.at.facts.member_color(m);
-        const sim::Pose& pose = s.at.facts.pose(m, s.frame);
-        const std::optional<sim::Cam>& cam = s.at.facts.motion(m).problem.cam;
+        const Color color = s.at.context.member_color(m);
+        const sim::Pose& pose = s.at.context.pose(m, s.frame);
+        const std::optional<sim::Cam>& cam = s.at.context.motion(m).problem.cam;
         if (cam && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
             s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * pi);
             s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
@@ -71,19 +71,19 @@ void draw_ghost_outlines(const MechanismScene& s) {
 
 // Under the first motion's beam, whose colours mean something.
 void draw_ghost_bodies(const MechanismScene& s) {
-    for (int m = 0; m < s.at.facts.members(); ++m) {
+    for (int m = 0; m < s.at.context.members(); ++m) {
         if (m == s.at.member) continue;
         const Outline outline = ghost_outline(s, s.at.beam_of(m, s.frame));
         s.canvas.polyline(outline.edge);
         for (const Vec2& p : outline.foot) s.canvas.line_to(p);
-        s.canvas.fill(s.at.facts.member_color(m).faded(0.16));
+        s.canvas.fill(s.at.context.member_color(m).faded(0.16));
     }
 }
 
 // A straight beam at the hub's angle.
 void draw_measured_beams(const MechanismScene& s) {
-    for (std::size_t k = 0; k < s.at.facts.setup->data.size(); ++k) {
-        const double angle = s.at.facts.measured_angle(k, s.pose.t);
+    for (std::size_t k = 0; k < s.at.context.setup->data.size(); ++k) {
+        const double angle = s.at.context.measured_angle(k, s.pose.t);
         if (std::isnan(angle)) continue;
         sim::Pose pose = s.pose;
         pose.theta = angle;
@@ -96,7 +96,7 @@ void draw_measured_beams(const MechanismScene& s) {
         DrawnBeam beam = drawn_beam(problem, pose, 1, s.at.look.depth);
         beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // the section lies as the beam's
         s.canvas.polyline(ghost_outline(s, beam).edge);
-        s.canvas.stroke({s.at.facts.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
+        s.canvas.stroke({s.at.context.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
     }
 }
 

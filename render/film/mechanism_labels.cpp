@@ -23,26 +23,26 @@ Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - si
 
 double least_letter(const MechanismView& at) {
     constexpr double kOfTicks = 0.66;  // a single letter is found more easily than a number is read
-    return std::max(kReadable, kOfTicks * at.facts.tick);
+    return std::max(kReadable, kOfTicks * at.context.tick);
 }
 
 double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
 std::string speed_label(const MechanismView& at) {
     return math("ω") + "\u2009=\u2009" +
-           turning_speed(at.problem().cam->speed, at.facts.setup->units.rpm, at.facts.setup->digits);
+           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->digits);
 }
 
-std::string force_label(const MechanismView& at, const Push& push) {
-    const bool chinese = at.facts.setup->view.lang == Lang::zh;
-    const std::string peak_of = at.facts.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
-    return (push.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + reading(push.force, "N");
+std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
+    const bool chinese = at.context.setup->view.lang == Lang::zh;
+    const std::string peak_of = at.context.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
+    return (arrow.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + reading(arrow.force, "N");
 }
 
 // ---- what moves --------------------------------------------------------------------------------
 
 SweptRegion::SweptRegion(const MechanismView& at, const Box& area, double cell) : room(area, cell), at_(at) {
-    const View& view = at.facts.setup->view;
+    const View& view = at.context.setup->view;
     if (view.style != Style::solid) return;
     for (const double way : {-1.0, 0.0, 1.0}) {
         const auto seen = Perspective::looking({}, 2.4 * std::max(at.box.w, at.box.h), 1,
@@ -85,14 +85,14 @@ void SweptRegion::add_disc(Vec2 centre, double radius) {
     for (const Vec2 by : shifts_) room.cover_disc(centre + by, radius);
 }
 
-void SweptRegion::add_push(const Push& push) {
-    const Vec2 foot = at_.px(push.foot), n{push.normal.x, -push.normal.y};
-    const Vec2 side = Vec2{-n.y, n.x} * (8 * at_.marks), tip = foot + n * arrow_length(at_, push);
+void SweptRegion::add_arrow(const ForceArrow& arrow) {
+    const Vec2 foot = at_.px(arrow.foot), n{arrow.normal.x, -arrow.normal.y};
+    const Vec2 side = Vec2{-n.y, n.x} * (8 * at_.marks), tip = foot + n * arrow_length(at_, arrow);
     room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
 }
 
 void SweptRegion::add_fixed() {
-    for (const sim::Problem* p : at_.facts.sight.problems) {
+    for (const sim::Problem* p : at_.context.extent.problems) {
         const Vec2 o = at_.px({0, 0});
         const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
         add_disc(o, hub + 4 * at_.unit);
@@ -165,16 +165,16 @@ class LabelPlacer {
 
     // Beside the tip of the strongest arrow and clear of the beam's back.
     LabelPlace force(const OccupancyGrid& room, Canvas& canvas) const {
-        const Push& most = *std::ranges::max_element(needs.pushes, {}, &Push::force);
+        const ForceArrow& most = *std::ranges::max_element(needs.arrows, {}, &ForceArrow::force);
         double width = 0;
-        const auto measure = [&](const Push& push) {
-            width = std::max(width, canvas.measure(force_label(at, push), force_style(at)).w);
+        const auto measure = [&](const ForceArrow& arrow) {
+            width = std::max(width, canvas.measure(force_label(at, arrow), force_style(at)).w);
         };
         measure(most);
-        const std::size_t step = 1 + needs.pushes.size() / kMeasuredPushes;
-        for (std::size_t i = 0; i < needs.pushes.size(); i += step) measure(needs.pushes[i]);
+        const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
+        for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
         const Vec2 n{most.normal.x, -most.normal.y};
-        const double clear = push_label(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
+        const double clear = force_label_distance(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
         const Vec2 tip = at.px(most.foot) + n * clear;
         const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
         const double gap = 14 * u + shrunk(width);
@@ -194,7 +194,7 @@ class LabelPlacer {
     }
 
     // The solid view is drawn smaller than the flat one, its words are not: so much they come nearer to their arrows.
-    double shrunk(double width) const { return at.facts.setup->view.style == Style::solid ? 0.07 * width : 0; }
+    double shrunk(double width) const { return at.context.setup->view.style == Style::solid ? 0.07 * width : 0; }
 
     LabelPlace place(const OccupancyGrid& room, const Box& wanted, Vec2 base) const {
         const Box found = room.nearest_free(wanted.inset(-u - shrunk(wanted.w)));
@@ -207,19 +207,19 @@ class LabelPlacer {
     void fade_where_met(LabelPlace& label) const {
         const Box box = at.label_box(label, nullptr);
         std::vector<int> met;
-        for (int k = 0; k < at.facts.frames(); ++k) {
+        for (int k = 0; k < at.context.frames(); ++k) {
             SweptRegion now(at, box, 4 * u);
-            const sim::Pose pose = at.facts.pose(at.member, k);
+            const sim::Pose pose = at.context.pose(at.member, k);
             const DrawnBeam beam = at.drawn(at.member, pose);
             const MechanismShape shape = mechanism_shape(at.problem(), pose, beam, at.look, at.palette);
             now.add_beam(shape.face, shape.back);
             if (now.room.covered(box.inset(0.01)) > 0) met.push_back(k);
         }
         if (met.empty()) return;
-        const double fade = kLabelFade * at.facts.setup->fps;
-        for (int k = 0; k < at.facts.frames(); ++k) {
+        const double fade = kLabelFade * at.context.setup->fps;
+        for (int k = 0; k < at.context.frames(); ++k) {
             const auto after = std::ranges::lower_bound(met, k);
-            int far = at.facts.frames();
+            int far = at.context.frames();
             if (after != met.end()) far = *after - k;
             if (after != met.begin()) far = std::min(far, k - *std::prev(after));
             label.opacity.push_back(static_cast<float>(std::min(1.0, far / (1 + fade))));
@@ -240,7 +240,7 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
     out.arc_radius = placer.arc_radius();
     if (!at.labelled()) return out;
     Image scratch(1, 1);
-    Canvas canvas(scratch, *at.facts.fonts);
+    Canvas canvas(scratch, *at.context.fonts);
     const auto take = [&](const LabelPlace& label) {
         for (SweptRegion* each : {&swept, &pressed}) each->room.cover(at.label_box(label, nullptr), 1);
     };
@@ -250,9 +250,9 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
         for (SweptRegion* each : {&swept, &pressed})
             placer.each_of_arrow(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });
     }
-    if (at.facts.setup->view.style != Style::solid) out.angle = placer.angle(swept.room, out.arc_radius);
+    if (at.context.setup->view.style != Style::solid) out.angle = placer.angle(swept.room, out.arc_radius);
     if (out.angle) take(*out.angle);
-    if (!needs.pushes.empty()) {
+    if (!needs.arrows.empty()) {
         out.force = placer.force(pressed.room, canvas);
         take(*out.force);
     }

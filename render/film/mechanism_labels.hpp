@@ -18,7 +18,7 @@ namespace beamcam::render {
 struct MechanismView;
 
 // An arrow of force.
-struct Push {
+struct ForceArrow {
     Vec2 foot, normal;  // [m]
     double force = 0;   // [N]
     bool is_peak = false;
@@ -46,7 +46,7 @@ class SweptRegion {
     void add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back);  // edges of a section [px]
     void add_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to);     // of one of the edges
     void add_disc(Vec2 centre, double radius);                                    // [px]
-    void add_push(const Push& push);
+    void add_arrow(const ForceArrow& arrow);
     void add_fixed();  // hubs, supports, the horizontal, and the discs wherever they turn
 
     OccupancyGrid room;
@@ -59,9 +59,9 @@ class SweptRegion {
 };
 
 struct LabelNeeds {
-    Range angles;              // over the film, as the arc shows them [rad]
-    double arc_room = 0;       // largest radius of the arc that fits [px]
-    std::vector<Push> pushes;  // of every frame that has one
+    Range angles;                    // over the film, as the arc shows them [rad]
+    double arc_room = 0;             // largest radius of the arc that fits [px]
+    std::vector<ForceArrow> arrows;  // of every frame that has one
 };
 
 // Places the labels, and covers them in `swept`. `pressed`: what stands in the frames that show a force.
@@ -70,7 +70,7 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
 
 // As they are written.
 std::string speed_label(const MechanismView& at);
-std::string force_label(const MechanismView& at, const Push& push);
+std::string force_label(const MechanismView& at, const ForceArrow& arrow);
 // The least size of the letters on a mechanism [px].
 double least_letter(const MechanismView& at);
 // Of a design pixel of the angle's letter [px].

@@ -24,13 +24,13 @@ bool meets(const Box& box, Vec2 from, Vec2 to) {
 }
 
 // The label of the force. Where the view's edge pushes it upon its arrow, it stands on the arrow's other side.
-LabelPlace beside_arrow(const MechanismScene& s, const Push& push, Vec2 foot, Vec2 tip) {
+LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 foot, Vec2 tip) {
     LabelPlace label = *s.at.labels->force;
-    const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, push.foot), foot, tip); };
+    const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, arrow.foot), foot, tip); };
     if (!s.at.moved || is_clear()) return label;
     const LabelPlace usual = label;
     const Vec2 way = label.middle - label.base;
-    label.middle = label.base + push.normal * (2 * dot(way, push.normal)) - way;
+    label.middle = label.base + arrow.normal * (2 * dot(way, arrow.normal)) - way;
     return is_clear() ? label : usual;
 }
 
@@ -68,8 +68,8 @@ double speed_gap(const MechanismView& at) { return 20 * at.unit; }
 double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
 
 // In proportion to the force.
-double arrow_length(const MechanismView& at, const Push& push) {
-    return push_length(std::min(1.0, push.force / at.facts.arrow_scale), at.small, at.marks);
+double arrow_length(const MechanismView& at, const ForceArrow& arrow) {
+    return force_arrow_length(std::min(1.0, arrow.force / at.context.arrow_scale), at.small, at.marks);
 }
 
 TextStyle force_style(const MechanismView& at) {
@@ -79,12 +79,12 @@ TextStyle force_style(const MechanismView& at) {
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
-    const double half_life = trace_half_life(at.facts.span);
+    const double half_life = trace_half_life(at.context.span);
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
     for (std::size_t i = 0; i < out.size(); ++i) {
-        if (!(trace.rim()[i] > 0) || !(at.facts.force_scale > 0)) continue;
-        if (at.facts.setup->view.trace == TraceColor::force) {
-            out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.facts.force_scale)));
+        if (!(trace.rim()[i] > 0) || !(at.context.force_scale > 0)) continue;
+        if (at.context.setup->view.trace == TraceColor::force) {
+            out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.context.force_scale)));
         } else {
             const double age = std::max(0.0, now - trace.rim_times()[i]);
             out[i] = age_color(at.palette, age, half_life);
@@ -154,9 +154,9 @@ void draw_base_line(const MechanismScene& s) {
 }
 
 static Color ink_on_disc(const MechanismScene& s) {
-    const bool dark = s.at.facts.setup->view.theme == Theme::dark;
+    const bool dark = s.at.context.setup->view.theme == Theme::dark;
     if (s.view) return s.at.palette.ink;
-    if (dark && s.at.facts.setup->view.style == Style::flat) return s.at.palette.paper;
+    if (dark && s.at.context.setup->view.style == Style::flat) return s.at.palette.paper;
     return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
 }
 
@@ -166,7 +166,7 @@ void draw_disc_letters(const MechanismScene& s) {
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
     const double usual = 22 * s.at.marks;
-    if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.facts.setup->view.show.labels) return;
+    if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.context.setup->view.show.labels) return;
     // On a small disc they stay readable, and as far from what they name as they are large.
     const double size = std::max(usual, std::min(least_letter(s.at), 0.45 * d.radius)), letter = size / 22;
     const double apart = norm(d.centre - d.axis);
@@ -194,8 +194,8 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
         s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
     };
     const double width = std::min(7 * s.at.unit, 0.1 * d.radius);
-    if (s.at.facts.setup->view.trace == TraceColor::force) {
-        stroke_places(s.canvas, s.at.facts, trace.rim(), width, place);
+    if (s.at.context.setup->view.trace == TraceColor::force) {
+        stroke_places(s.canvas, s.at.context, trace.rim(), width, place);
     } else {
         const std::vector<Color> colors = rim_colors(s.at, trace, s.pose.t);
         for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -232,30 +232,31 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
                    back = s.px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
         return face + (back - face) * (inset / norm(back - face));
     };
-    stroke_places(s.canvas, s.at.facts, trace.beam(), 5 * s.at.unit, [&](std::size_t i) {
+    stroke_places(s.canvas, s.at.context, trace.beam(), 5 * s.at.unit, [&](std::size_t i) {
         s.canvas.move_to(at(static_cast<double>(i) - 1.2));
         s.canvas.line_to(at(static_cast<double>(i) + 2.2));
     });
 }
 
-std::optional<Push> push_of(const sim::Pose& pose, const DrawnBeam& beam, const std::optional<Push>& peak) {
+std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
+                                         const std::optional<ForceArrow>& peak) {
     if (peak || !shows_force(pose, beam)) return peak;
-    return Push{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
+    return ForceArrow{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
 }
 
 void draw_force(const MechanismScene& s) {
-    if (!s.push) return;
-    const Push& push = *s.push;
-    const Vec2 flat = s.at.px(push.foot), foot = s.on(flat), n{push.normal.x, -push.normal.y};
+    if (!s.arrow) return;
+    const ForceArrow& arrow = *s.arrow;
+    const Vec2 flat = s.at.px(arrow.foot), foot = s.on(flat), n{arrow.normal.x, -arrow.normal.y};
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
     // Where the force is too small for an arrow, the dot and the number tell of it.
-    const double length = arrow_length(s.at, push);
+    const double length = arrow_length(s.at, arrow);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
     if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
-        draw_label(s, beside_arrow(s, push, foot, tip), force_label(s.at, push), force_style(s.at), tip, push.foot);
+        draw_label(s, beside_arrow(s, arrow, foot, tip), force_label(s.at, arrow), force_style(s.at), tip, arrow.foot);
 }
 
 }  // namespace beamcam::render

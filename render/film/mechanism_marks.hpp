@@ -23,10 +23,11 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace);
 double speed_radius(const MechanismView& at);
 double speed_gap(const MechanismView& at);  // between the circle that the disc sweeps and the arc [px]
 double speed_span(const MechanismView& at);
-double arrow_length(const MechanismView& at, const Push& push);  // [px]
+double arrow_length(const MechanismView& at, const ForceArrow& arrow);  // [px]
 TextStyle force_style(const MechanismView& at);
 // The force of this instant; in place of none, or of one that does not last, that of a contact just over.
-std::optional<Push> push_of(const sim::Pose& pose, const DrawnBeam& beam, const std::optional<Push>& peak);
+std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
+                                         const std::optional<ForceArrow>& peak);
 void draw_force(const MechanismScene& s);
 // A colour for each place around the disc, none where it was never touched.
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);

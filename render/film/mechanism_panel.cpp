@@ -7,9 +7,9 @@
 #include <numbers>
 #include <ranges>
 
-#include "render/film/apart.hpp"
 #include "render/film/captions.hpp"
 #include "render/film/mechanism_ghosts.hpp"
+#include "render/film/offscreen.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -24,24 +24,24 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // ---- prepared once for a film ----------------------------------------------------------------
 
-struct MechanismPanel::Threads final : FilmPanel::State {
-    Threads(const FilmFacts& facts, int member, double scale, const Box& box)
-        : path(facts.setup->view.tip_path ? static_cast<int>(box.w) : 1,
-               facts.setup->view.tip_path ? static_cast<int>(box.h) : 1),
-          trace(facts.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
-        const sim::Problem& problem = facts.motion(member).problem;
+struct MechanismPanel::ThreadState final : FilmPanel::State {
+    ThreadState(const FilmContext& context, int member, double scale, const Box& box)
+        : path(context.setup->view.tip_path ? static_cast<int>(box.w) : 1,
+               context.setup->view.tip_path ? static_cast<int>(box.h) : 1),
+          trace(context.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
+        const sim::Problem& problem = context.motion(member).problem;
         const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
         const auto places = [](double px) { return static_cast<std::size_t>(std::clamp(px, 1.0, 65536.0)); };
-        trace = Trace(facts.samples[static_cast<std::size_t>(member)], 2 * pi * r, places(2 * pi * r * scale), l,
+        trace = Trace(context.samples[static_cast<std::size_t>(member)], 2 * pi * r, places(2 * pi * r * scale), l,
                       places(l * scale));
     }
-    GrowingLayer path;
+    AccumulatedLayer path;
     Trace trace;
     LitMechanism lit;
-    Apart seen, exposed;  // what a moving camera sees; one of several exposures
+    Offscreen seen, exposed;  // what a moving camera sees; one of several exposures
 };
 
-MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : at_(facts, slot), words_(at_) {
+MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot) : at_(context, slot), words_(at_) {
     at_.labels = &labels_;
     rings_.find(at_);
     const double cell = std::max(1.5, 2 * at_.unit);
@@ -55,7 +55,7 @@ MechanismPanel::MechanismPanel(const FilmFacts& facts, const PanelSlot& slot) : 
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
-    return std::make_unique<Threads>(at_.facts, at_.member, at_.look.camera.scale, at_.box);
+    return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale, at_.box);
 }
 
 // How large an arc about `centre` over these angles can be within the box.
@@ -72,39 +72,39 @@ static double arc_room(Range angles, Vec2 centre, const Box& box) {
 
 // What the survey of all motions tells: the same for mechanisms that stand beside each other.
 void MechanismPanel::note_survey(SweptRegion& swept) const {
-    for (const std::vector<Vec2>& strip : at_.facts.sight.strips) {
+    for (const std::vector<Vec2>& strip : at_.context.extent.strips) {
         std::vector<Vec2> face, back;
         for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
             face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
         swept.add_beam(face, back);
     }
-    for (const Sight::Push& push : at_.facts.sight.pushes)
-        swept.add_push({push.foot, push.normal, push.share * at_.facts.arrow_scale});
+    for (const ViewExtent::ForceArrow& arrow : at_.context.extent.arrows)
+        swept.add_arrow({arrow.foot, arrow.normal, arrow.share * at_.context.arrow_scale});
 }
 
 LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed) {
     LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
     Bounds seen;
     std::vector<Vec2> before;
-    for (int k = 0; k < at_.facts.frames(); ++k) {
-        const Pose pose = at_.facts.pose(at_.member, k);
+    for (int k = 0; k < at_.context.frames(); ++k) {
+        const Pose pose = at_.context.pose(at_.member, k);
         const DrawnBeam drawn = at_.drawn(at_.member, pose);
         const double angle = drawn_angle(pose);
         needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
-        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.facts.at(0, k) > at_.facts.at(0, k - 1));
+        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
         followed_.push_back({at_.look.camera.to_world(tip),
                              drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                              at_.problem().cam ? pose.cam_centre : Vec2{}});
-        const std::optional<Push> push = push_of(pose, drawn, rings_.peak(k));
+        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k));
         for (SweptRegion* each : {&swept, &pressed}) {
-            if (each == &pressed && !push) continue;
+            if (each == &pressed && !arrow) continue;
             each->add_beam(shape.face, shape.back);
             each->add_way(before, shape.face);
-            if (push) each->add_push(*push);
+            if (arrow) each->add_arrow(*arrow);
         }
-        if (push) needs.pushes.push_back(*push);
+        if (arrow) needs.arrows.push_back(*arrow);
         before = shape.face;
         if (at_.problem().cam) {
             const sim::Cam& cam = *at_.problem().cam;
@@ -115,27 +115,27 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
-    for (int k = 0; k + 1 < at_.facts.frames(); ++k)
+    for (int k = 0; k + 1 < at_.context.frames(); ++k)
         for (SweptRegion* each : {&swept, &pressed})
             each->room.cover(tip_path_.piece(at_, static_cast<std::size_t>(k)), 1);  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
-    if (at_.facts.setup->view.tip_path) tip_path_.find_whole(at_);
+    if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
     lit_box_ = lit_box(seen.box(), at_.box, at_.unit);
     return needs;
 }
 
 void MechanismPanel::find_shots() {
-    const FilmSetup& setup = *at_.facts.setup;
+    const FilmSetup& setup = *at_.context.setup;
     const Shot& first = setup.view.shot;
     if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
-    shots_ = sightings(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
+    shots_ = camera_frames(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
 }
 
 // The solid view is judged as if it were seen from the front.
 int MechanismPanel::empty_frames() const {
     int count = 0;
-    for (int k = 0; !shots_.empty() && k < at_.facts.frames(); ++k) {
+    for (int k = 0; !shots_.empty() && k < at_.context.frames(); ++k) {
         const Camera& camera = shots_[static_cast<std::size_t>(k)].camera;
         const auto sees = [&](const Bounds& part) {  // a part of the mechanism [m]
             const Vec2 corner = camera.to_pixels({part.x0, part.y1});
@@ -151,22 +151,22 @@ int MechanismPanel::empty_frames() const {
         }
         Bounds hub, disc;
         hub.add({0, 0}, hub_radius(at_.problem(), at_.look.camera, at_.unit) / at_.look.camera.scale);
-        if (at_.problem().cam) disc.add(at_.facts.pose(at_.member, k).disc_centre, at_.problem().cam->radius);
+        if (at_.problem().cam) disc.add(at_.context.pose(at_.member, k).disc_centre, at_.problem().cam->radius);
         if (!seen && !sees(hub) && !(at_.problem().cam && sees(disc))) ++count;
     }
     return count;
 }
 
-// ---- the ground ------------------------------------------------------------------------------
+// ---- the background --------------------------------------------------------------------------
 
-void MechanismPanel::draw_ground(Canvas& canvas) const {
+void MechanismPanel::draw_background(Canvas& canvas) const {
     if (!shots_.empty()) return;
     draw_still(canvas, at_);
     words_.draw(canvas, at_);
 }
 
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
-    if (at.facts.setup->view.style == Style::solid) return;  // all is seen from moving places
+    if (at.context.setup->view.style == Style::solid) return;  // all is seen from moving places
     const Vec2 o = at.px({0, 0});
     canvas.line({at.box.x, o.y}, {at.box.right(), o.y},
                 {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
@@ -177,8 +177,8 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // Far enough for a mild perspective, and a little smaller than the flat view, so that what comes nearer stays within.
 Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
-    const View& view = at.facts.setup->view;
-    const double turn = 2 * pi * frame / std::max(1, at.facts.frames());
+    const View& view = at.context.setup->view;
+    const double turn = 2 * pi * frame / std::max(1, at.context.frames());
     double yaw = view.shot.yaw, pitch = view.shot.pitch;
     if (!shots_.empty())
         yaw = shots_[static_cast<std::size_t>(frame)].yaw, pitch = shots_[static_cast<std::size_t>(frame)].pitch;
@@ -187,24 +187,24 @@ Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
 }
 
 bool MechanismPanel::whole_path() const {
-    return at_.facts.setup->view.tip_path && at_.facts.setup->view.style != Style::solid && shots_.empty();
+    return at_.context.setup->view.tip_path && at_.context.setup->view.style != Style::solid && shots_.empty();
 }
 
-void MechanismPanel::grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const {
+void MechanismPanel::accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const {
     if (!whole_path()) return;
-    GrowingLayer& path = static_cast<Threads*>(state)->path;
-    Box changed = path.until(at_.facts.at(at_.member, frame), tip_path_.whole(), kept.fonts(),
-                             {at_.palette.motion_faint, 1.6 * at_.unit});
-    if (anew) changed = path.whole();
+    AccumulatedLayer& path = static_cast<ThreadState*>(state)->path;
+    Box changed = path.extend_to(at_.context.at(at_.member, frame), tip_path_.whole(), kept.fonts(),
+                                 {at_.palette.motion_faint, 1.6 * at_.unit});
+    if (restart) changed = path.whole();
     if (changed.empty()) return;
-    kept.replace_part(ground, 0, 0, {changed.x + at_.box.x, changed.y + at_.box.y, changed.w, changed.h});
+    kept.replace_part(background, 0, 0, {changed.x + at_.box.x, changed.y + at_.box.y, changed.w, changed.h});
     kept.image_part(path.image(), static_cast<int>(at_.box.x), static_cast<int>(at_.box.y), changed);
 }
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
-    auto& threads = *static_cast<Threads*>(state);
+    auto& threads = *static_cast<ThreadState*>(state);
     if (shots_.empty()) return draw_moving(canvas, at_, frame, style, threads);
-    const MechanismView at = at_.seen_by(shots_[static_cast<std::size_t>(frame)]);
+    const MechanismView at = at_.with_camera(shots_[static_cast<std::size_t>(frame)]);
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
         draw_still(inside, at);
         draw_moving(inside, at, frame, style, threads);
@@ -212,16 +212,16 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     });
 }
 
-void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads,
+void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
                                  std::vector<Box>* labels) const {
-    const Pose pose = at.facts.pose(at.member, frame);
+    const Pose pose = at.context.pose(at.member, frame);
     const DrawnBeam drawn = at.drawn(at.member, pose);
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.show_until(pose.t);
     const Perspective perspective = view_of(at, frame);
     const Perspective* view = style == Style::solid ? &perspective : nullptr;
-    const std::optional<Push> push = push_of(pose, drawn, rings_.peak(frame));
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, push, labels};
+    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame));
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
     draw_tip_path(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
@@ -246,7 +246,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.member == 0) draw_captions(s);
 }
 
-void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, Threads& threads) const {
+void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const {
     switch (style) {
         case Style::solid:
             return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace, s.pose.t));
@@ -261,7 +261,7 @@ void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, Threads& 
 }
 
 // The mean of all exposures, or those of the strobe one by one: the older, the fainter.
-void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Threads& threads) const {
+void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const {
     const std::size_t count = s.at.motion().exposures;
     const auto draw_one = [&](Canvas& canvas, const Pose& pose) {
         const DrawnBeam drawn = s.at.drawn(s.at.member, pose);
@@ -287,15 +287,15 @@ void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Thread
 // All of the tip's path, where it is not drawn already, or the last of it.
 void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
     if (whole_path()) return;
-    if (at_.facts.setup->view.tip_path && s.at.moved && !s.view)
+    if (at_.context.setup->view.tip_path && s.at.moved && !s.view)
         tip_path_.draw_whole(s, at_);
     else
         tip_path_.draw_trail(s, at_);
 }
 
 // The camera, and the rings of impacts.
-bool MechanismPanel::plays(int frame) const {
-    const View& view = at_.facts.setup->view;
+bool MechanismPanel::animates_while_paused(int frame) const {
+    const View& view = at_.context.setup->view;
     const auto now = static_cast<std::size_t>(frame);
     if (view.style == Style::solid && view.swing != 0) return true;
     if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
@@ -307,13 +307,13 @@ bool MechanismPanel::plays(int frame) const {
 std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     std::vector<Box> out;
     auto state = make_state();
-    const MechanismView at = shots_.empty() ? at_ : at_.seen_by(shots_[static_cast<std::size_t>(frame)]);
-    draw_moving(canvas, at, frame, Style::flat, static_cast<Threads&>(*state), &out);
+    const MechanismView at = shots_.empty() ? at_ : at_.with_camera(shots_[static_cast<std::size_t>(frame)]);
+    draw_moving(canvas, at, frame, Style::flat, static_cast<ThreadState&>(*state), &out);
     return out;
 }
 
-std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    return std::make_unique<MechanismPanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<MechanismPanel>(context, slot);
 }
 
 }  // namespace beamcam::render

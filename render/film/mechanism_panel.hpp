@@ -14,13 +14,13 @@ namespace beamcam::render {
 
 class MechanismPanel final : public FilmPanel {
   public:
-    MechanismPanel(const FilmFacts& facts, const PanelSlot& slot);
+    MechanismPanel(const FilmContext& context, const PanelSlot& slot);
 
     std::unique_ptr<State> make_state() const override;
-    void draw_ground(Canvas& canvas) const override;
-    void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override;
-    Box growing() const override { return whole_path() ? at_.box : Box{}; }
-    bool plays(int frame) const override;
+    void draw_background(Canvas& canvas) const override;
+    void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const override;
+    Box accumulated_box() const override { return whole_path() ? at_.box : Box{}; }
+    bool animates_while_paused(int frame) const override;
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
     // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
@@ -34,19 +34,19 @@ class MechanismPanel final : public FilmPanel {
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
-    struct Threads;  // State
+    struct ThreadState;  // State
     Perspective view_of(const MechanismView& at, int frame) const;
     void find_shots();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
-    void draw_bodies(const MechanismScene& s, Style style, Threads& threads) const;
-    void draw_exposures(const MechanismScene& s, Style style, Threads& threads) const;
-    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, Threads& threads,
+    void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
+    void draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const;
+    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
                      std::vector<Box>* labels = nullptr) const;
 
     void note_survey(SweptRegion& swept) const;
     LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
 
-    bool view_strobes() const { return at_.facts.setup->view.strobe; }
+    bool view_strobes() const { return at_.context.setup->view.strobe; }
     bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
     void draw_tip_path(const MechanismScene& s) const;
 
@@ -57,7 +57,7 @@ class MechanismPanel final : public FilmPanel {
     TipPath tip_path_;
     ImpactRings rings_;
     std::vector<Followed> followed_;  // of every frame
-    std::vector<Sighting> shots_;     // of every frame; empty: always all of it
+    std::vector<CameraFrame> shots_;  // of every frame; empty: always all of it
 };
 
 }  // namespace beamcam::render

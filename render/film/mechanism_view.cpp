@@ -4,8 +4,8 @@
 #include <cmath>
 
 namespace beamcam::render {
-MechanismView::MechanismView(const FilmFacts& all, const PanelSlot& slot)
-    : facts(all),
+MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
+    : context(all),
       palette(*all.palette),
       box(slot.box),
       member(std::min(slot.spec.member, all.members() - 1)),
@@ -23,23 +23,23 @@ MechanismView::MechanismView(const FilmFacts& all, const PanelSlot& slot)
 // The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
 void MechanismView::place_camera() {
     // A beam thinner than a line gets the weight of one; it grows away from the cam.
-    const auto as_deep_as = [&](const Sight& sight) {
+    const auto as_deep_as = [&](const ViewExtent& extent) {
         // Labels of mechanisms beside each other stand above them, all in one line.
-        const double label = facts.members() > 1 && !ghosts && box.h > 200 * unit ? 38 * unit : 0;
-        look.camera = sight.camera({box.x, box.y + label, box.w, box.h - label}, unit);
+        const double label = context.members() > 1 && !ghosts && box.h > 200 * unit ? 38 * unit : 0;
+        look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
         look.depth = std::max(problem().beam.depth, 7 * unit / look.camera.scale);
     };
-    as_deep_as(facts.sight);
-    if (look.depth > problem().beam.depth) as_deep_as(sight_of(facts, look.depth));
+    as_deep_as(context.extent);
+    if (look.depth > problem().beam.depth) as_deep_as(view_extent_of(context, look.depth));
     marks = unit;  // the same for mechanisms beside each other
-    for (const sim::Problem* p : facts.sight.problems) marks = std::min(marks, mark_unit(*p, look.camera, unit));
+    for (const sim::Problem* p : context.extent.problems) marks = std::min(marks, mark_unit(*p, look.camera, unit));
 }
 
-MechanismView MechanismView::seen_by(const Sighting& sighting) const {
+MechanismView MechanismView::with_camera(const CameraFrame& frame_camera) const {
     MechanismView out = *this;
-    out.look.camera = sighting.camera;
-    out.look.unit = unit * sighting.zoom;
-    out.wide = wide * sighting.zoom;
+    out.look.camera = frame_camera.camera;
+    out.look.unit = unit * frame_camera.zoom;
+    out.wide = wide * frame_camera.zoom;
     out.moved = true;
     return out;
 }
@@ -51,9 +51,9 @@ Vec2 MechanismView::seen(Vec2 flat, const Perspective* view) const {
 }
 
 DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
-    const sim::Problem& its = facts.motion(whose).problem;
+    const sim::Problem& its = context.motion(whose).problem;
     const double factor = its.beam.model == sim::ModelKind::rigid ? 1 : look.factor;
-    return drawn_beam(its, pose, factor, look.depth, facts.with(whose));
+    return drawn_beam(its, pose, factor, look.depth, context.with(whose));
 }
 
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {

@@ -12,9 +12,9 @@
 namespace beamcam::render {
 
 struct MechanismView {
-    MechanismView(const FilmFacts& facts, const PanelSlot& slot);
+    MechanismView(const FilmContext& context, const PanelSlot& slot);
 
-    const FilmFacts& facts;
+    const FilmContext& context;
     const Palette& palette;
     Box box;
     int member;
@@ -22,12 +22,12 @@ struct MechanismView {
     double unit,
         marks = 1;  // [px] of a design pixel: of lines and words; of what is drawn on the mechanism (mark_unit)
     bool small;
-    bool labelled() const { return !small && facts.setup->view.show.labels; }
+    bool labelled() const { return !small && context.setup->view.show.labels; }
     MechanismLook look;
     double wide;  // of the beam across the plane of motion, in the solid view [px]
 
     // The same with the camera elsewhere: what is drawn grows with the zoom, lines and letters do not.
-    MechanismView seen_by(const Sighting& sighting) const;
+    MechanismView with_camera(const CameraFrame& frame_camera) const;
     double zoom() const { return look.unit / unit; }
     bool shows(Vec2 px) const {
         return !moved || (px.x > box.x && px.x < box.right() && px.y > box.y && px.y < box.bottom());
@@ -36,13 +36,13 @@ struct MechanismView {
     const MechanismLabels* labels = nullptr;  // null: not yet placed
     bool moved = false;                       // the camera does not show all
 
-    const Motion& motion() const { return facts.motion(member); }
+    const Motion& motion() const { return context.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }
     Vec2 px(Vec2 world) const { return look.camera.to_pixels(world); }
     // Where a point of the plane of motion [px of the flat view] is seen; null: as it is.
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
-    DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, facts.pose(whose, frame)); }
+    DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
     // Where a label is written. A moving camera keeps it as near to its base, or to this one [m], as the camera that
     // shows all does, and within the view; in perspective, the end of it that is nearest to its base keeps its place.
     Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {}) const;
@@ -59,9 +59,9 @@ struct MechanismScene {
     const DrawnBeam& beam;
     const MechanismShape& shape;
     const MechanismView& at;
-    const Perspective* view;             // of the solid view; null: as it is
-    std::optional<Push> push = {};       // the arrow of force that it shows
-    std::vector<Box>* labels = nullptr;  // where each label was drawn is added here
+    const Perspective* view;               // of the solid view; null: as it is
+    std::optional<ForceArrow> arrow = {};  // the arrow of force that it shows
+    std::vector<Box>* labels = nullptr;    // where each label was drawn is added here
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }

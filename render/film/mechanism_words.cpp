@@ -9,25 +9,25 @@ namespace beamcam::render {
 
 std::vector<MechanismWords::Entry> MechanismWords::entries() const {
     std::vector<Entry> out;
-    for (int m = 0; m < at_.facts.members() && at_.facts.members() > 1; ++m)
+    for (int m = 0; m < at_.context.members() && at_.context.members() > 1; ++m)
         if (at_.ghosts || m == at_.member)
-            out.push_back({at_.facts.member_color(m), at_.facts.labels[static_cast<std::size_t>(m)]});
-    for (std::size_t k = 0; k < at_.facts.data_labels.size() && at_.member == 0; ++k)
-        if (at_.facts.setup->data[k].find({sim::ChannelKind::theta, 0}))
-            out.push_back({at_.facts.data_color(k), at_.facts.data_labels[k], true});
+            out.push_back({at_.context.member_color(m), at_.context.labels[static_cast<std::size_t>(m)]});
+    for (std::size_t k = 0; k < at_.context.data_labels.size() && at_.member == 0; ++k)
+        if (at_.context.setup->data[k].find({sim::ChannelKind::theta, 0}))
+            out.push_back({at_.context.data_color(k), at_.context.data_labels[k], true});
     return out;
 }
 
 bool MechanismWords::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
 bool MechanismWords::has_bar() const {
     return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
-           at_.facts.setup->view.style != Style::solid;
+           at_.context.setup->view.style != Style::solid;
 }
 
 // In corners, or along edges, where nothing moving comes.
 void MechanismWords::place(OccupancyGrid room) {
     Image scratch(1, 1);
-    Canvas canvas(scratch, *at_.facts.fonts);
+    Canvas canvas(scratch, *at_.context.fonts);
     const double gap = std::min(4 * at_.unit, 0.1 * std::min(at_.box.w, at_.box.h));
     const auto choose = [&](Vec2 size, Corner first) {
         const Box place = room.choose(places_along(at_.box.inset(gap), size, first));
@@ -36,7 +36,7 @@ void MechanismWords::place(OccupancyGrid room) {
     };
     if (has_label()) {
         double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
-        for (const auto* labels : {&at_.facts.labels, &at_.facts.data_labels})
+        for (const auto* labels : {&at_.context.labels, &at_.context.data_labels})
             for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style()).w);
         const auto lines = static_cast<double>(entries().size());
         label_ =
@@ -44,7 +44,7 @@ void MechanismWords::place(OccupancyGrid room) {
     }
     if (!has_bar()) return;
     const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
-                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = at_.facts.tick}).w);
+                                 canvas.measure(quantity(scale_length(at_), "m"), {.size = at_.context.tick}).w);
     bar_ = choose({wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right);
 }
 
@@ -79,7 +79,7 @@ void MechanismWords::scale_bar(Canvas& canvas, const MechanismView& at) const {
     canvas.stroke({at_.palette.muted, 1.6 * at_.unit, {}, Cap::butt});
     canvas.text(
         {middle, y - 9 * at_.unit}, quantity(scale_length(at), "m"),
-        {.size = at_.facts.tick, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
+        {.size = at_.context.tick, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
 }
 
 TextStyle MechanismWords::label_style() const {

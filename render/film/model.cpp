@@ -118,16 +118,16 @@ class Arrays {
 class Model {
   public:
     explicit Model(const FilmSetup& setup)
-        : facts_(std::make_shared<const FilmSetup>(setup)),
-          problem_(facts_.motion(0).problem),
+        : context_(std::make_shared<const FilmSetup>(setup)),
+          problem_(context_.motion(0).problem),
           length_(problem_.beam.length),
           wide_(kWide * length_),
           depth_(std::max(problem_.beam.depth, kThinnest * length_)) {
-        double first = facts_.at(0, 0);
-        for (int k = 0; k < facts_.frames(); ++k) {
-            poses_.push_back(facts_.pose(0, k));
-            beams_.push_back(drawn_beam(problem_, poses_.back(), facts_.factor, depth_));
-            times_.push_back(static_cast<float>(facts_.at(0, k) - first));
+        double first = context_.at(0, 0);
+        for (int k = 0; k < context_.frames(); ++k) {
+            poses_.push_back(context_.pose(0, k));
+            beams_.push_back(drawn_beam(problem_, poses_.back(), context_.factor, depth_));
+            times_.push_back(static_cast<float>(context_.at(0, k) - first));
         }
         keys_ = arrays_.floats(times_, "SCALAR", 1, true);
     }
@@ -141,9 +141,9 @@ class Model {
             R"({{"asset":{{"version":"2.0","generator":"beamcam","extras":{{"title":{},"deflection":{:.9g}}}}},"scene":0,)"
             R"("scenes":[{{"nodes":[{}]}}],"nodes":[{}],"meshes":[{}],"materials":[{}],"skins":[{}],)"
             R"("animations":[{{"name":"motion","channels":[{}],"samplers":[{}]}}],{}}})",
-            json_text(plain_words(facts_.setup->title)), facts_.factor, fmt::join(roots_, ","), fmt::join(nodes_, ","),
-            fmt::join(meshes_, ","), materials(), skin_, fmt::join(channels_, ","), fmt::join(samplers_, ","),
-            arrays_.json());
+            json_text(plain_words(context_.setup->title)), context_.factor, fmt::join(roots_, ","),
+            fmt::join(nodes_, ","), fmt::join(meshes_, ","), materials(), skin_, fmt::join(channels_, ","),
+            fmt::join(samplers_, ","), arrays_.json());
         while (json.size() % 4 != 0) json += ' ';
         std::string& bytes = arrays_.bytes();
         while (bytes.size() % 4 != 0) bytes += '\0';
@@ -168,7 +168,7 @@ class Model {
                 R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.4f},{:.4f},{:.4f},1],"metallicFactor":{},"roughnessFactor":0.45}}}})",
                 name, linear(c.r), linear(c.g), linear(c.b), metal);
         };
-        const Palette& p = *facts_.palette;
+        const Palette& p = *context_.palette;
         return one("steel", p.steel, 0.6) + "," + one("pin", p.pin, 0.3) + "," + one("beam", p.motion, 0.1);
     }
 
@@ -313,7 +313,7 @@ class Model {
         add_node("beam", fmt::format(R"(,"mesh":{},"skin":0)", mesh));
     }
 
-    FilmFacts facts_;
+    FilmContext context_;
     const sim::Problem& problem_;
     double length_, wide_, depth_;
     std::vector<sim::Pose> poses_;

@@ -31,9 +31,9 @@ struct Instant {
     std::vector<Vec2> points;  // the drawn section's middle, root to tip; then the point of the disc nearest to it
 };
 
-Instant instant_of(const FilmFacts& facts, int frame, double depth, double& thickness) {
-    const sim::Pose pose = facts.pose(0, frame);
-    const DrawnBeam beam = drawn_beam(facts.motion(0).problem, pose, facts.factor, depth);
+Instant instant_of(const FilmContext& context, int frame, double depth, double& thickness) {
+    const sim::Pose pose = context.pose(0, frame);
+    const DrawnBeam beam = drawn_beam(context.motion(0).problem, pose, context.factor, depth);
     thickness = beam.high - beam.low;
     Instant out{pose.t, pose.theta, pose.cam_angle, pose.nearest ? pose.nearest->force : 0, {}};
     const std::size_t last = beam.line.size() - 1, stations = std::min(kStations, last + 1);
@@ -46,8 +46,8 @@ Instant instant_of(const FilmFacts& facts, int frame, double depth, double& thic
 }
 
 // Where contacts begin and end the force is zero: lines from pose to pose would show some before and after.
-void add_ends_of_contacts(const FilmFacts& facts, std::vector<Instant>& all) {
-    for (const sim::Impact& impact : facts.motion(0).impacts)
+void add_ends_of_contacts(const FilmContext& context, std::vector<Instant>& all) {
+    for (const sim::Impact& impact : context.motion(0).impacts)
         for (const std::optional<double> t : {std::optional(impact.t_start), impact.t_end}) {
             const auto after = std::ranges::lower_bound(all, t.value_or(all.back().t + 1), {}, &Instant::t);
             if (after == all.begin() || after == all.end() || after->t == *t) continue;
@@ -102,12 +102,12 @@ std::string base64(const std::vector<Number>& numbers) {
 std::string css(const Color& c) { return '"' + hex(c) + '"'; }
 
 // Where the disc was touched first, and how hard: one for each degree.
-std::string trace_json(const FilmFacts& facts, double radius) {
+std::string trace_json(const FilmContext& context, double radius) {
     struct Place {
         double t = 0, angle = 0, force = 0;
     };
     std::vector<Place> places;
-    for (const TraceSample& s : facts.samples.front()) {
+    for (const TraceSample& s : context.samples.front()) {
         const double angle = std::floor(s.s / radius / kTurns * 360) * kTurns / 360;
         const auto same = std::ranges::find(places, angle, &Place::angle);
         if (same == places.end())
@@ -119,23 +119,23 @@ std::string trace_json(const FilmFacts& facts, double radius) {
     for (const Place& p : places)
         out.push_back(
             fmt::format("[{:.6g},{:.4g},{}]", p.t, p.angle,
-                        css(force_color(*facts.palette, std::sqrt(std::min(1.0, p.force / facts.force_scale))))));
+                        css(force_color(*context.palette, std::sqrt(std::min(1.0, p.force / context.force_scale))))));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
 
-std::string impacts_json(const FilmFacts& facts) {
+std::string impacts_json(const FilmContext& context) {
     std::vector<std::string> out;
-    for (const sim::Impact& i : facts.motion(0).impacts)
-        if (i.t_start >= facts.span.low && i.t_start <= facts.span.high)
+    for (const sim::Impact& i : context.motion(0).impacts)
+        if (i.t_start >= context.span.low && i.t_start <= context.span.high)
             out.push_back(fmt::format("{:.9g}", i.t_start));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
 
-std::string cam_json(const FilmFacts& facts) {
-    const auto& cam = facts.motion(0).problem.cam;
+std::string cam_json(const FilmContext& context) {
+    const auto& cam = context.motion(0).problem.cam;
     if (!cam) return "null";
     return fmt::format(R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"trace":{}}})",
-                       cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, trace_json(facts, cam->radius));
+                       cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, trace_json(context, cam->radius));
 }
 
 std::string numbers_json(const std::vector<Instant>& kept) {
@@ -173,14 +173,14 @@ std::string json_text(std::string_view plain) {
 }
 
 std::string html_page(const FilmSetup& setup) {
-    const FilmFacts facts(std::make_shared<const FilmSetup>(setup));
-    const sim::Problem& problem = facts.motion(0).problem;
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const sim::Problem& problem = context.motion(0).problem;
     const double length = problem.beam.length, depth = std::max(problem.beam.depth, 0.008 * length);
     double thickness = depth;
     std::vector<Instant> all;
-    for (int k = 0; k < facts.frames(); ++k) all.push_back(instant_of(facts, k, depth, thickness));
-    add_ends_of_contacts(facts, all);
-    const Palette& p = *facts.palette;
+    for (int k = 0; k < context.frames(); ++k) all.push_back(instant_of(context, k, depth, thickness));
+    add_ends_of_contacts(context, all);
+    const Palette& p = *context.palette;
     const std::string colors = fmt::format(
         R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"steel":{},"edge":{},"beam":{}}})",
         css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(p.steel),
@@ -188,8 +188,8 @@ std::string html_page(const FilmSetup& setup) {
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
-        json_text(plain_words(setup.title)), facts.factor, kPageTolerance * length, length, thickness,
-        problem.hub.radius, facts.arrow_scale, setup.units.degrees, colors, cam_json(facts), impacts_json(facts),
+        json_text(plain_words(setup.title)), context.factor, kPageTolerance * length, length, thickness,
+        problem.hub.radius, context.arrow_scale, setup.units.degrees, colors, cam_json(context), impacts_json(context),
         numbers_json(telling(std::move(all), length)));
     std::string page(player_html());
     for (const auto& [mark, text] : {std::pair<std::string, std::string>{

@@ -71,7 +71,7 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
 
 // ---- what panels share -------------------------------------------------------------------------
 
-FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
+FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
     colors = render::palette(setup->view.theme);
     if (setup->view.paper) colors.paper = rgb(*setup->view.paper);
@@ -96,8 +96,8 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
-    if (!setup->layout || places.first(PanelKind::mechanism)) sight = sight_of(*this);
-    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, sight, shown);
+    if (!setup->layout || places.first(PanelKind::mechanism)) extent = view_extent_of(*this);
+    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
     tick = places.tick;
     if (setup->logo) place_logo();
@@ -113,7 +113,7 @@ FilmFacts::FilmFacts(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
 }
 
 // As high as the clock's line, and at most a third as wide; in the picture's corner, where the colour scales make room.
-void FilmFacts::place_logo() {
+void FilmContext::place_logo() {
     if (!places.clock) return;
     Box& line = *places.clock;
     double wide = line.h * setup->logo->width / setup->logo->height, high = line.h;
@@ -127,31 +127,31 @@ void FilmFacts::place_logo() {
     line.w -= wide + (places.scales ? 40 : 24) * unit;
 }
 
-double FilmFacts::shown_factor(Channel channel) const {
+double FilmContext::shown_factor(Channel channel) const {
     const std::string si = sim::unit(channel, setup->problem);
     return setup->units.degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
 }
 
-std::string FilmFacts::shown_unit(Channel channel) const {
+std::string FilmContext::shown_unit(Channel channel) const {
     const std::string si = sim::unit(channel, setup->problem);
     if (si == "m/s^2") return "m/s²";
     return shown_factor(channel) == 1 ? si : si == "rad" ? "°" : "°/s";
 }
 
-double FilmFacts::measured_angle(std::size_t k, double t) const {
+double FilmContext::measured_angle(std::size_t k, double t) const {
     const FilmData& data = setup->data[k];
     const std::vector<double>* theta = data.find({sim::ChannelKind::theta, 0});
     return theta ? value_at(data.t, *theta, t) : kNan;
 }
 
-const sim::Problem* FilmFacts::with(int member) const {
+const sim::Problem* FilmContext::with(int member) const {
     if (motion(member).problem.cam) return nullptr;
     for (int m = 0; m < members(); ++m)
         if (motion(m).problem.cam) return &motion(m).problem;
     return nullptr;
 }
 
-void FilmFacts::check() const {
+void FilmContext::check() const {
     constexpr int kLargest = 16384;  // OSMesa's limit, and Cairo's is twice that
     const FilmSetup& s = *setup;
     if (s.width < 1 || s.height < 1 || s.width > kLargest || s.height > kLargest)
@@ -169,7 +169,7 @@ void FilmFacts::check() const {
     }
 }
 
-void FilmFacts::choose_scales() {
+void FilmContext::choose_scales() {
     double moment = 0, force = 0;
     factor = std::numeric_limits<double>::infinity();
     for (int m = 0; m < members(); ++m) {
@@ -220,33 +220,33 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
     return values[i] * (1 - share) + values[i + 1] * share;
 }
 
-std::string of_motion(const FilmFacts& facts, int member) {
-    return facts.members() > 1 ? ", " + facts.labels[static_cast<std::size_t>(member)] : std::string();
+std::string of_motion(const FilmContext& context, int member) {
+    return context.members() > 1 ? ", " + context.labels[static_cast<std::size_t>(member)] : std::string();
 }
 
-void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup) {
-    const double u = facts.unit;
+void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup) {
+    const double u = context.unit;
     canvas.text({box.x, box.y + 26 * u}, markup,
-                {.size = 21 * u, .color = facts.palette->ink, .weight = Weight::semibold, .max_width = box.w});
+                {.size = 21 * u, .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
 }
 
-void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,
+void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
                    const std::function<void(std::size_t)>& path) {
     constexpr int kShades = 12;
-    if (!(facts.force_scale > 0)) return;
+    if (!(context.force_scale > 0)) return;
     std::array<std::vector<std::size_t>, kShades> shade;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i] > 0) {
-            const double share = std::sqrt(std::min(1.0, double(places[i]) / facts.force_scale));
+            const double share = std::sqrt(std::min(1.0, double(places[i]) / context.force_scale));
             shade[static_cast<std::size_t>(std::min(kShades - 1.0, std::floor(share * kShades)))].push_back(i);
         }
     for (int k = 0; k < kShades; ++k) {
         if (shade[static_cast<std::size_t>(k)].empty()) continue;
         for (std::size_t i : shade[static_cast<std::size_t>(k)]) path(i);
-        canvas.stroke({force_color(*facts.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
+        canvas.stroke({force_color(*context.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
     }
 }
 
-void FilmPanel::grow(Canvas&, const Image&, int, bool, State*) const {}
+void FilmPanel::accumulate(Canvas&, const Image&, int, bool, State*) const {}
 
 }  // namespace beamcam::render

@@ -1,8 +1,8 @@
-// A panel: a part of the frame with a box of its own, a ground that never changes, a layer that grows with time, and
-// what moves on top.
+// A panel: a box of the frame, drawn in three layers: a background that never changes, an accumulated layer to which
+// time only adds, and the moving parts on top.
 //
-// Panels are made once for a film and shared by the threads that draw it; what a thread keeps between frames (a GL
-// context, a layer that grows) is its State, which may save time but never changes a pixel.
+// Panels are created once for a film and shared by all drawing threads. Data that a thread keeps between frames (a GL
+// context, an accumulated layer) is its State, which may save time but never changes a pixel.
 #pragma once
 
 #include <limits>
@@ -18,10 +18,10 @@
 namespace beamcam::render {
 
 // What all panels of a film share.
-struct FilmFacts {
-    explicit FilmFacts(std::shared_ptr<const FilmSetup> setup);
-    FilmFacts(const FilmFacts&) = delete;
-    FilmFacts& operator=(const FilmFacts&) = delete;
+struct FilmContext {
+    explicit FilmContext(std::shared_ptr<const FilmSetup> setup);
+    FilmContext(const FilmContext&) = delete;
+    FilmContext& operator=(const FilmContext&) = delete;
 
     std::shared_ptr<const FilmSetup> setup;
     Palette colors;
@@ -35,7 +35,7 @@ struct FilmFacts {
     double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none
     double arrow_scale = 0;                         // largest force of a frame [N]
     double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
-    Sight sight;                                    // of all mechanisms
+    ViewExtent extent;                              // of all mechanisms
     Range span;                                     // first and last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // of each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
@@ -58,7 +58,7 @@ struct FilmFacts {
     std::string shown_unit(sim::Channel channel) const;
     // Of a motion among several: its own; else the palette's for motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
-    // Without a paper texts are outlined in its colour, and read on any ground.
+    // Without a paper texts are outlined in its colour, and are readable on any background.
     std::optional<Color> outline() const {
         return setup->view.transparent ? std::optional(palette->paper.faded(0.8)) : std::nullopt;
     }
@@ -85,19 +85,19 @@ class FilmPanel {
     virtual ~FilmPanel() = default;
 
     virtual std::unique_ptr<State> make_state() const { return nullptr; }
-    virtual void draw_ground(Canvas& canvas) const = 0;
+    virtual void draw_background(Canvas& canvas) const = 0;
 
-    // What stays once it is there, under all that moves: added to `kept`, which is the ground with what this panel
-    // added for earlier frames of the same stage, or the `ground` alone when `anew`. `state` is one that this panel
-    // made.
-    virtual void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const;
-    // Frames of another stage keep nothing of each other.
-    virtual int stage(int /*frame*/) const { return 0; }
-    // All that grows, nothing when nothing does [px].
-    virtual Box growing() const { return {}; }
+    // Adds to `kept`, below the moving parts, everything up to this frame that stays visible from then on. `kept` is
+    // the background with what this panel added for earlier frames of the same epoch, or `background` alone when
+    // `restart`.
+    virtual void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const;
+    // The accumulated layer starts again from the background when this number changes.
+    virtual int layer_epoch(int /*frame*/) const { return 0; }
+    // The part of the frame that accumulates; empty if none does [px].
+    virtual Box accumulated_box() const { return {}; }
 
-    // It moves from the frame before to this one even though time stands still.
-    virtual bool plays(int) const { return false; }
+    // The panel changes between the previous frame and this one even if both show the same instant.
+    virtual bool animates_while_paused(int) const { return false; }
 
     // What moves. `style` may be flatter than the view's.
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
@@ -110,10 +110,10 @@ const std::vector<double>* column(const sim::Table& table, sim::Channel channel)
 // Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
 // Of a panel of one motion among several: ", " and its label, as markup.
-std::string of_motion(const FilmFacts& facts, int member);
-void draw_heading(Canvas& canvas, const FilmFacts& facts, const Box& box, const std::string& markup);
+std::string of_motion(const FilmContext& context, int member);
+void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup);
 // Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
-void stroke_places(Canvas& canvas, const FilmFacts& facts, const std::vector<float>& places, double width,
+void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
                    const std::function<void(std::size_t)>& path);
 inline Vec2 down(double angle) { return {std::cos(angle), -std::sin(angle)}; }  // unit vector in pixels
 

@@ -5,12 +5,12 @@
 
 namespace beamcam::render {
 
-std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<FilmPanel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<FilmPanel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<FilmPanel> make_energy_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<FilmPanel> make_close_up_panel(const FilmFacts& facts, const PanelSlot& slot);
-std::unique_ptr<FilmPanel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmContext& context, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_strip_panel(const FilmContext& context, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_phase_panel(const FilmContext& context, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_energy_panel(const FilmContext& context, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_close_up_panel(const FilmContext& context, const PanelSlot& slot);
+std::unique_ptr<FilmPanel> make_traces_panel(const FilmContext& context, const PanelSlot& slot);
 
 const std::vector<PanelType>& panel_types() {
     using enum sim::ChannelKind;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "render/draw/growing.hpp"
+#include "render/draw/accumulated.hpp"
 #include "render/draw/smooth_path.hpp"
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
@@ -17,29 +17,29 @@ namespace {
 using sim::ChannelKind;
 
 struct Layers final : FilmPanel::State {
-    std::vector<GrowingLayer> layers;
+    std::vector<AccumulatedLayer> layers;
 };
 
 class PhasePanel final : public FilmPanel {
   public:
-    PhasePanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
+    PhasePanel(const FilmContext& context, const PanelSlot& slot)
+        : context_(context), box_(slot.box), plot_(plot_area(slot.box, context.unit, context.tick)) {
         Bounds all;
-        for (int m = 0; m < facts.members(); ++m) {
-            const sim::Table& table = facts.motion(m).chart;
+        for (int m = 0; m < context.members(); ++m) {
+            const sim::Table& table = context.motion(m).chart;
             const auto *x = column(table, {ChannelKind::theta, 0}), *y = column(table, {ChannelKind::theta_dot, 0});
             for (std::size_t i = 0; x && y && i < x->size(); ++i) {
                 all.add({(*x)[i], (*y)[i]});
             }
-            for (int k = 0; k < facts.frames(); ++k) {
-                const sim::Pose p = facts.pose(m, k);
+            for (int k = 0; k < context.frames(); ++k) {
+                const sim::Pose p = context.pose(m, k);
                 all.add({p.theta, p.theta_dot});
             }
         }
-        factor_ = facts.shown_factor({ChannelKind::theta, 0});
+        factor_ = context.shown_factor({ChannelKind::theta, 0});
         x_ = axis(all.x0, all.x1, math("θ"), ChannelKind::theta, plot_.w / 85);
         y_ = axis(all.y0, all.y1, "d" + math("θ") + "/d" + math("t"), ChannelKind::theta_dot, plot_.h / 45);
-        for (int m = 0; m < facts.members(); ++m) paths_.push_back(path(m));
+        for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
     std::unique_ptr<State> make_state() const override {
@@ -49,69 +49,69 @@ class PhasePanel final : public FilmPanel {
         return state;
     }
 
-    void draw_ground(Canvas& canvas) const override {
-        const double u = facts_.unit;
+    void draw_background(Canvas& canvas) const override {
+        const double u = context_.unit;
         const std::string name = y_->name(),
-                          words = label_of(ChannelKind::theta_dot).heading(facts_.setup->view.lang) + name;
+                          words = label_of(ChannelKind::theta_dot).heading(context_.setup->view.lang) + name;
         const TextStyle heading{.size = 21 * u, .weight = Weight::semibold};
-        draw_heading(canvas, facts_, {plot_.x, box_.y, plot_.w, plot_.h},
+        draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {words, name}, heading, plot_.w));
-        draw_levels(canvas, chart_style(facts_), *y_, plot_);
+        draw_levels(canvas, chart_style(context_), *y_, plot_);
         std::vector<NumberBelow> numbers;
         for (const Tick& tick : x_->ticks())
             if (tick.major) numbers.push_back({plot_.x + plot_.w * tick.at, tick.label});
-        draw_numbers_below(canvas, chart_style(facts_), plot_, numbers, x_->name(), true);
+        draw_numbers_below(canvas, chart_style(context_), plot_, numbers, x_->name(), true);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
             canvas.polyline(points);
-            canvas.stroke({facts_.palette->tint(color(m), 0.22), 1.0 * u});
+            canvas.stroke({context_.palette->tint(color(m), 0.22), 1.0 * u});
         }
     }
 
-    Box growing() const override { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
-    void grow(Canvas& kept, const Image& ground, int frame, bool anew, State* state) const override {
+    Box accumulated_box() const override { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
+    void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const override {
         auto& layers = static_cast<Layers*>(state)->layers;
         std::vector<Box> changed;
         for (std::size_t m = 0; m < paths_.size(); ++m)
-            changed.push_back(layers[m].until(facts_.at(static_cast<int>(m), frame), paths_[m], kept.fonts(),
-                                              {color(m), 1.3 * facts_.unit}));
-        if (anew && !layers.empty()) changed = {layers.front().whole()};
-        const Box at = growing();
-        for (const Box& box : changed) lay_down(kept, ground, layers, box, at);
+            changed.push_back(layers[m].extend_to(context_.at(static_cast<int>(m), frame), paths_[m], kept.fonts(),
+                                                  {color(m), 1.3 * context_.unit}));
+        if (restart && !layers.empty()) changed = {layers.front().whole()};
+        const Box at = accumulated_box();
+        for (const Box& box : changed) lay_down(kept, background, layers, box, at);
     }
     // The paths lie upon each other: where one grew, all are laid down again.
-    static void lay_down(Canvas& kept, const Image& ground, const std::vector<GrowingLayer>& layers, const Box& part,
-                         const Box& at) {
+    static void lay_down(Canvas& kept, const Image& background, const std::vector<AccumulatedLayer>& layers,
+                         const Box& part, const Box& at) {
         if (part.empty()) return;
-        kept.replace_part(ground, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
-        for (const GrowingLayer& layer : layers)
+        kept.replace_part(background, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
+        for (const AccumulatedLayer& layer : layers)
             kept.image_part(layer.image(), static_cast<int>(at.x), static_cast<int>(at.y), part);
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {
         for (std::size_t m = 0; m < paths_.size(); ++m) {
-            const sim::Pose& pose = facts_.pose(static_cast<int>(m), frame);
-            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * facts_.unit);
+            const sim::Pose& pose = context_.pose(static_cast<int>(m), frame);
+            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * context_.unit);
             canvas.fill_keeping_path(color(m));
-            canvas.stroke({facts_.palette->paper, 1.6 * facts_.unit});
+            canvas.stroke({context_.palette->paper, 1.6 * context_.unit});
         }
     }
 
   private:
-    Color color(std::size_t member) const { return series_color(*facts_.palette, member); }
+    Color color(std::size_t member) const { return series_color(*context_.palette, member); }
     AxisMap axis(double low, double high, const std::string& symbol, ChannelKind kind, double most) const {
         if (!(low <= high)) low = 0, high = 1 / factor_;
         low *= factor_, high *= factor_;
         if (high - low < 1e-9) low -= 0.05, high += 0.05;
-        return chart_axis(low, high, symbol, facts_.shown_unit({kind, 0}),
-                          std::clamp(static_cast<int>(most / facts_.unit), 2, 6));
+        return chart_axis(low, high, symbol, context_.shown_unit({kind, 0}),
+                          std::clamp(static_cast<int>(most / context_.unit), 2, 6));
     }
     Vec2 to_pixels(double theta, double speed) const {
         return {plot_.x + plot_.w * x_->place(factor_ * theta), plot_.bottom() - plot_.h * y_->place(factor_ * speed)};
     }
-    GrowingPath path(int member) const {
-        const sim::Table& table = facts_.motion(member).chart;
+    TimedPath path(int member) const {
+        const sim::Table& table = context_.motion(member).chart;
         const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),
                    *y = column(table, {ChannelKind::theta_dot, 0});
         if (!t || !x || !y) return {};
@@ -121,9 +121,9 @@ class PhasePanel final : public FilmPanel {
         return smooth(thinned(*t, points, 0.7));
     }
     // The rows follow the motion, so that the curve between them is a spline.
-    static GrowingPath smooth(const GrowingPath& path) {
+    static TimedPath smooth(const TimedPath& path) {
         constexpr double kStep = 3;  // [px]
-        GrowingPath out;
+        TimedPath out;
         for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
             const std::vector<Vec2> piece = smooth_piece(path.points, i, kStep);
             const double from = path.times[i], to = path.times[i + 1];
@@ -135,17 +135,17 @@ class PhasePanel final : public FilmPanel {
         return out.points.empty() ? path : out;
     }
 
-    const FilmFacts& facts_;
+    const FilmContext& context_;
     Box box_, plot_;
     std::optional<AxisMap> x_, y_;
     double factor_ = 1;  // of what is shown
-    std::vector<GrowingPath> paths_;
+    std::vector<TimedPath> paths_;
 };
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_phase_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    return std::make_unique<PhasePanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_phase_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<PhasePanel>(context, slot);
 }
 
 }  // namespace beamcam::render

@@ -47,8 +47,8 @@ double instant_of_peak(const ForceRow& before, const ForceRow& highest, const Fo
 // The force from the tables of chart and trace, and the peaks that their rows miss, each beside the row that is nearest
 // it; an impact that no row meets is a triangle. Rows keep their values: they are those of the frames' instants. An
 // impact that is not over within the rows has no peak yet.
-void force_rows(const FilmFacts& facts, int member, ChartCurve& curve) {
-    const Motion& one = facts.motion(member);
+void force_rows(const FilmContext& context, int member, ChartCurve& curve) {
+    const Motion& one = context.motion(member);
     std::vector<ForceRow> rows;
     for (const sim::Table* table : {&one.chart, &one.trace}) {
         const auto *t = column(*table, {ChannelKind::t, 0}), *force = column(*table, {ChannelKind::contact_force, 0});
@@ -76,33 +76,33 @@ void force_rows(const FilmFacts& facts, int member, ChartCurve& curve) {
             rows.push_back({at, *i.force_peak});
         }
     }
-    std::erase_if(rows, [&](const auto& r) { return r[0] < facts.span.low || r[0] > facts.span.high; });
+    std::erase_if(rows, [&](const auto& r) { return r[0] < context.span.low || r[0] > context.span.high; });
     by_time();
     for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
 }
 
-ChartCurve curve_of(const FilmFacts& facts, int member, Channel channel) {
+ChartCurve curve_of(const FilmContext& context, int member, Channel channel) {
     ChartCurve curve;
     if (is_force(channel)) {
-        force_rows(facts, member, curve);
+        force_rows(context, member, curve);
         return curve;
     }
-    const Motion& one = facts.motion(member);
+    const Motion& one = context.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
     if (t && v) curve.t = *t, curve.v = *v;
-    for (double& value : curve.v) value = facts.shown_factor(channel) * (value - zero_of(one.chart, channel));
+    for (double& value : curve.v) value = context.shown_factor(channel) * (value - zero_of(one.chart, channel));
     return curve;
 }
 
-Range range_of(const FilmFacts& facts, const std::vector<ChartCurve>& curves, Channel channel) {
+Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves, Channel channel) {
     Extent all;
     const auto see = [&](double v) { all.add({&v, 1}); };
     for (const ChartCurve& curve : curves) all.add(curve.v);
-    for (int m = 0; channel.kind == ChannelKind::theta && m < facts.members(); ++m) {
-        const Motion& one = facts.motion(m);
-        const bool still = facts.frames() == 1;  // it shows its past alone, which is the chart's
+    for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
+        const Motion& one = context.motion(m);
+        const bool still = context.frames() == 1;  // it shows its past alone, which is the chart's
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
-            see(facts.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
+            see(context.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
     }
     const auto& [any, low, high] = all;
     if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
@@ -117,26 +117,26 @@ Range range_of(const FilmFacts& facts, const std::vector<ChartCurve>& curves, Ch
 }
 
 // What curves of several channels, or motions, are told apart by.
-Color curve_color(const FilmFacts& facts, Channel channel, std::size_t i, int member) {
-    if (facts.members() > 1) return facts.member_color(member);
-    return energy_color(*facts.palette, channel.kind).value_or(series_color(*facts.palette, i));
+Color curve_color(const FilmContext& context, Channel channel, std::size_t i, int member) {
+    if (context.members() > 1) return context.member_color(member);
+    return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
 }
 
 // The places of contact as dots.
-void add_places(const FilmFacts& facts, ChartContent& c) {
+void add_places(const FilmContext& context, ChartContent& c) {
     Extent places;
-    for (int m = 0; m < facts.members(); ++m)
-        for (const TraceSample& s : facts.samples[static_cast<std::size_t>(m)]) {
+    for (int m = 0; m < context.members(); ++m)
+        for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             places.add({&s.x, 1});
             if (s.t < c.time.low || s.t > c.time.high) continue;
-            const Palette& p = *facts.palette;
-            Color color =
-                facts.members() > 1 ? facts.member_color(m) : force_color(p, std::sqrt(s.force / facts.force_scale));
-            const Color faint = facts.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
-            if (!facts.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
+            const Palette& p = *context.palette;
+            Color color = context.members() > 1 ? context.member_color(m)
+                                                : force_color(p, std::sqrt(s.force / context.force_scale));
+            const Color faint = context.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
+            if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.dots.push_back({s.t, s.x, color, faint});
         }
-    const double length = facts.setup->problem.beam.length;
+    const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 1e-3 * length);
     c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
 }
@@ -163,17 +163,17 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
 }
 
 // As points or a line, with a curve of their own for label and reading.
-static void add_data(const FilmFacts& facts, const PanelSpec& spec, ChartContent& c) {
-    const Palette& p = *facts.palette;
-    for (std::size_t k = 0; k < facts.setup->data.size() && !spec.by_collision; ++k)
+static void add_data(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
+    const Palette& p = *context.palette;
+    for (std::size_t k = 0; k < context.setup->data.size() && !spec.by_collision; ++k)
         for (const Channel channel : spec.channels) {
-            const FilmData& data = facts.setup->data[k];
+            const FilmData& data = context.setup->data[k];
             const std::vector<double>* values = data.find(channel);
             if (!values) continue;
             ChartCurve curve{
-                {}, {}, facts.data_color(k), p.tint(facts.data_color(k), 0.25), facts.data_labels[k] + ":"};
+                {}, {}, context.data_color(k), p.tint(context.data_color(k), 0.25), context.data_labels[k] + ":"};
             for (std::size_t i = 0; i < data.t.size(); ++i) {
-                const double t = data.t[i], v = facts.shown_factor(channel) * (*values)[i];
+                const double t = data.t[i], v = context.shown_factor(channel) * (*values)[i];
                 if (t < c.time.low || t > c.time.high || std::isnan(v)) continue;
                 c.value = {std::min(c.value.low, v), std::max(c.value.high, v)};
                 if (data.line)
@@ -190,88 +190,88 @@ double zero_of(const sim::Table& table, Channel channel) {
     return v && !v->empty() ? *std::ranges::min_element(*v) : 0;
 }
 
-ChartContent blank_content(const FilmFacts& facts, const PanelSpec& spec, int member) {
+ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
     ChartContent c;
-    c.time = facts.span;
+    c.time = context.span;
     c.window = spec.window;
-    c.time_unit = facts.time.unit;
-    c.time_label = math("t") + " / " + facts.time.symbol;
+    c.time_unit = context.time.unit;
+    c.time_label = math("t") + " / " + context.time.symbol;
     const auto mark = [&](int whose, ChartMark at) {
-        for (const sim::Impact& i : facts.motion(whose).impacts)
+        for (const sim::Impact& i : context.motion(whose).impacts)
             if (i.t_start >= c.time.low && i.t_start <= c.time.high) at.t = i.t_start, c.marks.push_back(at);
     };
     if (member >= 0) {
-        mark(member, {.color = facts.palette->contact});
+        mark(member, {.color = context.palette->contact});
     } else {
-        for (int m = 0; m < facts.members(); ++m)
-            mark(m, {.color = facts.member_color(m), .lane = m, .lanes = facts.members()});
+        for (int m = 0; m < context.members(); ++m)
+            mark(m, {.color = context.member_color(m), .lane = m, .lanes = context.members()});
     }
     return c;
 }
 
-double reading(const FilmFacts& facts, int member, int frame, Channel channel) {
-    const sim::Pose& pose = facts.pose(member, frame);
-    if (channel.kind == ChannelKind::theta) return facts.shown_factor(channel) * pose.theta;
-    if (channel.kind == ChannelKind::theta_dot) return facts.shown_factor(channel) * pose.theta_dot;
+double reading(const FilmContext& context, int member, int frame, Channel channel) {
+    const sim::Pose& pose = context.pose(member, frame);
+    if (channel.kind == ChannelKind::theta) return context.shown_factor(channel) * pose.theta;
+    if (channel.kind == ChannelKind::theta_dot) return context.shown_factor(channel) * pose.theta_dot;
     if (is_force(channel)) return pose.nearest ? pose.nearest->force : kNan;
     if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
-    const sim::Table& table = facts.motion(member).chart;
+    const sim::Table& table = context.motion(member).chart;
     const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
-    return t && v ? facts.shown_factor(channel) * (value_at(*t, *v, pose.t) - zero_of(table, channel)) : kNan;
+    return t && v ? context.shown_factor(channel) * (value_at(*t, *v, pose.t) - zero_of(table, channel)) : kNan;
 }
 
-std::vector<double> readings_of_data(const FilmFacts& facts, const PanelSpec& spec, double t) {
+std::vector<double> readings_of_data(const FilmContext& context, const PanelSpec& spec, double t) {
     std::vector<double> out;
-    for (const FilmData& data : facts.setup->data)
+    for (const FilmData& data : context.setup->data)
         for (const Channel channel : spec.channels)
             if (const std::vector<double>* values = data.find(channel))
-                out.push_back(facts.shown_factor(channel) * value_at(data.t, *values, t));
+                out.push_back(context.shown_factor(channel) * value_at(data.t, *values, t));
     return out;
 }
 
-ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec) {
+ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const Channel first = spec.channels.front();
-    const Palette& p = *facts.palette;
-    ChartContent c = blank_content(facts, spec, facts.members() > 1 ? -1 : 0);
+    const Palette& p = *context.palette;
+    ChartContent c = blank_content(context, spec, context.members() > 1 ? -1 : 0);
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
-    c.words = single ? label_of(first.kind).heading(facts.setup->view.lang) : "";
-    c.unit = facts.shown_unit(first);
+    c.words = single ? label_of(first.kind).heading(context.setup->view.lang) : "";
+    c.unit = context.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);
-        if (!single && facts.members() == 1)
-            symbol = colored(symbol, readable(p, curve_color(facts, spec.channels[i], i, 0)));
+        if (!single && context.members() == 1)
+            symbol = colored(symbol, readable(p, curve_color(context, spec.channels[i], i, 0)));
         c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
-        for (int m = 0; m < facts.members(); ++m) {
-            ChartCurve curve = dotted ? ChartCurve{} : curve_of(facts, m, spec.channels[i]);
+        for (int m = 0; m < context.members(); ++m) {
+            ChartCurve curve = dotted ? ChartCurve{} : curve_of(context, m, spec.channels[i]);
             const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
-            const bool alone = single && facts.members() == 1;
-            curve.color = alone && contact ? p.contact : curve_color(facts, spec.channels[i], i, m);
+            const bool alone = single && context.members() == 1;
+            curve.color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
             curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(curve.color, 0.25);
-            if (facts.members() > 1)
-                curve.label = facts.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
+            if (context.members() > 1)
+                curve.label = context.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
             else if (!single)
                 curve.label = symbol_of(spec.channels[i]);
             // Colour alone does not tell curves apart for everybody.
-            const std::size_t dashes = facts.members() > 1 ? static_cast<std::size_t>(m) : i;
+            const std::size_t dashes = context.members() > 1 ? static_cast<std::size_t>(m) : i;
             if (dashes % 3 == 1) curve.dash = {9, 4};
             if (dashes % 3 == 2) curve.dash = {3, 3};
             if (is_force(first)) curve.dash.clear();
-            curve.pale_within = facts.motion(m).unreliable;
+            curve.pale_within = context.motion(m).unreliable;
             curve.pale = p.tint(curve.color, kPaleShare);
             c.curves.push_back(std::move(curve));
         }
     }
-    c.filled = single && is_force(first) && facts.members() == 1;
+    c.filled = single && is_force(first) && context.members() == 1;
     if (is_force(first)) c.reading_unit = c.unit;
-    c.value = range_of(facts, c.curves, first);
-    if (single && dotted) add_places(facts, c);
-    add_data(facts, spec, c);
+    c.value = range_of(context, c.curves, first);
+    if (single && dotted) add_places(context, c);
+    add_data(context, spec, c);
     const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
     if (of_contact && c.dots.empty() &&
         std::ranges::none_of(c.curves, [&](const ChartCurve& curve) { return std::ranges::any_of(curve.v, is_value); }))
-        c.instead = facts.say("no contact"), c.unit.clear(), c.value = {0, 1};
+        c.instead = context.say("no contact"), c.unit.clear(), c.value = {0, 1};
     return c;
 }
 

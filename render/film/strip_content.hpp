@@ -15,13 +15,13 @@ std::optional<Color> energy_color(const Palette& palette, sim::ChannelKind kind)
 // Only differences of potential energy mean anything: its least value is the zero.
 double zero_of(const sim::Table& table, sim::Channel channel);
 // Time axis and impacts without curves. `member` < 0: of all motions.
-ChartContent blank_content(const FilmFacts& facts, const PanelSpec& spec, int member);
+ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member);
 // The curves of a strip's channels for every motion.
-ChartContent strip_content(const FilmFacts& facts, const PanelSpec& spec);
+ChartContent strip_content(const FilmContext& context, const PanelSpec& spec);
 // The channel at a frame; NaN: it has no value there.
-double reading(const FilmFacts& facts, int member, int frame, sim::Channel channel);
+double reading(const FilmContext& context, int member, int frame, sim::Channel channel);
 
 // Of the data's curves, which follow those of the motions.
-std::vector<double> readings_of_data(const FilmFacts& facts, const PanelSpec& spec, double t);
+std::vector<double> readings_of_data(const FilmContext& context, const PanelSpec& spec, double t);
 
 }  // namespace beamcam::render

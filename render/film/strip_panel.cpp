@@ -17,15 +17,15 @@ using sim::Channel;
 
 class StripPanel final : public ChartPanel {
   public:
-    StripPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : ChartPanel(facts, strip_content(facts, slot.spec), slot.box), spec_(slot.spec) {}
+    StripPanel(const FilmContext& context, const PanelSlot& slot)
+        : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {}
 
   private:
     std::vector<double> readings(int frame) const override {
         std::vector<double> out;
         for (const Channel channel : spec_.channels)
-            for (int m = 0; m < facts_.members(); ++m) out.push_back(reading(facts_, m, frame, channel));
-        for (const double measured : readings_of_data(facts_, spec_, facts_.at(0, frame))) out.push_back(measured);
+            for (int m = 0; m < context_.members(); ++m) out.push_back(reading(context_, m, frame, channel));
+        for (const double measured : readings_of_data(context_, spec_, context_.at(0, frame))) out.push_back(measured);
         return out;
     }
     PanelSpec spec_;
@@ -45,41 +45,41 @@ class CollisionPanel final : public FilmPanel {
     };
 
   public:
-    CollisionPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, facts.unit, facts.tick)) {
-        for (const sim::Impact& i : facts.motion(0).impacts) {
-            if (i.t_start > facts.span.high) break;
-            const double end = std::min(i.t_end.value_or(facts.span.high), facts.span.high);
+    CollisionPanel(const FilmContext& context, const PanelSlot& slot)
+        : context_(context), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, context.unit, context.tick)) {
+        for (const sim::Impact& i : context.motion(0).impacts) {
+            if (i.t_start > context.span.high) break;
+            const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);
             if (spans_.empty() || i.collision != last_)
                 spans_.push_back({i.t_start, end});
             else
                 spans_.back().high = std::max(spans_.back().high, end);
             last_ = i.collision;
         }
-        content_ = strip_content(facts, spec_);
+        content_ = strip_content(context, spec_);
         content_.marks.clear();
         curves_ = std::exchange(content_.curves, {});
     }
 
-    void draw_ground(Canvas&) const override {}
+    void draw_background(Canvas&) const override {}
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
-    int stage(int frame) const override { return static_cast<int>(shown(facts_.at(0, frame))); }
-    Box growing() const override { return box_.inset(-8); }
+    int layer_epoch(int frame) const override { return static_cast<int>(shown(context_.at(0, frame))); }
+    Box accumulated_box() const override { return box_.inset(-8); }
 
     // The axes of a collision when it begins, then column by column what has been.
-    void grow(Canvas& kept, const Image&, int frame, bool anew, State* state) const override {
+    void accumulate(Canvas& kept, const Image&, int frame, bool restart, State* state) const override {
         Shown& s = *static_cast<Shown*>(state);
-        const double now = facts_.at(0, frame);
+        const double now = context_.at(0, frame);
         const std::size_t which = shown(now);
         if (!s.chart || s.which != which) {
             s.chart.emplace(chart_of(which));
             s.which = which;
             s.past = s.chart->past(kept.fonts());
         }
-        if (anew) {
+        if (restart) {
             s.texts.clear();
             kept.record = &s.texts;
-            s.chart->draw_ground(kept);
+            s.chart->draw_background(kept);
             kept.record = nullptr;
             s.until = s.chart->past_box().x;
         }
@@ -93,11 +93,11 @@ class CollisionPanel final : public FilmPanel {
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
         const Shown& s = *static_cast<const Shown*>(state);
         if (canvas.record) canvas.record->insert(canvas.record->end(), s.texts.begin(), s.texts.end());
-        const sim::Pose& pose = facts_.pose(0, frame);
+        const sim::Pose& pose = context_.pose(0, frame);
         const double t = pose.t - start(s.which);
         if (t < s.chart->time().low || t > s.chart->time().high) return;
         std::vector<double> readings;
-        for (const Channel channel : spec_.channels) readings.push_back(reading(facts_, 0, frame, channel));
+        for (const Channel channel : spec_.channels) readings.push_back(reading(context_, 0, frame, channel));
         s.chart->draw_moving(canvas, t, readings);
     }
 
@@ -122,12 +122,12 @@ class CollisionPanel final : public FilmPanel {
             const double length = std::min(span.high - span.low, kLongest), m = std::min(margin(which), 0.01);
             c.time = {-m, length + m};
             // One that was over that when the film began, or the instant of a still was reached, is seen as it goes on.
-            const double first = facts_.at(0, 0), shown_until = span.low + length + m;
-            if (facts_.frames() == 1 && first > shown_until && first <= span.high)
+            const double first = context_.at(0, 0), shown_until = span.low + length + m;
+            if (context_.frames() == 1 && first > shown_until && first <= span.high)
                 c.time = {first - kLongest - span.low, first - span.low};
-            else if (facts_.span.low > shown_until && span.high > facts_.span.low)
-                c.time = {facts_.span.low - span.low, std::min(span.high, facts_.span.high) - span.low};
-            c.words = facts_.say(fmt::format("Collision {}, ", which + 1));
+            else if (context_.span.low > shown_until && span.high > context_.span.low)
+                c.time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
+            c.words = context_.say(fmt::format("Collision {}, ", which + 1));
         }
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
@@ -142,10 +142,10 @@ class CollisionPanel final : public FilmPanel {
                 curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
             c.curves.push_back(std::move(curve));
         }
-        return Chart(std::move(c), box_, plot_, chart_style(facts_));
+        return Chart(std::move(c), box_, plot_, chart_style(context_));
     }
 
-    const FilmFacts& facts_;
+    const FilmContext& context_;
     PanelSpec spec_;
     Box box_, plot_;
     std::vector<Range> spans_;
@@ -156,10 +156,10 @@ class CollisionPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_strip_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    if (slot.spec.by_collision && facts.members() == 1 && facts.setup->problem.cam)
-        return std::make_unique<CollisionPanel>(facts, slot);
-    return std::make_unique<StripPanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_strip_panel(const FilmContext& context, const PanelSlot& slot) {
+    if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
+        return std::make_unique<CollisionPanel>(context, slot);
+    return std::make_unique<StripPanel>(context, slot);
 }
 
 }  // namespace beamcam::render

@@ -44,9 +44,9 @@ void TipPath::find_whole(const MechanismView& home) {
         double angle;  // of the hub [rad]
     };
     std::vector<Tip> tips;
-    const double now = home.facts.at(home.member, home.facts.frames() - 1);
+    const double now = home.context.at(home.member, home.context.frames() - 1);
     for (std::size_t k = 0; k < tips_.size(); ++k)
-        tips.push_back({home.facts.at(home.member, static_cast<int>(k)), tips_[k], angles_[k]});
+        tips.push_back({home.context.at(home.member, static_cast<int>(k)), tips_[k], angles_[k]});
     for (std::size_t k = 0; home.motion().survey && k < home.motion().surveyed(); ++k) {
         if (home.motion().survey->time(k) > now) continue;
         const sim::Pose pose = home.motion().surveyed(k);
@@ -74,7 +74,7 @@ void TipPath::find_whole(const MechanismView& home) {
 void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) const {
     const auto now = static_cast<std::size_t>(s.frame);
     for (std::size_t k = now; k-- > 0;) {
-        const double age = (moved_[now] - moved_[k]) / (kTrailSeconds * home.facts.setup->fps);
+        const double age = (moved_[now] - moved_[k]) / (kTrailSeconds * home.context.setup->fps);
         if (age > 1) break;
         if (moved_[k + 1] == moved_[k]) continue;
         std::vector<Vec2> way = piece(home, k);

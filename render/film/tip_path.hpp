@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/draw/growing.hpp"
+#include "render/draw/accumulated.hpp"
 #include "render/film/mechanism_view.hpp"
 
 namespace beamcam::render {
@@ -20,7 +20,7 @@ class TipPath {
     // All of it, through the motion's survey and the frames that were added: in the panel's box, a piece of it at the
     // instant of its end.
     void find_whole(const MechanismView& home);
-    const GrowingPath& whole() const { return whole_; }
+    const TimedPath& whole() const { return whole_; }
 
     void draw_trail(const MechanismScene& s, const MechanismView& home) const;
     void draw_whole(const MechanismScene& s, const MechanismView& home) const;  // until the scene's instant
@@ -29,7 +29,7 @@ class TipPath {
     std::vector<Vec2> tips_;
     std::vector<double> angles_;
     std::vector<int> moved_;  // of every frame: how many until it moved
-    GrowingPath whole_;
+    TimedPath whole_;
 };
 
 }  // namespace beamcam::render

@@ -14,29 +14,30 @@ using std::numbers::pi;
 constexpr std::size_t kSpokes = 720, kPlaces = 400;
 
 struct Spokes final : FilmPanel::State {
-    Spokes(const FilmFacts& facts, int member)
-        : trace(facts.samples[static_cast<std::size_t>(member)],
-                2 * pi * (facts.motion(member).problem.cam ? facts.motion(member).problem.cam->radius : 1), kSpokes,
-                facts.motion(member).problem.beam.length, kPlaces) {}
+    Spokes(const FilmContext& context, int member)
+        : trace(context.samples[static_cast<std::size_t>(member)],
+                2 * pi * (context.motion(member).problem.cam ? context.motion(member).problem.cam->radius : 1), kSpokes,
+                context.motion(member).problem.beam.length, kPlaces) {}
     Trace trace;
 };
 
 class TracesPanel final : public FilmPanel {
   public:
-    TracesPanel(const FilmFacts& facts, const PanelSlot& slot)
-        : facts_(facts), member_(std::min(slot.spec.member, facts.members() - 1)), box_(slot.box) {
-        const double u = facts.unit;
+    TracesPanel(const FilmContext& context, const PanelSlot& slot)
+        : context_(context), member_(std::min(slot.spec.member, context.members() - 1)), box_(slot.box) {
+        const double u = context.unit;
         const Box room{box_.x, box_.y + 40 * u, box_.w, box_.h - 40 * u - 74 * u};
         radius_ = 0.5 * std::min(room.w, room.h) / 1.42;
         centre_ = room.centre();
         beam_ = {box_.x + 12 * u, box_.bottom() - 34 * u, box_.w - 24 * u, 8 * u};
     }
-    std::unique_ptr<State> make_state() const override { return std::make_unique<Spokes>(facts_, member_); }
+    std::unique_ptr<State> make_state() const override { return std::make_unique<Spokes>(context_, member_); }
 
-    void draw_ground(Canvas& canvas) const override {
-        const double u = facts_.unit;
-        const Palette& p = *facts_.palette;
-        draw_heading(canvas, facts_, box_, facts_.say("Contact trace on disc and beam") + of_motion(facts_, member_));
+    void draw_background(Canvas& canvas) const override {
+        const double u = context_.unit;
+        const Palette& p = *context_.palette;
+        draw_heading(canvas, context_, box_,
+                     context_.say("Contact trace on disc and beam") + of_motion(context_, member_));
         canvas.circle(centre_, radius_);
         canvas.fill_keeping_path(p.tint(p.steel, 0.5));
         canvas.stroke({p.steel_edge, 1.6 * u});
@@ -45,43 +46,43 @@ class TracesPanel final : public FilmPanel {
         canvas.fill(p.steel_edge);
         canvas.rounded(beam_, 3 * u);
         canvas.fill(p.tint(p.motion, 0.35));
-        const TextStyle end{.size = 16.0 / 17 * facts_.tick, .color = p.muted};
-        canvas.text({beam_.x, beam_.bottom() + 3 * u + facts_.tick}, facts_.say("root"), end);
-        canvas.text({beam_.right(), beam_.bottom() + 3 * u + facts_.tick}, facts_.say("tip"),
-                    {.size = 16.0 / 17 * facts_.tick, .color = p.muted, .align = HAlign::right});
+        const TextStyle end{.size = 16.0 / 17 * context_.tick, .color = p.muted};
+        canvas.text({beam_.x, beam_.bottom() + 3 * u + context_.tick}, context_.say("root"), end);
+        canvas.text({beam_.right(), beam_.bottom() + 3 * u + context_.tick}, context_.say("tip"),
+                    {.size = 16.0 / 17 * context_.tick, .color = p.muted, .align = HAlign::right});
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
-        const double u = facts_.unit;
-        const Palette& p = *facts_.palette;
-        const sim::Pose& pose = facts_.pose(member_, frame);
+        const double u = context_.unit;
+        const Palette& p = *context_.palette;
+        const sim::Pose& pose = context_.pose(member_, frame);
         Trace& trace = static_cast<Spokes*>(state)->trace;
         trace.show_until(pose.t);
-        const auto share = [&](float force) { return std::sqrt(std::min(1.0, double(force) / facts_.force_scale)); };
+        const auto share = [&](float force) { return std::sqrt(std::min(1.0, double(force) / context_.force_scale)); };
         const double width = std::max(1.2, 2 * pi * radius_ / kSpokes * 1.3);
-        stroke_places(canvas, facts_, trace.rim(), width, [&](std::size_t i) {
+        stroke_places(canvas, context_, trace.rim(), width, [&](std::size_t i) {
             const Vec2 way = down(2 * pi * (static_cast<double>(i) + 0.5) / kSpokes);
             canvas.move_to(centre_ + way * radius_);
             canvas.line_to(centre_ + way * (radius_ * (1 + 0.06 + 0.32 * share(trace.rim()[i]))));
         });
-        stroke_places(canvas, facts_, trace.beam(), std::max(1.2, beam_.w / kPlaces * 1.3), [&](std::size_t i) {
+        stroke_places(canvas, context_, trace.beam(), std::max(1.2, beam_.w / kPlaces * 1.3), [&](std::size_t i) {
             const double x = beam_.x + beam_.w * (static_cast<double>(i) + 0.5) / kPlaces;
             canvas.move_to({x, beam_.y});
             canvas.line_to({x, beam_.y - 4 * u - 22 * u * share(trace.beam()[i])});
         });
-        if (!pose.nearest || !facts_.motion(member_).problem.cam) return;
-        const Vec2 now = down(pose.nearest->s / facts_.motion(member_).problem.cam->radius);
+        if (!pose.nearest || !context_.motion(member_).problem.cam) return;
+        const Vec2 now = down(pose.nearest->s / context_.motion(member_).problem.cam->radius);
         const Color color = pose.nearest->touching ? p.contact : p.muted;
         canvas.circle(centre_ + now * (radius_ - 6 * u), 4.5 * u);
         canvas.fill(color);
         canvas.circle(
-            {beam_.x + beam_.w * pose.nearest->x / facts_.motion(member_).problem.beam.length, beam_.y + beam_.h / 2},
+            {beam_.x + beam_.w * pose.nearest->x / context_.motion(member_).problem.beam.length, beam_.y + beam_.h / 2},
             4.5 * u);
         canvas.fill(color);
     }
 
   private:
-    const FilmFacts& facts_;
+    const FilmContext& context_;
     int member_;
     Box box_, beam_;
     Vec2 centre_;
@@ -90,8 +91,8 @@ class TracesPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_traces_panel(const FilmFacts& facts, const PanelSlot& slot) {
-    return std::make_unique<TracesPanel>(facts, slot);
+std::unique_ptr<FilmPanel> make_traces_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<TracesPanel>(context, slot);
 }
 
 }  // namespace beamcam::render

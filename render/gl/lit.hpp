@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/tiles.hpp"
 #include "render/gl/solid.hpp"
 
 namespace beamcam::render {
@@ -54,7 +54,7 @@ class LitRenderer {
     // Premultiplied pixels on a transparent ground, of the size given at creation.
     virtual void draw(const LitScene& scene, Image& out) = 0;
     // The same where `out` shows what it drew last, and only these tiles, of a picture of this size, can differ.
-    virtual void redraw(const LitScene& scene, const Tiles& where, Image& out) = 0;
+    virtual void redraw(const LitScene& scene, const DirtyTiles& where, Image& out) = 0;
     // The same of solid bodies in perspective, four samples a pixel, with soft shadows.
     virtual void draw(const SolidScene& scene, Image& out) = 0;
     virtual std::string name() const = 0;  // the driver's, for fingerprints

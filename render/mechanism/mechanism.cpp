@@ -40,7 +40,7 @@ void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette
     body.add_circle(disc.centre, disc.radius - rim / 2);
     body.cut_circle(disc.axis, disc.bore);
     mark.add_circle(disc.mark, disc.mark_radius);
-    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+    canvas.paint_pixels([&](const PixelView& picture, DirtyTiles* touched) {
         body.paint(picture, p.steel, touched);
         ring(disc.centre, disc.radius, rim).paint(picture, p.steel_edge, touched);
         ring(disc.axis, disc.bore + bore / 2, bore).paint(picture, p.steel_edge, touched);
@@ -93,7 +93,7 @@ void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palet
     Area outline;
     outline.add(around({s.face, s.back}));
     outline.cut(around(inset(s, 2 * unit)));
-    canvas.paint_pixels([&](const PixelView& picture, Tiles* touched) {
+    canvas.paint_pixels([&](const PixelView& picture, DirtyTiles* touched) {
         for (std::size_t i = 0; i + 1 < s.face.size(); ++i) {
             const int steps = color_steps(s.colors[i], s.colors[i + 1]);
             const auto at = [&](const std::vector<Vec2>& edge, int k) {

@@ -163,7 +163,7 @@ void Chart::draw_dots_and_marks(Canvas& canvas, const Stretch& stretch) const {
     }
 }
 
-void Chart::draw_ground(Canvas& canvas) const {
+void Chart::draw_background(Canvas& canvas) const {
     const auto& [p, u, size] = style_;
     const double axis = plot_.bottom() + 0.5;
     draw_heading(canvas);

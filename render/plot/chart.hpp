@@ -66,7 +66,7 @@ class Chart {
   public:
     Chart(ChartContent content, const Box& box, const Box& plot, const ChartStyle& style);
 
-    void draw_ground(Canvas& canvas) const;  // axes, labels, what is to come
+    void draw_background(Canvas& canvas) const;  // axes, labels, what is to come
     // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
     // window.
     Image past(const Fonts& fonts) const;

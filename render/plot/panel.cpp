@@ -259,7 +259,7 @@ bool PanelDrawing::place_direct() {
 // ---- drawing -----------------------------------------------------------------------------------------
 
 void PanelDrawing::draw() {
-    sheet_.clip(plot_, [&] { draw_grounds(); });
+    sheet_.clip(plot_, [&] { draw_backgrounds(); });
     sheet_.clip(plot_, [&] {
         for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
         for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
@@ -282,7 +282,7 @@ void PanelDrawing::draw() {
     axes_.draw_color_bar();
 }
 
-void PanelDrawing::draw_grounds() {
+void PanelDrawing::draw_backgrounds() {
     for (const Cells& cells : panel_.cells) draw_cells(cells, axes_, sheet_);
     for (const Span& s : panel_.spans) {
         const double a = at(s.from, 0).x, b = at(s.to, 0).x;

@@ -44,7 +44,7 @@ class PanelDrawing {
     double best_direct(const DrawnCurve& curve, Writing& out);
     double crowding(const Box& box, const DrawnCurve& own) const;
 
-    void draw_grounds();
+    void draw_backgrounds();
     void draw_insets();
 
     const Panel& panel_;

@@ -20,7 +20,7 @@ class PngSink final : public PictureSink {
     Input input(Gate&) override {
         const output::PngOptions options{std::nullopt, metadata_, output::PngCompression::quick};
         return [this, sequence = std::make_shared<output::PngSequence>(options)](long k, const render::Image& image,
-                                                                                 const render::Tiles& changed) {
+                                                                                 const render::DirtyTiles& changed) {
             const std::filesystem::path file = path_of(static_cast<std::size_t>(k));
             const output::Target target = to_.files.target(file, p_.output);
             const auto start = Clock::now();
@@ -56,7 +56,8 @@ class CaptureSink final : public PictureSink {
   public:
     CaptureSink(const Pictures& p, const Capture& capture) : p_(p), capture_(capture) {}
     Input input(Gate&) override {
-        return [this](long k, const render::Image& image, const render::Tiles&) { capture_.picture(p_, k, image); };
+        return
+            [this](long k, const render::Image& image, const render::DirtyTiles&) { capture_.picture(p_, k, image); };
     }
 
   private:

@@ -19,7 +19,7 @@ class PictureSink {
   public:
     // What one drawing thread gives its pictures to. `k` counts from 0 those that are drawn (Pictures::draw);
     // `changed`: where the picture may differ from the one that this thread gave before.
-    using Input = std::function<void(long k, const render::Image& image, const render::Tiles& changed)>;
+    using Input = std::function<void(long k, const render::Image& image, const render::DirtyTiles& changed)>;
 
     virtual ~PictureSink() = default;
     // For one thread; pictures that need an order pass the gate.

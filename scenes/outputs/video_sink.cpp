@@ -85,7 +85,7 @@ class VideoSink final : public PictureSink {
 
     Input input(Gate& gate) override {
         return [this, &gate, converter = std::make_shared<output::VideoInput>(video_)](
-                   long k, const render::Image& image, const render::Tiles& changed) {
+                   long k, const render::Image& image, const render::DirtyTiles& changed) {
             if (is_poster(static_cast<std::size_t>(k)))
                 output::write_png(to_.files.target(to_.files.path_of(p_.poster_file), p_.output), image,
                                   {std::nullopt, poster_metadata_});

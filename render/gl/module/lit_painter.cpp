@@ -55,8 +55,8 @@ struct Band {
 };
 
 // A few rows of tiles each, as wide as they need: reading one back costs as much as some ten thousand pixels.
-std::vector<Band> bands(const Tiles& tiles) {
-    constexpr int kRows = 4 * Tiles::kHeight;
+std::vector<Band> bands(const DirtyTiles& tiles) {
+    constexpr int kRows = 4 * DirtyTiles::kHeight;
     std::vector<Band> out;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         if (out.empty() || out.back().top / kRows != top / kRows) out.push_back({left, top, right, bottom});
@@ -97,7 +97,7 @@ LitPainter::LitPainter(int width, int height) : width_(width), height_(height) {
     target_ = make_target(width, height);
 }
 
-double LitPainter::draw(const LitScene& scene, const Tiles* where, Image& out) {
+double LitPainter::draw(const LitScene& scene, const DirtyTiles* where, Image& out) {
     const std::vector<Band> changed = where ? bands(*where) : std::vector<Band>{{0, 0, width_, height_}};
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     glViewport(0, 0, width_, height_);

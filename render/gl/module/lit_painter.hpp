@@ -14,7 +14,7 @@ class LitPainter {
   public:
     LitPainter(int width, int height);  // in the current context
     // What of the picture lies in these tiles; null: all of it. Returns the time that reading the pixels took [s].
-    double draw(const LitScene& scene, const Tiles* where, Image& out);
+    double draw(const LitScene& scene, const DirtyTiles* where, Image& out);
 
   private:
     void draw_shapes(const LitScene& scene);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "render/base/modules.hpp"
-#include "render/draw/tiles.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/gl/lit.hpp"
 #include "render/gl/module/lit_painter.hpp"
 #include "render/gl/module/opengl.hpp"
@@ -41,7 +41,7 @@ class Renderer final : public LitRenderer {
         draw(scene, nullptr, out);
     }
 
-    void redraw(const LitScene& scene, const Tiles& where, Image& out) override { draw(scene, &where, out); }
+    void redraw(const LitScene& scene, const DirtyTiles& where, Image& out) override { draw(scene, &where, out); }
 
     void draw(const SolidScene& scene, Image& out) override {
         if (out.width != width_ || out.height != height_) out = Image(width_, height_);
@@ -51,7 +51,7 @@ class Renderer final : public LitRenderer {
     }
 
   private:
-    void draw(const LitScene& scene, const Tiles* where, Image& out) {
+    void draw(const LitScene& scene, const DirtyTiles* where, Image& out) {
         context_->make_current();
         if (!lit_) lit_ = std::make_unique<LitPainter>(width_, height_);
         read_back += lit_->draw(scene, where, out);

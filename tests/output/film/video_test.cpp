@@ -170,8 +170,8 @@ TEST(Film, OfVariableRateIsNotJoined) {
 }
 
 // The tiles in which two pictures differ, and no more.
-render::Tiles changed_tiles(const render::Image& a, const render::Image& b) {
-    render::Tiles tiles(a.width, a.height);
+render::DirtyTiles changed_tiles(const render::Image& a, const render::Image& b) {
+    render::DirtyTiles tiles(a.width, a.height);
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
             const auto at = static_cast<std::size_t>(y * a.width + x);
@@ -205,7 +205,7 @@ TEST(Film, PicturesConvertedWhereTheyChangedGiveTheSameBytes) {
         render::Image before[] = {render::Image(160, 48), render::Image(160, 48)};
         for (int i = 0; i < 12; ++i) {
             const render::Image picture = moving_square(160, 48, i);
-            const render::Tiles changed = changed_tiles(before[i % 2], picture);
+            const render::DirtyTiles changed = changed_tiles(before[i % 2], picture);
             inputs[i % 2].convert(picture, changed);
             inputs[i % 2].send();
             before[i % 2] = picture;

@@ -106,7 +106,7 @@ TEST(Png, SequencesGiveTheBytesOfEachPictureAlone) {
                 render::Image image = pattern(width, height, opaque);
                 for (std::size_t i = 0; i < image.pixels.size(); ++i)
                     if (i / 3 % 5 != 0) image.pixels[i] = 0xfff4f1eaU;
-                render::Tiles changed(width, height);
+                render::DirtyTiles changed(width, height);
                 changed.add_all();
                 EXPECT_EQ(sequence.encode(image, changed), encode_png(image, options));
                 std::uint32_t state = 7;

@@ -163,14 +163,14 @@ TEST(Area, TellsWhereItPainted) {
         Picture before(400, 300);
         for (std::size_t i = 0; i < before.pixels.size(); ++i) before.pixels[i] = 0xff000000U | std::uint32_t(i);
         Picture after = before;
-        Tiles touched(400, 300);
+        DirtyTiles touched(400, 300);
         Area area;
         area.add(turned(rectangle(60, 140, 500, 9), {200, 150}, angle));
         area.add_circle({80, 90}, 33);
         area.paint(after.view(), kBlack, &touched);
         EXPECT_NE(after, before);
         int tiles = 0;
-        touched.for_each_run([&](int left, int, int right, int) { tiles += (right - left) / Tiles::kWidth; });
+        touched.for_each_run([&](int left, int, int right, int) { tiles += (right - left) / DirtyTiles::kWidth; });
         EXPECT_LT(tiles, 140);  // of 13 × 19
         copy(before, after, touched);
         EXPECT_EQ(after, before) << angle;
@@ -216,7 +216,7 @@ TEST(Quadrilaterals, LeaveNoSeamAndDoNotOverlap) {
 
 TEST(Quadrilaterals, KeepToThePictureAndTellTheirTiles) {
     Picture p(100, 80);
-    Tiles touched(100, 80);
+    DirtyTiles touched(100, 80);
     paint_quadrilateral({Vec2{-50, -50}, {400, -20}, {150, 300}, {-1e12, 90}}, p.view(), kBlack, &touched);
     EXPECT_EQ(p.covered(), 100 * 80);
     copy(Picture(100, 80), p, touched);

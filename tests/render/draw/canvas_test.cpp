@@ -58,7 +58,7 @@ TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {
 
 TEST(Canvas, AStencilThatCairoGaveUpIsAnError) {
     Image image(32, 32);
-    Tiles touched(32, 32);
+    DirtyTiles touched(32, 32);
     CoverageCache coverage_cache;
     const auto draw = [&] {
         Canvas canvas(image, fonts());

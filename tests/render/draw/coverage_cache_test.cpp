@@ -37,7 +37,7 @@ void draw_shapes(Canvas& canvas, double age) {
     canvas.text({90, 60}, "F = 12", {.size = 30, .color = red, .halo = blue});
 }
 
-Image picture(CoverageCache* coverage_cache, Tiles& touched, double age) {
+Image picture(CoverageCache* coverage_cache, DirtyTiles& touched, double age) {
     Image image = ground();
     Canvas canvas(image, fonts());
     canvas.touched = &touched;
@@ -50,7 +50,7 @@ Image picture(CoverageCache* coverage_cache, Tiles& touched, double age) {
 TEST(CoverageCache, PaintWhatCairoPaints) {
     EXPECT_TRUE(CoverageCache::exact());
     CoverageCache coverage_cache;
-    Tiles touched(200, 150);
+    DirtyTiles touched(200, 150);
     for (const double age : {1.0, 0.8, 0.5, 0.01, 0.0})
         EXPECT_EQ(picture(&coverage_cache, touched, age), picture(nullptr, touched, age)) << age;
 }
@@ -61,7 +61,7 @@ TEST(CoverageCache, TellShapesApart) {
     for (int round = 0; round < 3; ++round) {
         const auto draw = [&](CoverageCache* with) {
             Image image = ground();
-            Tiles touched(200, 150);
+            DirtyTiles touched(200, 150);
             Canvas canvas(image, fonts());
             canvas.touched = &touched;
             canvas.coverage_cache = with;

@@ -14,13 +14,13 @@ namespace {
 const Camera kWhole{100, {300, 200}};
 const Box kBox{0, 0, 640, 480};
 
-std::vector<Sighting> seen(const Shot& first, const std::vector<CameraMove>& moves,
-                           const std::vector<Followed>& followed, double fps = 60) {
-    return sightings(first, moves, kWhole, kBox, followed, fps);
+std::vector<CameraFrame> seen(const Shot& first, const std::vector<CameraMove>& moves,
+                              const std::vector<Followed>& followed, double fps = 60) {
+    return camera_frames(first, moves, kWhole, kBox, followed, fps);
 }
 
 TEST(Camera, WithoutMovesItIsTheOneThatShowsAll) {
-    const Sighting all = seen({}, {}, {{}}).front();
+    const CameraFrame all = seen({}, {}, {{}}).front();
     EXPECT_EQ(all.camera.scale, kWhole.scale);
     EXPECT_EQ(all.camera.origin, kWhole.origin);
 }
@@ -32,7 +32,7 @@ TEST(Camera, WhatItFollowsStandsInTheMiddle) {
                                    {Anchor::Kind::cam, Vec2{0.25, 0}},
                                    {Anchor::Kind::hub, Vec2{0, 0}},
                                    {Anchor::Kind::place, Vec2{-1, 2}}}) {
-        const Sighting s = seen({.zoom = 5, .follow = {kind, {-1, 2}}}, {}, one).front();
+        const CameraFrame s = seen({.zoom = 5, .follow = {kind, {-1, 2}}}, {}, one).front();
         EXPECT_EQ(s.camera.scale, 500);
         EXPECT_NEAR(norm(s.camera.to_pixels(at) - kBox.centre()), 0, 1e-9);
     }
@@ -42,7 +42,7 @@ TEST(Camera, WhatItFollowsStandsInTheMiddle) {
 TEST(Camera, FollowsTheMeanOfWhatVibrates) {
     std::vector<Followed> all;
     for (int k = 0; k < 120; ++k) all.push_back({{0.01 * k, k % 2 == 0 ? 0.1 : -0.1}, {}, {}});
-    const std::vector<Sighting> path = seen({.zoom = 2, .follow = {Anchor::Kind::tip, {}}}, {}, all);
+    const std::vector<CameraFrame> path = seen({.zoom = 2, .follow = {Anchor::Kind::tip, {}}}, {}, all);
     for (std::size_t k = 20; k < 100; ++k) {
         const Vec2 middle = path[k].camera.to_world(kBox.centre());
         EXPECT_NEAR(middle.x, 0.01 * static_cast<double>(k), 1e-9);
@@ -53,7 +53,7 @@ TEST(Camera, FollowsTheMeanOfWhatVibrates) {
 TEST(Camera, MovesArriveWhenTheyAreToAndKeepTheirFixedPoint) {
     const std::vector<Followed> still(61);
     const Shot near{.zoom = 4, .follow = {Anchor::Kind::place, {1, 0.5}}};
-    const std::vector<Sighting> path =
+    const std::vector<CameraFrame> path =
         seen({}, {{.arrives = 50, .lasts = 40, .ease = Ease::linear, .shot = near}}, still);
     EXPECT_EQ(path[10].zoom, 1);
     EXPECT_NEAR(path[30].zoom, 2, 1e-12);  // the geometric mean, half way

@@ -168,18 +168,18 @@ TEST(Layout, PanelsWithoutRoomAreNamed) {
 // ---- the standard arrangement follows what is to be seen ---------------------------------------
 
 // The reach of a beam that swings between two angles, and of the paper's cam.
-Sight swinging(const sim::Problem& problem, double from, double to) {
-    Sight sight;
-    sight.problems = {&problem};
-    for (double angle = from; angle <= to; angle += 0.01) sight.beams.add(sim::unit(angle) * problem.beam.length);
-    sight.beams.add({0, 0}, problem.beam.depth);
-    return sight;
+ViewExtent swinging(const sim::Problem& problem, double from, double to) {
+    ViewExtent extent;
+    extent.problems = {&problem};
+    for (double angle = from; angle <= to; angle += 0.01) extent.beams.add(sim::unit(angle) * problem.beam.length);
+    extent.beams.add({0, 0}, problem.beam.depth);
+    return extent;
 }
 
-struct Sights {
+struct Extents {
     sim::Problem paper, flat;
-    std::vector<Sight> all;
-    Sights() {
+    std::vector<ViewExtent> all;
+    Extents() {
         flat.cam->radius = 0.03, flat.cam->eccentricity = 0.005;
         all = {swinging(paper, 0.3, 0.8), swinging(paper, 1.2, 1.6), swinging(flat, 0.05, 0.12)};
     }
@@ -198,11 +198,11 @@ std::vector<Size> many_sizes() {
 }
 
 TEST(Layout, PartsStandApartForAnyMotionAndSize) {
-    const Sights sights;
+    const Extents extents;
     for (const auto [w, h] : many_sizes())
-        for (const Sight& sight : sights.all)
+        for (const ViewExtent& extent : extents.all)
             for (int members : {1, 3, 8}) {
-                const Layout l = layout(w, h, kAll, members, sight);
+                const Layout l = layout(w, h, kAll, members, extent);
                 const std::vector<Box> all = parts(l);
                 for (std::size_t i = 0; i < all.size(); ++i) {
                     EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << w << "x" << h << ": " << i;
@@ -215,22 +215,22 @@ TEST(Layout, PartsStandApartForAnyMotionAndSize) {
 
 TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
     using enum Arrangement;
-    const Sights sights;
+    const Extents extents;
     int columns = 0, below = 0;
     for (const auto [w, h] : many_sizes())
-        for (const Sight& sight : sights.all)
+        for (const ViewExtent& extent : extents.all)
             for (int members : {1, 3}) {
-                const Layout l = layout(w, h, kAll, members, sight);
+                const Layout l = layout(w, h, kAll, members, extent);
                 const PanelSlot* side = l.first(PanelKind::strip);
                 if (!side) continue;
                 (side->box.x > l.first(PanelKind::mechanism)->box.right() ? columns : below) += 1;
                 for (Arrangement other : {column, h > 1.35 * w ? stack : row})
-                    if (const auto o = arranged(other, w, h, kAll, members, sight)) {
-                        EXPECT_GE(scale_of(l, sight), scale_of(*o, sight)) << w << "x" << h;
+                    if (const auto o = arranged(other, w, h, kAll, members, extent)) {
+                        EXPECT_GE(scale_of(l, extent), scale_of(*o, extent)) << w << "x" << h;
                     }
                 if (members < 3) continue;
-                const Layout alone = *arranged(Arrangement::alone, w, h, kAll, members, sight);
-                EXPECT_GE(scale_of(l, sight), 0.6 * scale_of(alone, sight)) << w << "x" << h;
+                const Layout alone = *arranged(Arrangement::alone, w, h, kAll, members, extent);
+                EXPECT_GE(scale_of(l, extent), 0.6 * scale_of(alone, extent)) << w << "x" << h;
             }
     EXPECT_GT(columns, 100);
     EXPECT_GT(below, 100);
@@ -238,23 +238,23 @@ TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
 
 // Charts take room that a mechanism leaves, and never any that it needs.
 TEST(Layout, WideChartsCostTheMechanismNothing) {
-    const Sights sights;
-    const Layout upright = layout(1920, 1080, kAll, 1, sights.all[1]),
-                 lying = layout(1920, 1080, kAll, 1, sights.all[2]);
+    const Extents extents;
+    const Layout upright = layout(1920, 1080, kAll, 1, extents.all[1]),
+                 lying = layout(1920, 1080, kAll, 1, extents.all[2]);
     EXPECT_GT(upright.first(PanelKind::strip)->box.w, 700);
     const Box narrow{0, 0, 1212, upright.first(PanelKind::mechanism)->box.h};  // beside a column of the usual width
-    EXPECT_NEAR(scale_of(upright, sights.all[1]), sights.all[1].camera(narrow, 1).scale, 1e-9);
+    EXPECT_NEAR(scale_of(upright, extents.all[1]), extents.all[1].camera(narrow, 1).scale, 1e-9);
     EXPECT_GT(lying.first(PanelKind::strip)->box.y, lying.first(PanelKind::mechanism)->box.bottom());
 }
 
 TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
-    const Sights sights;
-    const auto boxes = [&](const Sight& sight) {
+    const Extents extents;
+    const auto boxes = [&](const ViewExtent& extent) {
         std::vector<Box> out;
-        for (const PanelSlot& slot : layout(1920, 1080, {}, 3, sight).panels) out.push_back(slot.box);
+        for (const PanelSlot& slot : layout(1920, 1080, {}, 3, extent).panels) out.push_back(slot.box);
         return out;
     };
-    const std::vector<Box> upright = boxes(sights.all[1]), lying = boxes(sights.all[2]);
+    const std::vector<Box> upright = boxes(extents.all[1]), lying = boxes(extents.all[2]);
     ASSERT_EQ(upright.size(), 3U);
     ASSERT_EQ(lying.size(), 3U);
     EXPECT_EQ(upright[0].y, upright[2].y);
@@ -265,14 +265,14 @@ TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
 
 // What stands in the line of parameters can be told before there is a motion.
 TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
-    const Sights sights;
+    const Extents extents;
     for (const auto [w, h] : many_sizes())
-        for (const Sight& sight : sights.all)
-            EXPECT_EQ(layout(w, h, kAll, 1, sight).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
+        for (const ViewExtent& extent : extents.all)
+            EXPECT_EQ(layout(w, h, kAll, 1, extent).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
 }
 
 // The arrow of the largest force, too, stands in the mechanism's box.
-TEST(Sight, ArrowsOfForceAreSeen) {
+TEST(ViewExtent, ArrowsOfForceAreSeen) {
     FilmSetup setup = test::synthetic_film({.duration = 1.5});
     setup.problem.cam->radius *= 0.3, setup.problem.cam->eccentricity *= 0.3;
     for (std::size_t k = 0; k < setup.poses.size(); ++k)
@@ -288,7 +288,7 @@ TEST(Sight, ArrowsOfForceAreSeen) {
         const sim::Nearest& near = *poses[std::size_t(k)].nearest;
         if (!near.touching || !g.beam.contact) continue;
         const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc);
-        const double length = push_length(near.force / largest, false, g.layout.unit);
+        const double length = force_arrow_length(near.force / largest, false, g.layout.unit);
         EXPECT_GE(foot.y - g.beam.contact->normal.y * length, g.layout.first(PanelKind::mechanism)->box.y) << k;
     }
 }

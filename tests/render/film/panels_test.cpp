@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "render/draw/growing.hpp"
-#include "render/draw/tiles.hpp"
+#include "render/draw/accumulated.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/film/film.hpp"
 #include "render/film/mechanism_view.hpp"
 #include "render/gl/solid.hpp"
@@ -405,14 +405,14 @@ TEST(Films, InChineseHaveNoLetterBoxes) {
 
 // ---- only what moved is drawn ------------------------------------------------------------------
 
-long pixels_in(const Tiles& tiles) {
+long pixels_in(const DirtyTiles& tiles) {
     long count = 0;
     tiles.for_each_run([&](int left, int top, int right, int bottom) { count += long(right - left) * (bottom - top); });
     return count;
 }
 
 // Pixels outside of the tiles that are not the same.
-long changed_elsewhere(const Image& before, const Image& now, const Tiles& tiles) {
+long changed_elsewhere(const Image& before, const Image& now, const DirtyTiles& tiles) {
     Image patched = before;
     copy(now, patched, tiles);
     long count = 0;
@@ -494,8 +494,8 @@ TEST(SolidFilm, MovingPartsAreDrawnAsIfAllWere) {
     gl_films_are_drawn_as_if_all_were(Style::solid);
 }
 
-TEST(Tiles, CoverBoxesAndNothingBeyondThePicture) {
-    Tiles tiles(100, 50);
+TEST(DirtyTiles, CoverBoxesAndNothingBeyondThePicture) {
+    DirtyTiles tiles(100, 50);
     EXPECT_FALSE(tiles.any());
     tiles.add({-500, -500, 400, 400});
     tiles.add({100, 0, 5, 5});
@@ -1114,8 +1114,8 @@ TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
 TEST(Perspective, LabelsStandBesideTheirArrows) {
     FilmSetup setup = test::synthetic_film({.duration = 0.1});
     setup.width = 1280, setup.height = 720;
-    const FilmFacts facts(std::make_shared<const FilmSetup>(setup));
-    const MechanismView at(facts, *facts.places.first(PanelKind::mechanism));
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
     const Vec2 base = at.box.centre() + Vec2{30, 40};
     for (const double side : {-1.0, 1.0})
         for (const double yaw : {-0.9, 0.0, 0.5}) {
@@ -1139,8 +1139,8 @@ TEST(Perspective, AxesAreOrthonormal) {
     EXPECT_GT(p.axes[2].x, 0);  // seen from the right
 }
 
-TEST(Growing, ThinningKeepsTheEnds) {
-    const GrowingPath path = thinned({0, 1, 2, 3}, {{0, 0}, {0.1, 0}, {5, 0}, {5.1, 0}}, 1);
+TEST(TimedPath, ThinningKeepsTheEnds) {
+    const TimedPath path = thinned({0, 1, 2, 3}, {{0, 0}, {0.1, 0}, {5, 0}, {5.1, 0}}, 1);
     EXPECT_EQ(path.times, (std::vector<double>{0, 2, 3}));
 }
 

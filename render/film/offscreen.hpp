@@ -10,7 +10,7 @@
 
 namespace beamcam::render {
 
-class Apart {
+class Offscreen {
   public:
     using Draw = std::function<void(Canvas&)>;
 

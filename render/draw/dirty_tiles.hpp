@@ -10,17 +10,17 @@
 
 namespace beamcam::render {
 
-class Tiles {
+class DirtyTiles {
   public:
     // Even, so that the four pixels of one chroma sample lie in one tile; rows of 128 bytes.
     static constexpr int kWidth = 32, kHeight = 16;  // [px]
 
-    Tiles() = default;
-    Tiles(int width, int height);  // of the picture [px]; empty
+    DirtyTiles() = default;
+    DirtyTiles(int width, int height);  // of the picture [px]; empty
 
     // The tiles that the box meets; those beyond the picture do not exist. Anything but numbers: all tiles.
     void add(const Box& box);
-    void add(const Tiles& others);  // of a picture of the same size
+    void add(const DirtyTiles& others);  // of a picture of the same size
     void add_all();
     void clear();
     bool any() const;
@@ -47,6 +47,6 @@ class Tiles {
 };
 
 // Makes `to` what `from` is, within the tiles. All three are of one size.
-void copy(const Image& from, Image& to, const Tiles& tiles);
+void copy(const Image& from, Image& to, const DirtyTiles& tiles);
 
 }  // namespace beamcam::render

@@ -1,7 +1,7 @@
-// A path that grows with time, on a kept layer: each piece is drawn once, however many frames show it.
+// A path that accumulates over time on a layer of its own: each piece is drawn once, however many frames show it.
 //
-// Pieces are drawn one by one in their order, so the layer's pixels depend only on how many there are, not on which
-// frames were drawn before; going back in time starts anew.
+// Pieces are drawn one by one in order, so the pixels of the layer depend only on how many are drawn, not on which
+// frames were drawn before. Going back in time clears the layer.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,18 @@
 
 namespace beamcam::render {
 
-struct GrowingPath {
+struct TimedPath {
     std::vector<double> times;  // increasing [s]
     std::vector<Vec2> points;   // [px of the layer]; NaN breaks the path
 };
 // Points nearer than `least` pixels to the one before are left out, the last one excepted.
-GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least);
+TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least);
 
-class GrowingLayer {
+class AccumulatedLayer {
   public:
-    GrowingLayer(int width, int height) : image_(width, height) {}
+    AccumulatedLayer(int width, int height) : image_(width, height) {}
     // The pieces that end at or before t are drawn. Where the layer changed; all of it after going back in time.
-    Box until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen);
+    Box extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen);
     const Image& image() const { return image_; }
     Box whole() const { return {0, 0, double(image_.width), double(image_.height)}; }
 

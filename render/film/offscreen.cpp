@@ -1,4 +1,4 @@
-#include "render/film/apart.hpp"
+#include "render/film/offscreen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace beamcam::render {
 
 template <class Visit>
-void Apart::each_byte(const Box& box, const Visit& visit) {
+void Offscreen::each_byte(const Box& box, const Visit& visit) {
     const auto x = static_cast<std::ptrdiff_t>(box.x), w = static_cast<std::ptrdiff_t>(box.w);
     std::size_t i = 0;
     for (auto y = static_cast<std::ptrdiff_t>(box.y); y < static_cast<std::ptrdiff_t>(box.bottom()); ++y) {
@@ -15,7 +15,7 @@ void Apart::each_byte(const Box& box, const Visit& visit) {
     }
 }
 
-void Apart::fill(const Canvas& like, const Box& box, const Draw& draw) {
+void Offscreen::fill(const Canvas& like, const Box& box, const Draw& draw) {
     const Image& whole = like.image();
     if (image_.width != whole.width || image_.height != whole.height) image_ = Image(whole.width, whole.height);
     each_byte(box, [](std::uint8_t& byte, std::size_t) { byte = 0; });
@@ -25,15 +25,15 @@ void Apart::fill(const Canvas& like, const Box& box, const Draw& draw) {
     draw(canvas);
 }
 
-void Apart::put(Canvas& onto, const Box& box, const Draw& draw, double opacity) {
+void Offscreen::put(Canvas& onto, const Box& box, const Draw& draw, double opacity) {
     fill(onto, box, draw);
     const auto share = static_cast<unsigned>(std::lround(256 * opacity));
     if (share < 256) each_byte(box, [&](std::uint8_t& byte, std::size_t) { byte = std::uint8_t((byte * share) >> 8); });
     onto.image_part(image_, 0, 0, box);
 }
 
-void Apart::put_mean(Canvas& onto, const Box& box, std::size_t count,
-                     const std::function<void(Canvas&, std::size_t)>& draw) {
+void Offscreen::put_mean(Canvas& onto, const Box& box, std::size_t count,
+                         const std::function<void(Canvas&, std::size_t)>& draw) {
     sums_.assign(4 * static_cast<std::size_t>(box.w) * static_cast<std::size_t>(box.h), 0);
     for (std::size_t which = 0; which < count; ++which) {
         fill(onto, box, [&](Canvas& canvas) { draw(canvas, which); });

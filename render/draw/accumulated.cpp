@@ -1,12 +1,12 @@
-#include "render/draw/growing.hpp"
+#include "render/draw/accumulated.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace beamcam::render {
 
-GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least) {
-    GrowingPath out;
+TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least) {
+    TimedPath out;
     const std::size_t n = std::min(times.size(), points.size());
     for (std::size_t i = 0; i < n; ++i) {
         const bool near = !out.points.empty() && norm(points[i] - out.points.back()) < least;  // false beside NaN
@@ -17,7 +17,7 @@ GrowingPath thinned(const std::vector<double>& times, const std::vector<Vec2>& p
     return out;
 }
 
-Box GrowingLayer::until(double t, const GrowingPath& path, const Fonts& fonts, const Pen& pen) {
+Box AccumulatedLayer::extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen) {
     const auto last = static_cast<std::size_t>(std::ranges::upper_bound(path.times, t) - path.times.begin());
     const bool back = last < drawn_;
     if (back) {

@@ -1,18 +1,18 @@
-#include "render/draw/tiles.hpp"
+#include "render/draw/dirty_tiles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace beamcam::render {
 
-Tiles::Tiles(int width, int height)
+DirtyTiles::DirtyTiles(int width, int height)
     : width_(width),
       height_(height),
       columns_((width + kWidth - 1) / kWidth),
       rows_((height + kHeight - 1) / kHeight),
       set_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
-void Tiles::add(const Box& box) {
+void DirtyTiles::add(const Box& box) {
     const double right = box.right(), bottom = box.bottom();
     if (std::isnan(box.x + box.y + right + bottom)) return add_all();
     const auto tile = [](double at, int size, int count) {
@@ -25,15 +25,15 @@ void Tiles::add(const Box& box) {
     for (int y = y0; y <= y1; ++y) std::fill_n(set_.begin() + y * columns_ + x0, x1 - x0 + 1, std::uint8_t{1});
 }
 
-void Tiles::add(const Tiles& others) {
+void DirtyTiles::add(const DirtyTiles& others) {
     for (std::size_t i = 0; i < set_.size(); ++i) set_[i] |= others.set_[i];
 }
 
-void Tiles::add_all() { std::ranges::fill(set_, std::uint8_t{1}); }
-void Tiles::clear() { std::ranges::fill(set_, std::uint8_t{0}); }
-bool Tiles::any() const { return std::ranges::find(set_, 1) != set_.end(); }
+void DirtyTiles::add_all() { std::ranges::fill(set_, std::uint8_t{1}); }
+void DirtyTiles::clear() { std::ranges::fill(set_, std::uint8_t{0}); }
+bool DirtyTiles::any() const { return std::ranges::find(set_, 1) != set_.end(); }
 
-void copy(const Image& from, Image& to, const Tiles& tiles) {
+void copy(const Image& from, Image& to, const DirtyTiles& tiles) {
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y) {
             const std::ptrdiff_t at = std::ptrdiff_t(y) * from.width + left;
