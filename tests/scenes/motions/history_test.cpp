@@ -1,7 +1,6 @@
 // What past runs took, and what plans say of it.
 #include "scenes/motions/history.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scenes/support.hpp"
@@ -10,9 +9,6 @@ namespace beamcam::scenes {
 namespace {
 
 using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
 
 TEST(History, KnowsWhatWasNotedAndTakesTheFirstNameItKnows) {
     const Folder folder;
@@ -42,19 +38,6 @@ TEST(History, WhateverIsWrongWithTheFileNothingIsKnown) {
     History nowhere;
     nowhere.note({"a"}, 1, 1, 1);
     nowhere.save();
-}
-
-TEST(History, PlansTellWhatPastRunsTook) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "trajectory", "file": "t.csv"}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, Not(HasSubstr("about")));
-    shell(folder, "$BEAMCAM run -q s.json; rm t.csv");
-    const std::string text = shell(folder, "$BEAMCAM plan s.json").out;
-    EXPECT_THAT(text, HasSubstr(" steps\n"));
-    EXPECT_THAT(text, HasSubstr("rows of 25 channels; about "));
-    EXPECT_THAT(text, HasSubstr("as past runs tell"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --json").out, HasSubstr("\"seconds\":"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --no-cache").out, Not(HasSubstr("about")));
 }
 
 }  // namespace

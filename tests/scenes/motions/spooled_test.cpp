@@ -1,17 +1,12 @@
 // Poses and trajectories that are kept in files: the same bits, and the same pictures.
 #include "scenes/motions/spooled.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/run/simulate.hpp"
-#include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
 namespace {
-
-using testing::Folder, testing::Finished, testing::shell;
-using ::testing::HasSubstr;
 
 constexpr int kStations = 97;
 
@@ -112,31 +107,6 @@ TEST(SpooledPoses, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
     EXPECT_EQ(a.exaggeration(), b.exaggeration());
     ASSERT_EQ(a.frames(), b.frames());
     for (int k = 0; k < a.frames(); k += 37) EXPECT_EQ(a.draw(k), b.draw(k)) << k;
-}
-
-// ---- with the cache and without ----------------------------------------------------------------
-
-TEST(Films, HaveTheSamePixelsWithTheCacheAndWithout) {
-    SKIP_UNDER_SANITIZERS();
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 1.5}, "outputs": [{"type": "trajectory", "file": "m.csv", "rate": 50},
-        {"type": "frames", "file": "f-###.png", "size": [480, 270], "fps": 12, "from": 0.2, "to": 0.5, "view": {"style": "flat", "tip_path": "whole"},
-        "speed": {"around": "impacts", "factor": 0.02, "ease": "5 ms"},
-        "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}, "phase"]}}]})");
-    std::string pictures;
-    const auto made = [&](const char* how, const char* count) {
-        const Finished run =
-            shell(folder, std::string("rm -f f-*.png m.csv .beamcam.json; $BEAMCAM run s.json -v ") + how);
-        ASSERT_EQ(run.code, 0) << run.err;
-        EXPECT_THAT(run.err, HasSubstr(count)) << how;
-        const std::string found = shell(folder, "$BEAMCAM hash f-*.png").out;
-        EXPECT_GT(std::ranges::count(found, '\n'), 8);
-        EXPECT_TRUE(pictures.empty() || found == pictures) << how;
-        pictures = found;
-    };
-    made("--no-cache", "integrations=1 ");
-    made("", "integrations=1 ");  // kept
-    made("", "integrations=0 ");  // read back
 }
 
 }  // namespace
